@@ -1,0 +1,54 @@
+# synthedra: `make demo` first, `make test` second.
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+STAMP  := $(VENV)/.installed
+
+.PHONY: demo test test-slow check data clean help
+
+help:
+	@echo "make demo       install into $(VENV) and ask some mechanisms for their mobility"
+	@echo "make test       all tests but the slow ones"
+	@echo "make test-slow  the slow tests too, at their full sizes"
+	@echo "make check      ruff and mypy"
+	@echo "make data       make the files under data/ anew"
+
+$(STAMP): pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "synthedra needs Python 3.11 or newer; name one with: make PYTHON=python3.11 ..." >&2; exit 2; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || $(MAKE) --no-print-directory install-venv
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet -e '.[all]'
+	@touch $@
+
+.PHONY: install-venv
+install-venv:
+	@pkg=python$$($(PYTHON) -c 'import sys; print("%d.%d" % sys.version_info[:2])')-venv; \
+	if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	  echo "This Python has no ensurepip: installing $$pkg"; \
+	  apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq $$pkg; \
+	else \
+	  echo "This Python cannot make virtual environments. Install them first: sudo apt-get install $$pkg" >&2; exit 2; \
+	fi
+
+demo: $(STAMP)
+	@BIN=$(BIN) sh data/demo.sh
+
+test: $(STAMP)
+	$(BIN)/python -m pytest -m "not slow"
+
+test-slow: $(STAMP)
+	$(BIN)/python -m pytest
+
+check: $(STAMP)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+data: $(STAMP)
+	$(BIN)/python data/make.py
+
+clean:
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -1,0 +1,1 @@
+"""Exhaustive enumeration: all mechanisms of a kind."""

@@ -1,0 +1,85 @@
+"""Planar analogue, spherical analogue and generalised form of a mechanism.
+
+All three change centres only: links, joints and loops stay. Source: Wiener 2016, sections 3.3.4 and 3.3.5.
+Theory: docs/theory/sc-graphs.md.
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+from graphs.errors import UnsolvableError
+from graphs.loops import Centre, Loop
+from graphs.sc import SCGraph
+
+__all__ = ["generalised_form", "planar_analogue", "spherical_analogue"]
+
+G = TypeVar("G", bound=SCGraph)
+
+
+def planar_analogue(sc: G) -> G:
+    """Make all axes parallel: every loop planar, one centre at infinity.
+
+    Raises
+    ------
+    UnsolvableError
+        If a loop is spatial.
+    InvariantError
+        For an SCD graph with an explicit centre, which cannot be at infinity.
+
+    Examples
+    --------
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> [one.centre.value for one in planar_analogue(watt).centre_classes()]
+    ['infinite']
+    """
+    return _recentred(sc, Centre.INFINITE, "parallel", "planar")
+
+
+def spherical_analogue(sc: G) -> G:
+    """Let all axes meet in one point: every loop spherical, one finite centre.
+
+    Raises
+    ------
+    UnsolvableError
+        If a loop is spatial.
+
+    Examples
+    --------
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> len(spherical_analogue(watt).centre_classes())
+    1
+    """
+    return _recentred(sc, Centre.FINITE, "O", "spherical")
+
+
+def generalised_form(sc: G) -> G:
+    """Let the centres be as different as the joints allow: every loop with a centre has a finite one of its own.
+
+    Examples
+    --------
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> len(generalised_form(planar_analogue(watt)).centre_classes())
+    2
+    """
+
+    def general(loop: Loop) -> Loop:
+        return Loop(loop.joints, Centre.FINITE, loop.name) if loop.has_centre else loop
+
+    changed = sc.with_loops(map(general, sc.loops), map(general, sc.closing))
+    assert isinstance(changed, type(sc))
+    return changed
+
+
+def _recentred(sc: G, centre: Centre, at: str, kind: str) -> G:
+    if sc.spatial_loops:
+        raise UnsolvableError(f"a mechanism with {sc.spatial_loops} spatial loop(s) has no {kind} analogue")
+    changed = sc.with_loops(
+        [Loop(x.joints, centre, x.name, at) for x in sc.loops],
+        [Loop(x.joints, centre, x.name, at) for x in sc.closing],
+    )
+    assert isinstance(changed, type(sc))
+    return changed

@@ -1,0 +1,147 @@
+"""Independent loops of a bare link-joint graph: the faces of an embedding, or a shortest cycle basis.
+
+DESIGN, section 3: a planar graph for which no loops are given takes the faces of an embedding. Blocks are
+embedded one by one, so that every face is one cycle; a block that is not planar takes a minimum cycle basis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import networkx as nx
+
+from graphs.errors import InvariantError
+from graphs.loops import Centre, JointId, Joints, LinkId, Loop
+from graphs.sc import SCGraph
+
+__all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]
+
+
+@dataclass(frozen=True, slots=True)
+class BlockCycles:
+    """The cycles of one block (2-connected part) of a link-joint graph.
+
+    Attributes
+    ----------
+    inner : tuple of cycles
+        Independent cycles, each a tuple of joint ids in cyclic order.
+    outer : cycle or None
+        The face that was left out, a longest one; None where the block is not planar.
+    """
+
+    inner: tuple[tuple[JointId, ...], ...]
+    outer: tuple[JointId, ...] | None
+
+
+def block_cycles(links: Iterable[LinkId], joints: Joints) -> list[BlockCycles]:
+    """Return independent cycles of each block of a link-joint graph.
+
+    Parameters
+    ----------
+    links : iterable of link ids
+    joints : mapping of joint id to (link, link)
+        Parallel joints are welcome.
+
+    Returns
+    -------
+    list of BlockCycles
+        One for each block with a cycle. Over all of them there are J - N + c inner cycles.
+
+    Examples
+    --------
+    >>> theta = dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]))
+    >>> [block] = block_cycles(range(6), theta)
+    >>> sorted(map(len, block.inner)), len(block.outer)
+    ([4, 4], 6)
+    """
+    simple, joint_of = _subdivided(links, joints)
+    blocks = []
+    for edges in nx.biconnected_component_edges(simple):
+        block = nx.Graph(edges)
+        if block.number_of_edges() >= len(block):
+            blocks.append(_cycles(block, joint_of))
+    return blocks
+
+
+def sc_from_link_joint_graph(
+    graph: nx.Graph, centre: Centre | str = Centre.FINITE, *, closed: bool = False
+) -> SCGraph:
+    """Give a bare link-joint graph loops and centres: its most general spherical system.
+
+    Parameters
+    ----------
+    graph : nx.Graph or nx.MultiGraph
+        Nodes are links and edges joints. Joint ids are the edge keys where these are distinct, else indices.
+    centre : Centre, optional
+        The centre of every loop; a system of spherical loops unless told otherwise.
+    closed : bool, optional
+        Whether the face left out carries a centre too (a closed surface). Needs a planar graph.
+
+    Returns
+    -------
+    SCGraph
+
+    Raises
+    ------
+    InvariantError
+        For a self-joint, or for ``closed`` where a block has no embedding in the sphere.
+
+    Examples
+    --------
+    >>> import networkx as nx
+    >>> cube = sc_from_link_joint_graph(nx.octahedral_graph(), closed=True)
+    >>> len(cube.loops), len(cube.closing)
+    (7, 1)
+    """
+    if graph.is_multigraph() and len({key for *_, key in graph.edges(keys=True)}) == graph.number_of_edges():
+        joints = {key: (a, b) for a, b, key in graph.edges(keys=True)}
+    else:
+        joints = dict(enumerate(graph.edges()))
+    bare = SCGraph(graph.nodes, joints)
+    blocks = block_cycles(bare.nodes, bare.joints)
+    loops = [Loop(cycle, Centre(centre)) for block in blocks for cycle in block.inner]
+    closing = []
+    if closed:
+        for block in blocks:
+            if block.outer is None:
+                raise InvariantError("closed surface", "a block of the graph is not planar", "a planar graph")
+            closing.append(Loop(block.outer, Centre(centre)))
+    return bare.with_loops(loops, closing)
+
+
+def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict[frozenset[object], JointId]]:
+    """Return a simple graph with the same embeddings; parallel joints get a node in the middle.
+
+    networkx' PlanarEmbedding merges parallel edges, which would lose loops.
+    """
+    simple = nx.Graph()
+    simple.add_nodes_from(("link", link) for link in links)
+    joint_of: dict[frozenset[object], JointId] = {}
+    for joint, (a, b) in joints.items():
+        ends = ("link", a), ("link", b)
+        path = ends if not simple.has_edge(*ends) else (ends[0], ("joint", joint), ends[1])
+        nx.add_path(simple, path)
+        for one, two in zip(path, path[1:], strict=False):
+            joint_of[frozenset((one, two))] = joint
+    return simple, joint_of
+
+
+def _cycles(block: nx.Graph, joint_of: dict[frozenset[object], JointId]) -> BlockCycles:
+    planar, embedding = nx.check_planarity(block)
+    if not planar:
+        basis = nx.minimum_cycle_basis(block)
+        return BlockCycles(tuple(_as_joints(nodes, joint_of) for nodes in basis), None)
+    seen: set[tuple[object, object]] = set()
+    faces = []
+    for half_edge in embedding.edges():
+        if half_edge not in seen:
+            faces.append(_as_joints(embedding.traverse_face(*half_edge, seen), joint_of))
+    faces.sort(key=len)
+    return BlockCycles(tuple(faces[:-1]), faces[-1])
+
+
+def _as_joints(nodes: list[object], joint_of: dict[frozenset[object], JointId]) -> tuple[JointId, ...]:
+    """Turn a closed walk over the subdivided graph into the joints it crosses."""
+    around = [joint_of[frozenset(pair)] for pair in zip(nodes, nodes[1:] + nodes[:1], strict=True)]
+    return tuple(dict.fromkeys(around))

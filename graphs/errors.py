@@ -1,0 +1,115 @@
+"""One rooted family of exceptions.
+
+Every error that synthedra raises on purpose is a :class:`SynthedraError`; its message is one line that
+names the place, what is wrong and what was expected.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+__all__ = [
+    "FileError",
+    "InvariantError",
+    "NumericalError",
+    "StoreError",
+    "SynthedraError",
+    "UnsolvableError",
+    "shown",
+]
+
+_LONGEST_SHOWN = 60
+
+
+def shown(thing: object) -> str:
+    r"""Return a short, one-line, printable form of anything, for use in messages.
+
+    Names come from files, so they may be long, span lines or carry terminal control sequences.
+
+    Examples
+    --------
+    >>> shown("A")
+    "'A'"
+    >>> shown("two\nlines")
+    "'two\\nlines'"
+    >>> len(shown("x" * 10_000))
+    60
+    """
+    text = ascii(thing) if isinstance(thing, str) and not thing.isprintable() else repr(thing)
+    if len(text) > _LONGEST_SHOWN:
+        half = (_LONGEST_SHOWN - 3) // 2
+        text = text[: _LONGEST_SHOWN - 3 - half] + "..." + text[-half:]
+    return text
+
+
+class SynthedraError(Exception):
+    """Root of every error raised on purpose."""
+
+
+class FileError(SynthedraError):
+    """A file cannot be read or written.
+
+    Parameters
+    ----------
+    file : str or Path
+        The file.
+    place : str
+        Where in the file: a JSON path such as ``joints[3][0]``, ``line 7``, or empty for the file as a whole.
+    found : str
+        What is there.
+    expected : str
+        What should have been there.
+
+    Examples
+    --------
+    >>> print(FileError("a.json", "joints[0]", "a string", "two links"))
+    a.json: joints[0]: a string; expected two links
+    """
+
+    def __init__(self, file: str | Path, place: str, found: str, expected: str = "") -> None:
+        super().__init__(file, place, found, expected)
+        self.file, self.place, self.found, self.expected = str(file), place, found, expected
+
+    def __str__(self) -> str:
+        name = self.file if self.file.isprintable() else ascii(self.file)
+        where = f"{name}: {self.place}: " if self.place else f"{name}: "
+        return where + self.found + (f"; expected {self.expected}" if self.expected else "")
+
+
+class InvariantError(SynthedraError):
+    """An object would break one of its invariants.
+
+    Parameters
+    ----------
+    rule : str
+        Short name of the rule that is broken, such as ``"loop is a cycle"`` or ``"S1"``.
+    offender : str
+        What breaks it, named as in the input.
+    expected : str, optional
+        What would satisfy the rule.
+
+    Examples
+    --------
+    >>> print(InvariantError("no self-joint", "joint 'a' joins link 1 to itself", "two different links"))
+    joint 'a' joins link 1 to itself; expected two different links [no self-joint]
+    """
+
+    def __init__(self, rule: str, offender: str, expected: str = "") -> None:
+        super().__init__(rule, offender, expected)
+        self.rule, self.offender, self.expected = rule, offender, expected
+
+    def __str__(self) -> str:
+        tail = f"; expected {self.expected}" if self.expected else ""
+        return f"{self.offender}{tail} [{self.rule}]"
+
+
+class UnsolvableError(SynthedraError):
+    """The question is well posed and has no answer, for example a conversion that loses what it needs."""
+
+
+class NumericalError(SynthedraError):
+    """A numerical method cannot tell, or did not converge."""
+
+
+class StoreError(SynthedraError):
+    """A store of results cannot be used as asked."""

@@ -1,0 +1,1 @@
+"""Reading and writing mechanisms as files; start at :mod:`graphs.files.formats`."""

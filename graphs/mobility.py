@@ -1,0 +1,269 @@
+"""Mobility by count: the equations of the papers, one function each.
+
+Wiener 2016, Eqs. 1 to 4 and 8; Wampler, Larson, Erdman 2007, Eqs. 5 to 10; DESIGN, section 3 (loop form,
+closed surfaces). All are formulas: they hold for a general member of a type, and not for every type
+(docs/theory/mobility-by-count.md). :mod:`graphs.report` says which of them apply to a given mechanism.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from graphs.polyhedron import PolyhedronModel
+
+__all__ = [
+    "closed_surface",
+    "loop_form",
+    "mobility_of_model",
+    "modified_cgk",
+    "overconstraint",
+    "polyhedron_equation",
+    "spherical_system",
+    "traditional_cgk",
+    "wampler_ground_free",
+    "wampler_points",
+    "wampler_remote",
+    "wampler_rods",
+    "wampler_scissors",
+]
+
+
+def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) -> int:
+    """Chebychev-Gruebler-Kutzbach: M = lambda (N - 1) - sum (lambda - f).
+
+    Parameters
+    ----------
+    links : int
+        N, the fixed link included.
+    freedoms : iterable of int
+        f of each joint: 1 for revolute, 3 for spherical.
+    constraint_space : int
+        lambda: 3 if all axes pass through one centre (spherical, planar), 6 in space.
+
+    Returns
+    -------
+    int
+
+    Notes
+    -----
+    Wiener 2016, Eq. 1; Wampler 2007, Eq. 1. The text below Wiener's Eq. 1 swaps the words spherical and
+    spatial; his Table 1 is right.
+
+    Examples
+    --------
+    A six-bar loop, spherical and spatial (Wiener, Table 1):
+
+    >>> traditional_cgk(6, [1] * 6, 3), traditional_cgk(6, [1] * 6, 6)
+    (3, 0)
+    """
+    return constraint_space * (links - 1) - sum(constraint_space - f for f in freedoms)
+
+
+def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
+    """Modified C-G-K for revolute joints: M = lambda (N - J - 1) + J.
+
+    The constraint space is that of every loop, 3 for a loop with a centre, whether or not the loops share
+    it: so the equation holds for spherical systems, where Eq. 1 presumes one centre.
+
+    Notes
+    -----
+    Wiener 2016, Eq. 2.
+
+    Examples
+    --------
+    Watt's six-bar with one centre or with two:
+
+    >>> modified_cgk(6, 7, 3)
+    1
+    """
+    return constraint_space * (links - joints - 1) + joints
+
+
+def spherical_system(links: int, joints: int) -> int:
+    """Spherical systems: M = 3 (N - 1) - 2 J.
+
+    Notes
+    -----
+    Wiener 2016, Eq. 3; Wampler 2007, Eq. 2.
+
+    Examples
+    --------
+    >>> spherical_system(8, 10)
+    1
+    """
+    return 3 * (links - 1) - 2 * joints
+
+
+def polyhedron_equation(vertices: int, implicit_centres: int, edges: int) -> int:
+    """Polyhedron model: M = 3 (V + C) - E - 6, with E = E_ext + E_int.
+
+    Notes
+    -----
+    Wiener 2016, Eq. 4. C counts loops, not classes.
+
+    Examples
+    --------
+    Wiener, Table 3, rows 1 and 3:
+
+    >>> polyhedron_equation(6, 0, 11), polyhedron_equation(9, 1, 23)
+    (1, 1)
+    """
+    return 3 * (vertices + implicit_centres) - edges - 6
+
+
+def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
+    """Loop form: M = sum f - 3 L_sph - 6 L_spat, over independent loops.
+
+    Notes
+    -----
+    DESIGN, section 3. For a connected SCD graph it equals :func:`polyhedron_equation` identically.
+
+    Examples
+    --------
+    The hybrid ten-bar of Wiener 4.1.4.6:
+
+    >>> loop_form(11, 1, 1)
+    2
+    """
+    return freedoms - 3 * centred_loops - 6 * spatial_loops
+
+
+def closed_surface(joints: int, faces: int, spatial_loops: int, centres: int) -> int:
+    """Closed surfaces, every face with a centre: M = J - 3 F - 6 L_spat + 6.
+
+    Parameters
+    ----------
+    joints, faces : int
+        J, and F with the closing face.
+    spatial_loops : int
+        Loops left over (handles).
+    centres : int
+        Distinct centres. Equilibrium at the faces leaves out 6 conditions if three or more centres are not
+        in line, 5 if there are two, 3 if there is one.
+
+    Notes
+    -----
+    DESIGN, section 3. By duality the joint axes are the bars of a framework whose joints are the centres:
+    motions of the one are stresses of the other, of dimension J - (3F - 6).
+
+    Examples
+    --------
+    The cap of the inflatable cube (Wiener 3.3.6), and an octahedron of eight triangles:
+
+    >>> closed_surface(24, 10, 0, 10), closed_surface(12, 6, 0, 6)
+    (0, 0)
+    """
+    spare = {0: 0, 1: 3, 2: 5}.get(centres, 6)
+    return joints - 3 * faces - 6 * spatial_loops + spare
+
+
+def wampler_rods(vertices: int, rods: int) -> int:
+    """Vertices and rods: M = 3 V - E - 6 (Wampler 2007, Eq. 5).
+
+    Examples
+    --------
+    Wampler's Fig. 9, a spherical four-bar:
+
+    >>> wampler_rods(5, 8)
+    1
+    """
+    return 3 * vertices - rods - 6
+
+
+def wampler_points(vertices: int, rods: int, on_plane: int, on_line: int) -> int:
+    """Add points on planes and lines: M = 3 V - E - P - 2 L - 6 (Wampler 2007, Eq. 6).
+
+    Examples
+    --------
+    A cylindric joint is two points of one body on a line of another, 4 constraints:
+
+    >>> wampler_points(6, 6, 0, 2) - wampler_points(6, 6, 0, 0)
+    -4
+    """
+    return wampler_rods(vertices, rods) - on_plane - 2 * on_line
+
+
+def wampler_remote(vertices: int, rods: int, on_plane: int, on_line: int, remote: Iterable[int]) -> int:
+    """Add remote centres: M = 3 V + sum k S_{+k} - E - P - 2 L - 6 (Wampler 2007, Eqs. 7 and 8).
+
+    Parameters
+    ----------
+    vertices, rods, on_plane, on_line : int
+    remote : iterable of int
+        k of each remote centre; Eq. 7 is the case that all are 3.
+
+    Examples
+    --------
+    Wampler's Fig. 12, a spherical four-bar whose centre lies off its links:
+
+    >>> wampler_remote(8, 20, 0, 0, [3])
+    1
+    """
+    return wampler_points(vertices, rods, on_plane, on_line) + sum(remote)
+
+
+def wampler_scissors(
+    vertices: int, rods: int, on_plane: int, on_line: int, remote: Iterable[int], scissors: int
+) -> int:
+    """Add scissors: M = 3 V + sum k S_{+k} - E - P - 2 L - 5 X - 6 (Wampler 2007, Eq. 9).
+
+    Examples
+    --------
+    Four scissors in a spherical loop:
+
+    >>> wampler_scissors(8, 0, 0, 0, [4], 4)
+    2
+    """
+    return wampler_remote(vertices, rods, on_plane, on_line, remote) - 5 * scissors
+
+
+def wampler_ground_free(
+    vertices: int, rods: int, on_plane: int, on_line: int, remote: Iterable[int], scissors: int
+) -> int:
+    """Leave ground out: M = 3 V + sum k S_{+k} - E - P - 2 L - 5 X (Wampler 2007, Eq. 10).
+
+    V and E leave out the vertices of the ground link and the rods between them.
+
+    Examples
+    --------
+    Wampler's Fig. 16, a platform on three C-R-S legs:
+
+    >>> wampler_ground_free(10, 15, 0, 6, [], 0)
+    3
+    """
+    return wampler_scissors(vertices, rods, on_plane, on_line, remote, scissors) + 6
+
+
+def mobility_of_model(model: PolyhedronModel) -> int:
+    """Return the mobility of a polyhedron model: Eq. 10 where it has a ground link, else Eq. 9.
+
+    Examples
+    --------
+    >>> from graphs.polyhedron import PolyhedronModel
+    >>> mobility_of_model(PolyhedronModel(3, [(0, 1), (1, 2), (2, 0)]))
+    0
+    """
+    equation = wampler_scissors if model.ground is None else wampler_ground_free
+    return equation(
+        model.free_vertices,
+        model.counted_rods,
+        len(model.on_plane),
+        len(model.on_line),
+        [centre.k for centre in model.centres],
+        len(model.scissors),
+    )
+
+
+def overconstraint(actual: int, generic: int) -> int:
+    """Overconstraint: h = M_actual - M (Wiener 2016, Eq. 8).
+
+    Examples
+    --------
+    A 3 x 3 Miura mesh moves with 1 freedom where the count says 0:
+
+    >>> overconstraint(1, 0)
+    1
+    """
+    return actual - generic

@@ -1,0 +1,173 @@
+"""Panels given by their vertices, as in a mesh or a crease pattern, to an SCD graph.
+
+Two panels that share a side are hinged there; an interior vertex is a finite, explicit centre; a hole is a
+spatial loop. Source: DESIGN, section 4 (duality); Wiener 2016, section 3.4. Theory:
+docs/theory/scd-graphs.md.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Hashable, Mapping, Sequence
+
+from graphs.errors import InvariantError, shown
+from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.rotation import face_cycles, trace_faces
+from graphs.scd import SCDGraph
+
+__all__ = ["oriented_panels", "scd_from_panels"]
+
+Panel = tuple[Hashable, ...]
+
+
+def scd_from_panels(
+    panels: Mapping[LinkId, Sequence[Hashable]] | Sequence[Sequence[Hashable]],
+    *,
+    outer: tuple[Hashable, Hashable] | None = None,
+) -> SCDGraph:
+    """Return the SCD graph of panels given by their vertices.
+
+    Parameters
+    ----------
+    panels : mapping of link to vertices, or sequence of vertex sequences
+        The vertices of each panel in cyclic order, either way round. Links are indices where not named.
+    outer : (vertex, vertex), optional
+        A side on the outer boundary. Without it the boundary with the most open edges is the outer one; on a
+        closed surface the last interior vertex is the closing loop.
+
+    Returns
+    -------
+    SCDGraph
+        Joint ids are indices, in the order of the panels.
+
+    Raises
+    ------
+    InvariantError
+        If a side belongs to three panels, the panels cannot be oriented alike, or an SCD rule is broken.
+
+    Examples
+    --------
+    >>> fan = scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "d"), ("o", "d", "a")])
+    >>> fan.counts.vertices, fan.counts.edges, len(fan.loops)
+    (5, 8, 1)
+    """
+    named = dict(panels) if isinstance(panels, Mapping) else dict(enumerate(panels))
+    around = oriented_panels({link: tuple(vertices) for link, vertices in named.items()})
+    joint_at: dict[frozenset[Hashable], JointId] = {}
+    joints: dict[JointId, tuple[LinkId, LinkId]] = {}
+    for side, links in _panels_at_side(around).items():
+        if len(links) == 2:
+            joint_at[side] = len(joints)
+            joints[len(joints)] = (links[0], links[1])
+    rotation = {
+        link: tuple(joint_at.get(frozenset(side)) for side in _sides(vertices)) for link, vertices in around.items()
+    }
+    open_side = {
+        frozenset(side): (link, i)
+        for link, vertices in around.items()
+        for i, side in enumerate(_sides(vertices))
+        if rotation[link][i] is None
+    }
+    return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)))
+
+
+def oriented_panels(panels: Mapping[LinkId, Panel]) -> dict[LinkId, Panel]:
+    """Turn panels over so that each shared side is passed in opposite directions by its two panels.
+
+    Raises
+    ------
+    InvariantError
+        If a panel repeats a vertex, a side belongs to three panels, or the surface has one side only.
+
+    Examples
+    --------
+    >>> oriented_panels({0: (1, 2, 3), 1: (2, 3, 4)})
+    {0: (1, 2, 3), 1: (4, 3, 2)}
+    """
+    at_side = _panels_at_side(panels)
+    result: dict[LinkId, Panel] = {}
+    for start in panels:
+        if start in result:
+            continue
+        result[start] = panels[start]
+        queue = deque([start])
+        while queue:
+            link = queue.popleft()
+            for a, b in _sides(result[link]):
+                for other in at_side[frozenset((a, b))]:
+                    if other == link:
+                        continue
+                    if other not in result:
+                        turned = (b, a) in set(_sides(panels[other]))
+                        result[other] = panels[other] if turned else panels[other][::-1]
+                        queue.append(other)
+                    elif (b, a) not in set(_sides(result[other])):
+                        raise InvariantError(
+                            "orientable",
+                            f"panels {shown(link)} and {shown(other)} cannot be turned the same way round",
+                            "a surface with two sides",
+                        )
+    return {link: result[link] for link in panels}
+
+
+def _sides(panel: Panel) -> list[tuple[Hashable, Hashable]]:
+    return list(zip(panel, panel[1:] + panel[:1], strict=True))
+
+
+def _panels_at_side(panels: Mapping[LinkId, Panel]) -> dict[frozenset[Hashable], list[LinkId]]:
+    at_side: dict[frozenset[Hashable], list[LinkId]] = {}
+    for link, vertices in panels.items():
+        if len(set(vertices)) != len(vertices):
+            raise InvariantError("panel", f"panel {shown(link)} names a vertex twice", "different vertices")
+        for side in _sides(vertices):
+            at_side.setdefault(frozenset(side), []).append(link)
+    for side, links in at_side.items():
+        if len(links) > 2:
+            raise InvariantError(
+                "panel sides", f"side {shown(tuple(side))} belongs to {len(links)} panels", "two at most"
+            )
+    return at_side
+
+
+def _with_faces(
+    around: Mapping[LinkId, Panel],
+    joints: dict[JointId, tuple[LinkId, LinkId]],
+    rotation: dict[LinkId, tuple[JointId | None, ...]],
+    outer_side: tuple[LinkId, int] | None,
+) -> SCDGraph:
+    """Choose the outer face and give every interior vertex its loop."""
+    if not joints:
+        return SCDGraph(around, joints, (), rotation=rotation)
+    faces, left_of = trace_faces(joints, rotation)
+    outer = max(faces, key=lambda face: face.open_edges).index
+    if outer_side is not None:
+        outer = _face_of_side(joints, rotation, left_of, *outer_side)
+    elif not faces[outer].open_edges:
+        outer = faces[-1].index  # a closed surface
+    loops, closing = [], []
+    for face in faces:
+        cycles = face_cycles(face)
+        if not face.open_edges and len(cycles) == 1:
+            (closing if face.index == outer else loops).append(Loop(cycles[0], Centre.FINITE))
+    corner = faces[outer].corners[0]
+    assert corner.leaving is not None
+    side = "left" if joints[corner.leaving][0] == corner.link else "right"
+    return SCDGraph(
+        around, joints, loops, rotation=rotation, outer=(corner.leaving, side), closing=closing
+    )
+
+
+def _face_of_side(
+    joints: Mapping[JointId, tuple[LinkId, LinkId]],
+    rotation: Mapping[LinkId, Sequence[JointId | None]],
+    left_of: Mapping[tuple[JointId, LinkId], int],
+    link: LinkId,
+    index: int,
+) -> int:
+    """Return the face in which an open edge lies: the one left of the next joint clockwise."""
+    sides = rotation[link]
+    while sides[index] is None:
+        index -= 1
+    joint = sides[index]
+    assert joint in joints
+    return left_of[joint, link]

@@ -1,0 +1,263 @@
+"""The SC graph: links, joints, and independent loops with their spherical centres.
+
+Source: Wiener 2016, section 3.3 (the SC connectivity graph). Theory: docs/theory/sc-graphs.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any
+
+import networkx as nx
+
+from graphs.centres import CentreClass, centre_classes
+from graphs.errors import InvariantError, shown
+from graphs.loops import Centre, JointId, LinkId, Loop, check_independent, cyclic_order, dependent_loop
+
+__all__ = ["SCGraph"]
+
+
+class SCGraph(nx.MultiGraph):
+    """A type of mechanism: a link-joint graph with independent loops, each with its centre.
+
+    Nodes are links (panels), edges are revolute joints (creases), edge keys are joint ids. The graph is
+    frozen once built: an edit makes a new graph. networkx functions for multigraphs accept it;
+    :meth:`copy` gives a plain, mutable ``nx.MultiGraph``.
+
+    Parameters
+    ----------
+    links : int or iterable of link ids, optional
+        Names of the links, or how many there are (then they are 0, 1, 2, ...).
+    joints : mapping of joint id to (link, link), or iterable of (link, link), optional
+        The joints; ids are 0, 1, 2, ... where none are given. Two links may share several joints.
+    loops : iterable of Loop, optional
+        Independent loops. A loop's joints may come in any order; they are stored in cyclic order. Independent
+        cycles that are left out are spatial.
+    closing : iterable of Loop, optional
+        Loops that *depend* on the others and yet carry a centre: the last face of a closed surface, or the
+        outer one of concentric loops (thesis 3.3.6).
+    ground : link id, optional
+        The fixed link; without it the graph is a kinematic chain.
+
+    Raises
+    ------
+    InvariantError
+        Naming what breaks which invariant (DESIGN, section 3): link names distinct as text, joints between
+        two different known links, each loop one cycle, loops independent over GF(2), closing loops dependent
+        on them and independent of each other, finite and infinite centres never forced to be one.
+
+    Examples
+    --------
+    Watt's six-bar chain has two centres:
+
+    >>> watt = SCGraph(
+    ...     6,
+    ...     [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...     loops=[Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))],
+    ... )
+    >>> len(watt.centre_classes()), watt.independent_loops
+    (2, 2)
+    >>> import networkx as nx
+    >>> nx.is_biconnected(nx.Graph(watt))
+    True
+    """
+
+    loops: tuple[Loop, ...]
+    closing: tuple[Loop, ...]
+    ground: LinkId | None
+
+    def __init__(
+        self,
+        links: int | Iterable[LinkId] | None = None,
+        joints: Mapping[JointId, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
+        loops: Iterable[Loop] = (),
+        *,
+        closing: Iterable[Loop] = (),
+        ground: LinkId | None = None,
+    ) -> None:
+        super().__init__()
+        self.loops, self.closing, self.ground = (), (), None
+        self._joints: dict[JointId, tuple[LinkId, LinkId]] = {}
+        if links is None:
+            return  # networkx makes an empty instance of the class before it fills a view
+        self._add_links(range(links) if isinstance(links, int) else links)
+        self._add_joints(joints)
+        self.loops = tuple(self._ordered(loop) for loop in loops)
+        self.closing = tuple(self._ordered(loop) for loop in closing)
+        self._check_loops()
+        if ground is not None and ground not in self:
+            raise InvariantError("ground is a link", f"ground {shown(ground)} is no link", "one of the links")
+        self.ground = ground
+        nx.freeze(self)
+
+    # ---- construction -------------------------------------------------------------------------------
+
+    def _add_links(self, links: Iterable[LinkId]) -> None:
+        texts: dict[str, LinkId] = {}
+        for link in links:
+            if link is None or str(link) in texts:
+                raise InvariantError(
+                    "distinct links", f"link {shown(link)} occurs twice, or has no name", "distinct names"
+                )
+            texts[str(link)] = link
+        self.add_nodes_from(texts.values())
+
+    def _add_joints(
+        self, joints: Mapping[JointId, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]]
+    ) -> None:
+        pairs = joints.items() if isinstance(joints, Mapping) else enumerate(joints)
+        texts: set[str] = set()
+        for joint, (a, b) in pairs:
+            for link in (a, b):
+                if link not in self:
+                    raise InvariantError(
+                        "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}, no link"
+                    )
+            if a == b:
+                raise InvariantError(
+                    "no self-joint", f"joint {shown(joint)} joins link {shown(a)} to itself", "two links"
+                )
+            if joint is None or str(joint) in texts:
+                raise InvariantError("distinct joints", f"joint {shown(joint)} occurs twice, or has no id")
+            texts.add(str(joint))
+            self._joints[joint] = (a, b)
+        self.add_edges_from((a, b, joint) for joint, (a, b) in self._joints.items())
+
+    def _ordered(self, loop: Loop) -> Loop:
+        order = cyclic_order(loop, self._joints)
+        return loop if order == loop.joints else Loop(order, loop.centre, loop.name, loop.at)
+
+    def _check_loops(self) -> None:
+        check_independent(self.loops)
+        for loop in self.closing:
+            if not loop.has_centre:
+                raise InvariantError("closing loop", f"{loop.label} closes nothing: it has no centre")
+            if any(set(loop.joints) == set(other.joints) for other in self.loops):
+                raise InvariantError("closing loop", f"{loop.label} is among the loops already")
+            if dependent_loop([x.joints for x in (*self.loops, loop)]) is None:
+                raise InvariantError(
+                    "closing loop", f"{loop.label} does not depend on the loops", "a sum of the loops"
+                )
+        if (index := dependent_loop([x.joints for x in self.closing])) is not None:
+            raise InvariantError("closing loop", f"{self.closing[index].label} depends on other closing loops")
+        self.centre_classes()
+
+    # ---- what networkx asks for ---------------------------------------------------------------------
+
+    def copy(self, as_view: bool = False) -> nx.MultiGraph:
+        """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints (or a view, if asked)."""
+        return super().copy(as_view=True) if as_view else nx.MultiGraph(self)
+
+    def to_undirected_class(self) -> type[nx.MultiGraph]:
+        """Return the class of undirected copies: a plain multigraph, since loops do not survive editing."""
+        return nx.MultiGraph
+
+    def to_directed_class(self) -> type[nx.MultiDiGraph]:
+        """Return the class of directed copies."""
+        return nx.MultiDiGraph
+
+    # ---- what it is ---------------------------------------------------------------------------------
+
+    @property
+    def joints(self) -> Mapping[JointId, tuple[LinkId, LinkId]]:
+        """Joint id to its two links, in the order given (read-only)."""
+        return MappingProxyType(self._joints)
+
+    @cached_property
+    def components(self) -> int:
+        """Number of connected components c."""
+        return int(nx.number_connected_components(self))
+
+    @property
+    def independent_loops(self) -> int:
+        """Number of independent loops, L = J - N + c."""
+        return len(self._joints) - len(self) + self.components
+
+    @property
+    def centred_loops(self) -> tuple[Loop, ...]:
+        """The independent loops that have a centre (closing loops not counted)."""
+        return tuple(loop for loop in self.loops if loop.has_centre)
+
+    @property
+    def spatial_loops(self) -> int:
+        """Number of independent loops without a centre, given or left over."""
+        return self.independent_loops - len(self.centred_loops)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether some loop depends on others and yet carries a centre (closed surface, concentric loops)."""
+        return bool(self.closing)
+
+    @cached_property
+    def _classes(self) -> tuple[CentreClass, ...]:
+        return centre_classes((*self.loops, *self.closing))
+
+    def centre_classes(self) -> tuple[CentreClass, ...]:
+        """Return the classes of loops that share a centre; see :func:`graphs.centres.centre_classes`.
+
+        Loop indices count the independent loops first, then the closing ones.
+        """
+        return self._classes
+
+    def parallel_joints(self) -> tuple[tuple[JointId, ...], ...]:
+        """Return the groups of joints that join one pair of links; each is rigid unless collinear."""
+        groups: dict[frozenset[LinkId], list[JointId]] = {}
+        for joint, ends in self._joints.items():
+            groups.setdefault(frozenset(ends), []).append(joint)
+        return tuple(tuple(group) for group in groups.values() if len(group) > 1)
+
+    # ---- new graphs from this one -------------------------------------------------------------------
+
+    def with_loops(self, loops: Iterable[Loop], closing: Iterable[Loop] = ()) -> SCGraph:
+        """Return the SC graph with the same links and joints and other loops."""
+        return SCGraph(self.nodes, self._joints, loops, closing=closing, ground=self.ground)
+
+    def relabel(
+        self,
+        links: Mapping[LinkId, LinkId] | None = None,
+        joints: Mapping[JointId, JointId] | None = None,
+    ) -> SCGraph:
+        """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
+        of_link, of_joint = dict(links or {}), dict(joints or {})
+        new_joints = {
+            of_joint.get(j, j): (of_link.get(a, a), of_link.get(b, b)) for j, (a, b) in self._joints.items()
+        }
+        return SCGraph(
+            [of_link.get(n, n) for n in self.nodes],
+            new_joints,
+            _renamed(self.loops, of_joint),
+            closing=_renamed(self.closing, of_joint),
+            ground=None if self.ground is None else of_link.get(self.ground, self.ground),
+        )
+
+    def is_identical(self, other: object) -> bool:
+        """Tell whether two objects are the same graph, ids and all (this is not isomorphism).
+
+        The order of links and joints, and the start and direction of a loop, do not matter.
+        """
+        return type(self) is type(other) and self._identity() == other._identity()  # type: ignore[attr-defined]
+
+    def _identity(self) -> tuple[Any, ...]:
+        return (
+            set(self.nodes),
+            {joint: frozenset(ends) for joint, ends in self._joints.items()},
+            _loop_identity(self.loops),
+            _loop_identity(self.closing),
+            self.ground,
+        )
+
+    def __str__(self) -> str:
+        return (
+            f"{type(self).__name__} with {len(self)} links, {len(self._joints)} joints, "
+            f"{len(self.centred_loops)} centred and {self.spatial_loops} spatial loops"
+        )
+
+
+def _renamed(loops: Sequence[Loop], of_joint: Mapping[JointId, JointId]) -> list[Loop]:
+    return [Loop(tuple(of_joint.get(j, j) for j in x.joints), x.centre, x.name, x.at) for x in loops]
+
+
+def _loop_identity(loops: Sequence[Loop]) -> set[tuple[frozenset[Hashable], Centre, str | None, str | None]]:
+    return {(frozenset(x.joints), x.centre, x.name, x.at) for x in loops}

@@ -1,0 +1,210 @@
+"""The rules that make an SCD graph valid (DESIGN, section 3; Wiener 2016, section 3.4).
+
+*Points* are the vertices of the links and the centres of the classes, identified where they coincide: an
+explicit centre is its vertex. In the order in which they are checked:
+
+===================  ====================================================================================
+rule                 what must hold
+===================  ====================================================================================
+link degree          every link has three sides or more
+explicit centre      the centre of a face without open edges is finite
+implicit centre      a face with a centre and open edges has one in every corner between joints of its loop
+spatial face         a bounded face without a centre has at least three open edges, in at least three corners
+outer face           so has the outer face (trees need only the three open edges)
+one explicit centre  a class of loops has at most one explicit centre
+joint ends           the two ends of a joint are different vertices
+link corners         the corners of a link are different vertices
+S1                   two joints share at most one point
+S2                   two links without a joint between them share at most one point; two joined links share
+                     only points of that joint's axis
+===================  ====================================================================================
+
+Rule S3 (the rank under the forced geometry equals the count) is not a matter of counting and is not checked
+here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator, Mapping
+from itertools import combinations
+from typing import TYPE_CHECKING, TypeVar
+
+from graphs.errors import InvariantError, shown
+from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.rotation import Face, Rotation
+
+if TYPE_CHECKING:
+    from graphs.scd import SCDGraph
+
+K = TypeVar("K", bound=Hashable)
+
+__all__ = ["check_rules", "check_sides", "points_of_joints", "points_of_links"]
+
+
+def check_sides(rotation: Rotation) -> None:
+    """Refuse a link of fewer than three sides."""
+    for link, sides in rotation.items():
+        if len(sides) < 3:
+            raise InvariantError(
+                "link degree", f"link {shown(link)} has {len(sides)} side(s)", "three or more, open edges included"
+            )
+
+
+def check_rules(scd: SCDGraph) -> None:
+    """Refuse an SCD graph that breaks a rule; see the table above.
+
+    Raises
+    ------
+    InvariantError
+        ``rule`` is the first column of the table.
+    """
+    for face in scd.faces:
+        _check_face(scd, face)
+    centres = _centre_points(scd)
+    _check_own_vertices(scd)
+    joints = points_of_joints(scd, centres)
+    _check_s1(joints)
+    _check_s2(scd, joints, points_of_links(scd, centres))
+
+
+def points_of_joints(scd: SCDGraph, centres: tuple[int, ...] | None = None) -> dict[JointId, frozenset[int]]:
+    """Return the points on the axis of each joint: its two ends and the centres it passes through."""
+    centres = _centre_points(scd) if centres is None else centres
+    points = {joint: set(scd.ends_of_joint(joint)) for joint in scd.joints}
+    for one, point in zip(scd.centre_classes(), centres, strict=True):
+        for joint in one.joints:
+            points[joint].add(point)
+    return {joint: frozenset(here) for joint, here in points.items()}
+
+
+def points_of_links(scd: SCDGraph, centres: tuple[int, ...] | None = None) -> dict[LinkId, frozenset[int]]:
+    """Return the points of each link: its vertices and the centres on the axes of its joints."""
+    centres = _centre_points(scd) if centres is None else centres
+    points = {link: set(here) for link, here in scd.vertices.items()}
+    for one, point in zip(scd.centre_classes(), centres, strict=True):
+        for joint in one.joints:
+            for link in scd.joints[joint]:
+                points[link].add(point)
+    return {link: frozenset(here) for link, here in points.items()}
+
+
+def _check_face(scd: SCDGraph, face: Face) -> None:
+    loop = scd.loop_of_face(face.index)
+    if loop is not None and loop.has_centre:
+        _check_centre(face, loop)
+        return
+    outer = face.index == scd.outer_face
+    rule = "outer face" if outer else "spatial face"
+    tree = len(scd.faces) == 1
+    if face.open_edges < 3 or (face.open_corners < 3 and not tree):
+        name = "the outer face" if outer else f"the face {_around(face)}"
+        corners = "" if tree else f" in {face.open_corners} corner(s)"
+        raise InvariantError(
+            rule,
+            f"{name} has no centre and {face.open_edges} open edge(s){corners}",
+            "three open edges" if tree else "three, in three corners",
+        )
+
+
+def _check_centre(face: Face, loop: Loop) -> None:
+    if not face.open_edges:
+        if loop.centre is not Centre.FINITE:
+            raise InvariantError(
+                "explicit centre",
+                f"{loop.label} has an infinite centre but no open edge, so that its links would reach it",
+                "open edges in every corner",
+            )
+        return
+    own = set(loop.joints)
+    start = next(i for i, corner in enumerate(face.corners) if corner.leaving in own)
+    gap, last = 0, face.corners[start].leaving
+    for corner in face.corners[start + 1 :] + face.corners[: start + 1]:
+        gap += corner.open_edges
+        if corner.leaving in own:
+            if not gap:
+                raise InvariantError(
+                    "implicit centre",
+                    f"{loop.label} has open edges, but none between joints {shown(last)} and "
+                    f"{shown(corner.leaving)}",
+                    "one in every corner, or none at all",
+                )
+            gap, last = 0, corner.leaving
+
+
+def _centre_points(scd: SCDGraph) -> tuple[int, ...]:
+    """Return the point of each class of loops: the vertex of its explicit centre, or a new point."""
+    face_of_loop = {loop: face for face, loop in enumerate(scd.face_loops) if loop is not None}
+    points = []
+    for index, one in enumerate(scd.centre_classes()):
+        explicit = [face for loop in one.loops if not scd.faces[face := face_of_loop[loop]].open_edges]
+        if len(explicit) > 1:
+            a, b = (scd.loop_of_face(face) for face in explicit[:2])
+            assert a is not None
+            assert b is not None
+            raise InvariantError(
+                "one explicit centre",
+                f"{a.label} and {b.label} have one centre, but two vertices for it",
+                "an open edge in every corner of all but one of them",
+            )
+        if explicit:
+            corner = scd.faces[explicit[0]].corners[0]
+            points.append(scd.vertices[corner.link][corner.last_side])
+        else:
+            points.append(scd.counts.vertices + index)
+    return tuple(points)
+
+
+def _check_own_vertices(scd: SCDGraph) -> None:
+    for joint in scd.joints:
+        a, b = scd.ends_of_joint(joint)
+        if a == b:
+            raise InvariantError(
+                "joint ends", f"both ends of joint {shown(joint)} are vertex {a}", "two different vertices"
+            )
+    for link, vertices in scd.vertices.items():
+        if len(set(vertices)) < len(vertices):
+            raise InvariantError(
+                "link corners", f"two corners of link {shown(link)} are one vertex", "different vertices"
+            )
+
+
+def _check_s1(points: Mapping[JointId, frozenset[int]]) -> None:
+    for a, b in _sharing_two(points):
+        raise InvariantError(
+            "S1", f"joints {shown(a)} and {shown(b)} share two points, so they are one axis", "one point at most"
+        )
+
+
+def _check_s2(
+    scd: SCDGraph, of_joint: Mapping[JointId, frozenset[int]], of_link: Mapping[LinkId, frozenset[int]]
+) -> None:
+    for a, b in _sharing_two(of_link):
+        common = of_link[a] & of_link[b]
+        if not scd.has_edge(a, b):
+            raise InvariantError(
+                "S2", f"links {shown(a)} and {shown(b)} share {len(common)} points and no joint", "one at most"
+            )
+        if not any(common <= of_joint[joint] for joint in scd[a][b]):
+            raise InvariantError(
+                "S2",
+                f"links {shown(a)} and {shown(b)} share points off the axis of their joint",
+                "only points of that axis",
+            )
+
+
+def _sharing_two(points: Mapping[K, frozenset[int]]) -> Iterator[tuple[K, K]]:
+    """Yield the pairs of things that share two points or more, each once."""
+    holders: dict[tuple[int, int], list[K]] = {}
+    for thing, here in points.items():
+        for pair in combinations(sorted(here), 2):
+            holders.setdefault(pair, []).append(thing)
+    seen: set[frozenset[K]] = set()
+    for things in holders.values():
+        for a, b in combinations(things, 2):
+            if frozenset((a, b)) not in seen:
+                seen.add(frozenset((a, b)))
+                yield a, b
+
+
+def _around(face: Face) -> str:
+    return shown(" ".join(str(joint) for joint in face.joints[:12]))

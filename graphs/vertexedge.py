@@ -1,0 +1,221 @@
+"""Vertex-edge graphs: spherical centres as vertices, creases as edges.
+
+Bowen and others draw an origami mechanism with a vertex for each spherical centre and an edge for each
+crease between two of them; Wiener 2016, Tables 4 and 5, turn such a graph into an SC graph and back. It is
+the dual of the SC graph: the sectors between creases are the links. Creases that run to the border of the
+sheet end free. The cyclic order of the creases round each vertex makes the graph definite.
+Theory: docs/theory/vertex-edge-graphs.md.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Hashable, Mapping, Sequence
+from types import MappingProxyType
+
+import networkx as nx
+
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.sc import SCGraph
+
+__all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]
+
+Sector = tuple[Hashable, int]
+
+
+class VertexEdgeGraph:
+    """Spherical centres with the creases round each.
+
+    Parameters
+    ----------
+    vertices : mapping of vertex to sequence of crease ids
+        The creases that end in each vertex, counter-clockwise. A crease named at two vertices joins them; one
+        named once runs to the border.
+
+    Raises
+    ------
+    InvariantError
+        If a vertex has fewer than two creases, or a crease is named twice at one vertex or at three vertices.
+
+    Examples
+    --------
+    >>> graph = VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")})
+    >>> graph.creases["a"], graph.creases["b"]
+    (('A', 'B'), ('A',))
+    """
+
+    def __init__(self, vertices: Mapping[Hashable, Sequence[JointId]]) -> None:
+        self._vertices = {vertex: tuple(creases) for vertex, creases in vertices.items()}
+        self._creases: dict[JointId, tuple[Hashable, ...]] = {}
+        for vertex, creases in self._vertices.items():
+            if len(creases) < 2 or len(set(creases)) < len(creases):
+                raise InvariantError(
+                    "vertex-edge graph",
+                    f"vertex {shown(vertex)} has the creases {shown(list(creases))}",
+                    "two or more, each once",
+                )
+            for crease in creases:
+                self._creases[crease] = (*self._creases.get(crease, ()), vertex)
+        for crease, ends in self._creases.items():
+            if len(ends) > 2:
+                raise InvariantError(
+                    "vertex-edge graph", f"crease {shown(crease)} ends in {len(ends)} vertices", "two at most"
+                )
+
+    @property
+    def vertices(self) -> Mapping[Hashable, tuple[JointId, ...]]:
+        """Vertex to its creases, counter-clockwise (read-only)."""
+        return MappingProxyType(self._vertices)
+
+    @property
+    def creases(self) -> Mapping[JointId, tuple[Hashable, ...]]:
+        """Crease to the one or two vertices it ends in (read-only)."""
+        return MappingProxyType(self._creases)
+
+    def to_networkx(self) -> nx.MultiGraph:
+        """Return the vertices and the creases between them as a plain multigraph."""
+        graph = nx.MultiGraph()
+        graph.add_nodes_from(self._vertices)
+        graph.add_edges_from((*ends, crease) for crease, ends in self._creases.items() if len(ends) == 2)
+        return graph
+
+    def is_identical(self, other: object) -> bool:
+        """Tell whether two graphs are the same, ids and all; where a cyclic order starts does not matter."""
+        if not isinstance(other, VertexEdgeGraph) or set(self.vertices) != set(other.vertices):
+            return False
+        return all(_same_turn(order, other.vertices[vertex]) for vertex, order in self.vertices.items())
+
+
+def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
+    """Return the SC graph: one link a sector of the sheet, one joint a crease, one finite centre a vertex.
+
+    Raises
+    ------
+    InvariantError
+        If a crease has the same link on both sides.
+
+    Examples
+    --------
+    Two vertices of degree four with a crease in common: Watt's chain, two centres.
+
+    >>> graph = VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")})
+    >>> sc = sc_from_vertex_edge(graph)
+    >>> len(sc), len(sc.joints), len(sc.centre_classes())
+    (6, 7, 2)
+    """
+    place = {(v, crease): i for v, creases in graph.vertices.items() for i, crease in enumerate(creases)}
+
+    def sector(vertex: Hashable, index: int) -> Sector:
+        return vertex, index % len(graph.vertices[vertex])
+
+    sectors = nx.utils.UnionFind((v, i) for v, creases in graph.vertices.items() for i in range(len(creases)))
+    for crease, ends in graph.creases.items():
+        if len(ends) == 2:  # left of the crease from one end is right of it from the other
+            (a, i), (b, k) = ((v, place[v, crease]) for v in ends)
+            sectors.union(sector(a, i), sector(b, k - 1))
+            sectors.union(sector(a, i - 1), sector(b, k))
+    link: dict[Sector, int] = {}
+    for vertex, creases in graph.vertices.items():
+        for i in range(len(creases)):
+            link.setdefault(sectors[vertex, i], len(link))
+    joints = {}
+    for crease, ends in graph.creases.items():
+        i = place[ends[0], crease]
+        joints[crease] = (link[sectors[sector(ends[0], i - 1)]], link[sectors[sector(ends[0], i)]])
+    loops = [Loop(creases, Centre.FINITE, str(vertex)) for vertex, creases in graph.vertices.items()]
+    return _dependent_apart(SCGraph(len(link), joints), loops, graph)
+
+
+def _dependent_apart(bare: SCGraph, loops: list[Loop], graph: VertexEdgeGraph) -> SCGraph:
+    """On a closed surface (no free crease in a component) the last loop of the component closes it."""
+    closing = []
+    index = {vertex: i for i, vertex in enumerate(graph.vertices)}
+    for component in nx.connected_components(graph.to_networkx()):
+        creases = {crease for vertex in component for crease in graph.vertices[vertex]}
+        if all(len(graph.creases[crease]) == 2 for crease in creases):
+            closing.append(max(index[vertex] for vertex in component))
+    return bare.with_loops(
+        [loop for i, loop in enumerate(loops) if i not in closing], [loops[i] for i in closing]
+    )
+
+
+def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
+    """Return the vertex-edge graph of an SC graph: a vertex for each loop, the joints round it in order.
+
+    Raises
+    ------
+    UnsolvableError
+        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, a joint lies in no
+        loop or in more than two, or the loops cannot be walked so that each shared joint is passed both ways.
+
+    Examples
+    --------
+    >>> graph = VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")})
+    >>> vertex_edge_from_sc(sc_from_vertex_edge(graph)).is_identical(graph)
+    True
+    """
+    loops = (*sc.loops, *sc.closing)
+    if sc.spatial_loops or any(loop.centre is not Centre.FINITE for loop in loops):
+        raise UnsolvableError("a vertex-edge graph needs a finite centre in every loop")
+    through: dict[JointId, list[int]] = {joint: [] for joint in sc.joints}
+    for i, loop in enumerate(loops):
+        for joint in loop.joints:
+            through[joint].append(i)
+    for joint, here in through.items():
+        if not 1 <= len(here) <= 2:
+            raise UnsolvableError(
+                f"joint {shown(joint)} lies in {len(here)} loops; on a sheet a crease ends in one vertex or two"
+            )
+    order = _walked_alike(sc, loops, through)
+    names = [loop.name if loop.name is not None else i for i, loop in enumerate(loops)]
+    if len(set(map(str, names))) < len(names):
+        names = list(range(len(loops)))
+    return VertexEdgeGraph({names[i]: order[i] for i in range(len(loops))})
+
+
+def _walked_alike(
+    sc: SCGraph, loops: Sequence[Loop], through: Mapping[JointId, list[int]]
+) -> dict[int, tuple[JointId, ...]]:
+    """Choose a direction for each loop so that a joint in two loops is passed in opposite directions."""
+    walks = [_passages(loop.joints, sc.joints) for loop in loops]
+    turned: dict[int, bool] = {}
+    for start in range(len(loops)):
+        if start in turned:
+            continue
+        turned[start] = False
+        queue = deque([start])
+        while queue:
+            i = queue.popleft()
+            for joint in loops[i].joints:
+                for k in through[joint]:
+                    if k == i:
+                        continue
+                    wanted = turned[i] ^ (walks[i][joint] == walks[k][joint])
+                    if k not in turned:
+                        turned[k] = wanted
+                        queue.append(k)
+                    elif turned[k] != wanted:
+                        raise UnsolvableError(
+                            f"{loops[i].label} and {loops[k].label} do not lie on a sheet with two sides"
+                        )
+    return {i: loop.joints[::-1] if turned[i] else loop.joints for i, loop in enumerate(loops)}
+
+
+def _passages(around: Sequence[JointId], joints: Mapping[JointId, tuple[LinkId, LinkId]]) -> dict[JointId, LinkId]:
+    """Return, for each joint of a cyclic walk, the link from which the walk crosses it."""
+    first, second = around[0], around[1]
+    here = joints[first][0] if joints[first][1] in joints[second] else joints[first][1]
+    crossed: dict[JointId, LinkId] = {}
+    for joint in around:
+        a, b = joints[joint]
+        crossed[joint] = here
+        here = b if here == a else a
+    return crossed
+
+
+def _same_turn(one: Sequence[JointId], two: Sequence[JointId]) -> bool:
+    if len(one) != len(two) or one[0] not in two:
+        return False
+    start = list(two).index(one[0])
+    return tuple(one) == (*two[start:], *two[:start])

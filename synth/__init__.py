@@ -1,0 +1,1 @@
+"""Dimensions and use of mechanisms, and the command line (``synth.cli``)."""
