@@ -72,9 +72,7 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
     members = merger.members
     order = sorted(members, key=lambda root: min(members[root]))
     return tuple(
-        CentreClass(
-            tuple(sorted(members[root])), frozenset(merger.joints[root]), loops[min(members[root])].centre
-        )
+        CentreClass(tuple(sorted(members[root])), frozenset(merger.joints[root]), loops[min(members[root])].centre)
         for root in order
     )
 

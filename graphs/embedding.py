@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import networkx as nx
 
@@ -122,7 +123,7 @@ def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict
         ends = ("link", a), ("link", b)
         path = ends if not simple.has_edge(*ends) else (ends[0], ("joint", joint), ends[1])
         nx.add_path(simple, path)
-        for one, two in zip(path, path[1:], strict=False):
+        for one, two in pairwise(path):
             joint_of[frozenset((one, two))] = joint
     return simple, joint_of
 

@@ -87,6 +87,9 @@ class InvariantError(SynthedraError):
         What breaks it, named as in the input.
     expected : str, optional
         What would satisfy the rule.
+    part : (str, object), optional
+        Which part of the object: ``("joints", id)``, ``("loops", index)``, ... A reader of files turns it into
+        the place in the file.
 
     Examples
     --------
@@ -94,9 +97,11 @@ class InvariantError(SynthedraError):
     joint 'a' joins link 1 to itself; expected two different links [no self-joint]
     """
 
-    def __init__(self, rule: str, offender: str, expected: str = "") -> None:
-        super().__init__(rule, offender, expected)
-        self.rule, self.offender, self.expected = rule, offender, expected
+    def __init__(
+        self, rule: str, offender: str, expected: str = "", part: tuple[str, object] | None = None
+    ) -> None:
+        super().__init__(rule, offender, expected, part)
+        self.rule, self.offender, self.expected, self.part = rule, offender, expected, part
 
     def __str__(self) -> str:
         tail = f"; expected {self.expected}" if self.expected else ""

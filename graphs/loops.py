@@ -14,7 +14,7 @@ from enum import Enum
 
 from graphs.errors import InvariantError, shown
 
-__all__ = ["Centre", "Loop", "check_independent", "cyclic_order", "dependent_loop"]
+__all__ = ["Centre", "Loop", "check_independent", "cyclic_order", "dependent_loop", "split_dependent"]
 
 JointId = Hashable
 LinkId = Hashable
@@ -183,7 +183,10 @@ def check_independent(loops: Sequence[Loop]) -> None:
     culprit = dependent_loop([loop.joints for loop in loops])
     if culprit is not None:
         raise InvariantError(
-            "independent loops", f"{loops[culprit].label} is the sum of others", "independent loops"
+            "independent loops",
+            f"{loops[culprit].label} is the sum of others",
+            "independent loops",
+            ("loops", culprit),
         )
 
 
@@ -208,6 +211,24 @@ def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
             return index
         basis[left.bit_length()] = left
     return None
+
+
+def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], list[int]]:
+    """Split cycles into independent ones and ones that depend on these; return the indices of both.
+
+    Round the vertices of a closed surface the last cycle is the sum of the others.
+
+    Examples
+    --------
+    Three cycles that close, and one by itself:
+
+    >>> split_dependent([("a", "b"), ("b", "c"), ("c", "a"), ("d", "e", "f")])
+    ([0, 1, 3], [2])
+    """
+    kept, dependent = list(range(len(cycles))), []
+    while (index := dependent_loop([cycles[i] for i in kept])) is not None:
+        dependent.append(kept.pop(index))
+    return kept, sorted(dependent)
 
 
 def _peel(cycles: Sequence[Sequence[JointId]]) -> list[int]:

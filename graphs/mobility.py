@@ -130,33 +130,33 @@ def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
     return freedoms - 3 * centred_loops - 6 * spatial_loops
 
 
-def closed_surface(joints: int, faces: int, spatial_loops: int, centres: int) -> int:
+def closed_surface(joints: int, faces: int, spatial_loops: int, centres: Iterable[int]) -> int:
     """Closed surfaces, every face with a centre: M = J - 3 F - 6 L_spat + 6.
 
     Parameters
     ----------
     joints, faces : int
-        J, and F with the closing face.
+        J, and F with the closing faces.
     spatial_loops : int
         Loops left over (handles).
-    centres : int
-        Distinct centres. Equilibrium at the faces leaves out 6 conditions if three or more centres are not
-        in line, 5 if there are two, 3 if there is one.
+    centres : iterable of int
+        Distinct centres of each closed surface. Six conditions too many are counted if three or more centres
+        are not in line, 5 if there are two, 3 if there is one.
 
     Notes
     -----
     DESIGN, section 3. By duality the joint axes are the bars of a framework whose joints are the centres:
-    motions of the one are stresses of the other, of dimension J - (3F - 6).
+    motions of the one are stresses of the other, of dimension J - (3 F - 6).
 
     Examples
     --------
     The cap of the inflatable cube (Wiener 3.3.6), and an octahedron of eight triangles:
 
-    >>> closed_surface(24, 10, 0, 10), closed_surface(12, 6, 0, 6)
+    >>> closed_surface(24, 10, 0, [10]), closed_surface(12, 6, 0, [6])
     (0, 0)
     """
-    spare = {0: 0, 1: 3, 2: 5}.get(centres, 6)
-    return joints - 3 * faces - 6 * spatial_loops + spare
+    surplus = sum({0: 0, 1: 3, 2: 5}.get(number, 6) for number in centres)
+    return joints - 3 * faces - 6 * spatial_loops + surplus
 
 
 def wampler_rods(vertices: int, rods: int) -> int:

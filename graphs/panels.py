@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Hashable, Mapping, Sequence
+from typing import Any
 
 from graphs.errors import InvariantError, shown
 from graphs.loops import Centre, JointId, LinkId, Loop
@@ -17,11 +18,11 @@ from graphs.scd import SCDGraph
 
 __all__ = ["oriented_panels", "scd_from_panels"]
 
-Panel = tuple[Hashable, ...]
+Panel = tuple[Any, ...]
 
 
 def scd_from_panels(
-    panels: Mapping[LinkId, Sequence[Hashable]] | Sequence[Sequence[Hashable]],
+    panels: Mapping[Any, Sequence[Any]] | Sequence[Sequence[Any]],
     *,
     outer: tuple[Hashable, Hashable] | None = None,
 ) -> SCDGraph:
@@ -60,7 +61,8 @@ def scd_from_panels(
             joint_at[side] = len(joints)
             joints[len(joints)] = (links[0], links[1])
     rotation = {
-        link: tuple(joint_at.get(frozenset(side)) for side in _sides(vertices)) for link, vertices in around.items()
+        link: tuple(joint_at.get(frozenset(side)) for side in _sides(vertices))
+        for link, vertices in around.items()
     }
     open_side = {
         frozenset(side): (link, i)
@@ -71,7 +73,7 @@ def scd_from_panels(
     return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)))
 
 
-def oriented_panels(panels: Mapping[LinkId, Panel]) -> dict[LinkId, Panel]:
+def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
     """Turn panels over so that each shared side is passed in opposite directions by its two panels.
 
     Raises
@@ -121,10 +123,10 @@ def _panels_at_side(panels: Mapping[LinkId, Panel]) -> dict[frozenset[Hashable],
             raise InvariantError("panel", f"panel {shown(link)} names a vertex twice", "different vertices")
         for side in _sides(vertices):
             at_side.setdefault(frozenset(side), []).append(link)
-    for side, links in at_side.items():
+    for edge, links in at_side.items():
         if len(links) > 2:
             raise InvariantError(
-                "panel sides", f"side {shown(tuple(side))} belongs to {len(links)} panels", "two at most"
+                "panel sides", f"side {shown(tuple(edge))} belongs to {len(links)} panels", "two at most"
             )
     return at_side
 
@@ -144,7 +146,8 @@ def _with_faces(
         outer = _face_of_side(joints, rotation, left_of, *outer_side)
     elif not faces[outer].open_edges:
         outer = faces[-1].index  # a closed surface
-    loops, closing = [], []
+    loops: list[Loop] = []
+    closing: list[Loop] = []
     for face in faces:
         cycles = face_cycles(face)
         if not face.open_edges and len(cycles) == 1:
@@ -152,9 +155,7 @@ def _with_faces(
     corner = faces[outer].corners[0]
     assert corner.leaving is not None
     side = "left" if joints[corner.leaving][0] == corner.link else "right"
-    return SCDGraph(
-        around, joints, loops, rotation=rotation, outer=(corner.leaving, side), closing=closing
-    )
+    return SCDGraph(around, joints, loops, rotation=rotation, outer=(corner.leaving, side), closing=closing)
 
 
 def _face_of_side(

@@ -107,13 +107,13 @@ class PolyhedronModel(nx.Graph):
         vertices: int | Iterable[VertexId] | None = None,
         rods: Iterable[Rod] = (),
         *,
-        coordinates: Mapping[VertexId, Sequence[float]] | None = None,
+        coordinates: Mapping[Any, Sequence[float]] | None = None,
         centres: Iterable[RemoteCentre] = (),
         on_line: Iterable[PointConstraint] = (),
         on_plane: Iterable[PointConstraint] = (),
         scissors: Iterable[Sequence[VertexId]] = (),
         ground: Iterable[VertexId] | None = None,
-        links: Mapping[Hashable, Sequence[VertexId]] | None = None,
+        links: Mapping[Any, Sequence[VertexId]] | None = None,
     ) -> None:
         super().__init__()
         self.centres, self.on_line, self.on_plane, self.scissors, self.ground = (), (), (), (), None
@@ -155,7 +155,7 @@ class PolyhedronModel(nx.Graph):
                 raise InvariantError("distinct rods", f"rod {shown((a, b))} occurs twice", "once")
             self.add_edge(a, b)
 
-    def _set_coordinates(self, coordinates: Mapping[VertexId, Sequence[float]]) -> None:
+    def _set_coordinates(self, coordinates: Mapping[Any, Sequence[float]]) -> None:
         if coordinates and set(coordinates) != set(self.nodes):
             odd = next(iter(set(coordinates) ^ set(self.nodes)))
             raise InvariantError(
@@ -188,7 +188,9 @@ class PolyhedronModel(nx.Graph):
         if one.of == GROUND:
             if self.ground is None:
                 raise InvariantError(
-                    "point constraint", f"{who} of vertex {shown(one.vertex)} needs the ground link", "'ground'"
+                    "point constraint",
+                    f"{who} of vertex {shown(one.vertex)} needs the ground link",
+                    "'ground'",
                 )
             return one
         spanning = self._known(one.of, who)
@@ -220,11 +222,11 @@ class PolyhedronModel(nx.Graph):
         """Return a plain, mutable ``nx.Graph`` with the same vertices and rods (or a view, if asked)."""
         return super().copy(as_view=True) if as_view else nx.Graph(self)
 
-    def to_undirected_class(self) -> type[nx.Graph]:
+    def to_undirected_class(self) -> Any:
         """Return the class of undirected copies: a plain graph."""
         return nx.Graph
 
-    def to_directed_class(self) -> type[nx.DiGraph]:
+    def to_directed_class(self) -> Any:
         """Return the class of directed copies."""
         return nx.DiGraph
 
@@ -249,7 +251,7 @@ class PolyhedronModel(nx.Graph):
     def counted_rods(self) -> int:
         """E: rods that are counted, all of them or all but those within the ground link."""
         ground = self.ground or frozenset()
-        return self.number_of_edges() - sum(a in ground and b in ground for a, b in self.edges)
+        return sum(not (a in ground and b in ground) for a, b in self.edges)
 
     def relabel(self, vertices: Mapping[VertexId, VertexId]) -> PolyhedronModel:
         """Return the same model with other vertex names; what the mapping leaves out keeps its name."""

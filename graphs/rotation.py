@@ -13,7 +13,16 @@ from dataclasses import dataclass, field
 from graphs.errors import InvariantError, shown
 from graphs.loops import JointId, Joints, LinkId
 
-__all__ = ["Corner", "Face", "Rotation", "Side", "check_rotation", "face_cycles", "link_vertices", "trace_faces"]
+__all__ = [
+    "Corner",
+    "Face",
+    "Rotation",
+    "Side",
+    "check_rotation",
+    "face_cycles",
+    "link_vertices",
+    "trace_faces",
+]
 
 Side = JointId | None
 """A side of a link: the id of the joint on it, or None for an open edge."""
@@ -110,9 +119,15 @@ def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], d
     >>> [face.open_edges for face in faces]
     [0, 3]
     """
-    place = {(link, side): i for link, sides in rotation.items() for i, side in enumerate(sides) if side is not None}
-    leaving = {(link, side): _next_joint(sides, i) for link, sides in rotation.items()
-               for i, side in enumerate(sides) if side is not None}
+    place = {
+        (link, side): i for link, sides in rotation.items() for i, side in enumerate(sides) if side is not None
+    }
+    leaving = {
+        (link, side): _next_joint(sides, i)
+        for link, sides in rotation.items()
+        for i, side in enumerate(sides)
+        if side is not None
+    }
     faces: list[Face] = []
     left_of: dict[tuple[JointId, LinkId], int] = {}
     for joint, ends in joints.items():

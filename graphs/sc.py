@@ -6,6 +6,7 @@ Source: Wiener 2016, section 3.3 (the SC connectivity graph). Theory: docs/theor
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -71,7 +72,7 @@ class SCGraph(nx.MultiGraph):
     def __init__(
         self,
         links: int | Iterable[LinkId] | None = None,
-        joints: Mapping[JointId, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
+        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
         loops: Iterable[Loop] = (),
         *,
         closing: Iterable[Loop] = (),
@@ -84,11 +85,16 @@ class SCGraph(nx.MultiGraph):
             return  # networkx makes an empty instance of the class before it fills a view
         self._add_links(range(links) if isinstance(links, int) else links)
         self._add_joints(joints)
-        self.loops = tuple(self._ordered(loop) for loop in loops)
-        self.closing = tuple(self._ordered(loop) for loop in closing)
+        self.loops = self._ordered(loops, "loops")
+        self.closing = self._ordered(closing, "closing")
         self._check_loops()
         if ground is not None and ground not in self:
-            raise InvariantError("ground is a link", f"ground {shown(ground)} is no link", "one of the links")
+            raise InvariantError(
+                "ground is a link",
+                f"ground {shown(ground)} is no link",
+                "one of the links",
+                ("ground", ground),
+            )
         self.ground = ground
         nx.freeze(self)
 
@@ -99,50 +105,74 @@ class SCGraph(nx.MultiGraph):
         for link in links:
             if link is None or str(link) in texts:
                 raise InvariantError(
-                    "distinct links", f"link {shown(link)} occurs twice, or has no name", "distinct names"
+                    "distinct links",
+                    f"link {shown(link)} occurs twice, or has no name",
+                    "distinct names",
+                    ("links", link),
                 )
             texts[str(link)] = link
         self.add_nodes_from(texts.values())
 
-    def _add_joints(
-        self, joints: Mapping[JointId, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]]
-    ) -> None:
+    def _add_joints(self, joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]]) -> None:
         pairs = joints.items() if isinstance(joints, Mapping) else enumerate(joints)
         texts: set[str] = set()
         for joint, (a, b) in pairs:
+            part = ("joints", joint)
             for link in (a, b):
                 if link not in self:
                     raise InvariantError(
-                        "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}, no link"
+                        "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}", "a link", part
                     )
             if a == b:
                 raise InvariantError(
-                    "no self-joint", f"joint {shown(joint)} joins link {shown(a)} to itself", "two links"
+                    "no self-joint",
+                    f"joint {shown(joint)} joins link {shown(a)} to itself",
+                    "two links",
+                    part,
                 )
             if joint is None or str(joint) in texts:
-                raise InvariantError("distinct joints", f"joint {shown(joint)} occurs twice, or has no id")
+                raise InvariantError(
+                    "distinct joints",
+                    f"joint {shown(joint)} occurs twice, or has no id",
+                    "distinct ids",
+                    part,
+                )
             texts.add(str(joint))
             self._joints[joint] = (a, b)
         self.add_edges_from((a, b, joint) for joint, (a, b) in self._joints.items())
 
-    def _ordered(self, loop: Loop) -> Loop:
-        order = cyclic_order(loop, self._joints)
-        return loop if order == loop.joints else Loop(order, loop.centre, loop.name, loop.at)
+    def _ordered(self, loops: Iterable[Loop], part: str) -> tuple[Loop, ...]:
+        ordered = []
+        for index, loop in enumerate(loops):
+            try:
+                order = cyclic_order(loop, self._joints)
+            except InvariantError as error:
+                error.part = (part, index)
+                raise
+            ordered.append(loop if order == loop.joints else replace(loop, joints=order))
+        return tuple(ordered)
 
     def _check_loops(self) -> None:
         check_independent(self.loops)
-        for loop in self.closing:
-            if not loop.has_centre:
-                raise InvariantError("closing loop", f"{loop.label} closes nothing: it has no centre")
-            if any(set(loop.joints) == set(other.joints) for other in self.loops):
-                raise InvariantError("closing loop", f"{loop.label} is among the loops already")
-            if dependent_loop([x.joints for x in (*self.loops, loop)]) is None:
-                raise InvariantError(
-                    "closing loop", f"{loop.label} does not depend on the loops", "a sum of the loops"
-                )
-        if (index := dependent_loop([x.joints for x in self.closing])) is not None:
-            raise InvariantError("closing loop", f"{self.closing[index].label} depends on other closing loops")
+        for index, loop in enumerate(self.closing):
+            self._check_closing(loop, ("closing", index))
+        if (culprit := dependent_loop([x.joints for x in self.closing])) is not None:
+            raise InvariantError(
+                "closing loop",
+                f"{self.closing[culprit].label} is a sum of other closing loops",
+                "independent closing loops",
+                ("closing", culprit),
+            )
         self.centre_classes()
+
+    def _check_closing(self, loop: Loop, part: tuple[str, int]) -> None:
+        rule = "closing loop"
+        if not loop.has_centre:
+            raise InvariantError(rule, f"{loop.label} has no centre", "one: it closes nothing else", part)
+        if any(set(loop.joints) == set(other.joints) for other in self.loops):
+            raise InvariantError(rule, f"{loop.label} is among the loops already", "a sum of several", part)
+        if dependent_loop([x.joints for x in (*self.loops, loop)]) is None:
+            raise InvariantError(rule, f"{loop.label} does not depend on the loops", "a sum of them", part)
 
     # ---- what networkx asks for ---------------------------------------------------------------------
 
@@ -150,11 +180,11 @@ class SCGraph(nx.MultiGraph):
         """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints (or a view, if asked)."""
         return super().copy(as_view=True) if as_view else nx.MultiGraph(self)
 
-    def to_undirected_class(self) -> type[nx.MultiGraph]:
+    def to_undirected_class(self) -> Any:
         """Return the class of undirected copies: a plain multigraph, since loops do not survive editing."""
         return nx.MultiGraph
 
-    def to_directed_class(self) -> type[nx.MultiDiGraph]:
+    def to_directed_class(self) -> Any:
         """Return the class of directed copies."""
         return nx.MultiDiGraph
 
@@ -216,8 +246,8 @@ class SCGraph(nx.MultiGraph):
 
     def relabel(
         self,
-        links: Mapping[LinkId, LinkId] | None = None,
-        joints: Mapping[JointId, JointId] | None = None,
+        links: Mapping[Any, LinkId] | None = None,
+        joints: Mapping[Any, JointId] | None = None,
     ) -> SCGraph:
         """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
         of_link, of_joint = dict(links or {}), dict(joints or {})
@@ -237,7 +267,7 @@ class SCGraph(nx.MultiGraph):
 
         The order of links and joints, and the start and direction of a loop, do not matter.
         """
-        return type(self) is type(other) and self._identity() == other._identity()  # type: ignore[attr-defined]
+        return type(self) is type(other) and self._identity() == other._identity()
 
     def _identity(self) -> tuple[Any, ...]:
         return (

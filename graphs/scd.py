@@ -105,10 +105,10 @@ class SCDGraph(SCGraph):
     def __init__(
         self,
         links: int | Iterable[LinkId] | None = None,
-        joints: Mapping[JointId, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
+        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
         loops: Iterable[Loop] = (),
         *,
-        rotation: Mapping[LinkId, Sequence[Side]] | None = None,
+        rotation: Mapping[Any, Sequence[Side]] | None = None,
         outer: tuple[JointId, str] | None = None,
         closing: Iterable[Loop] = (),
         ground: LinkId | None = None,
@@ -125,7 +125,7 @@ class SCDGraph(SCGraph):
 
     # ---- construction -------------------------------------------------------------------------------
 
-    def _set_rotation(self, rotation: Mapping[LinkId, Sequence[Side]]) -> None:
+    def _set_rotation(self, rotation: Mapping[Any, Sequence[Side]]) -> None:
         for link in rotation:
             if link not in self:
                 raise InvariantError("rotation", f"there is a rotation for {shown(link)}, which is no link")
@@ -284,8 +284,8 @@ class SCDGraph(SCGraph):
 
     def relabel(
         self,
-        links: Mapping[LinkId, LinkId] | None = None,
-        joints: Mapping[JointId, JointId] | None = None,
+        links: Mapping[Any, LinkId] | None = None,
+        joints: Mapping[Any, JointId] | None = None,
     ) -> SCDGraph:
         """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
         bare = super().relabel(links, joints)

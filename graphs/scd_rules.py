@@ -46,7 +46,9 @@ def check_sides(rotation: Rotation) -> None:
     for link, sides in rotation.items():
         if len(sides) < 3:
             raise InvariantError(
-                "link degree", f"link {shown(link)} has {len(sides)} side(s)", "three or more, open edges included"
+                "link degree",
+                f"link {shown(link)} has {len(sides)} side(s)",
+                "three or more, open edges included",
             )
 
 
@@ -171,7 +173,9 @@ def _check_own_vertices(scd: SCDGraph) -> None:
 def _check_s1(points: Mapping[JointId, frozenset[int]]) -> None:
     for a, b in _sharing_two(points):
         raise InvariantError(
-            "S1", f"joints {shown(a)} and {shown(b)} share two points, so they are one axis", "one point at most"
+            "S1",
+            f"joints {shown(a)} and {shown(b)} share two points, so they are one axis",
+            "one point at most",
         )
 
 
@@ -182,7 +186,9 @@ def _check_s2(
         common = of_link[a] & of_link[b]
         if not scd.has_edge(a, b):
             raise InvariantError(
-                "S2", f"links {shown(a)} and {shown(b)} share {len(common)} points and no joint", "one at most"
+                "S2",
+                f"links {shown(a)} and {shown(b)} share {len(common)} points and no joint",
+                "one at most",
             )
         if not any(common <= of_joint[joint] for joint in scd[a][b]):
             raise InvariantError(

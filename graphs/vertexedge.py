@@ -16,7 +16,7 @@ from types import MappingProxyType
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.loops import Centre, JointId, LinkId, Loop, split_dependent
 from graphs.sc import SCGraph
 
 __all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]
@@ -124,19 +124,12 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
         i = place[ends[0], crease]
         joints[crease] = (link[sectors[sector(ends[0], i - 1)]], link[sectors[sector(ends[0], i)]])
     loops = [Loop(creases, Centre.FINITE, str(vertex)) for vertex, creases in graph.vertices.items()]
-    return _dependent_apart(SCGraph(len(link), joints), loops, graph)
-
-
-def _dependent_apart(bare: SCGraph, loops: list[Loop], graph: VertexEdgeGraph) -> SCGraph:
-    """On a closed surface (no free crease in a component) the last loop of the component closes it."""
-    closing = []
-    index = {vertex: i for i, vertex in enumerate(graph.vertices)}
-    for component in nx.connected_components(graph.to_networkx()):
-        creases = {crease for vertex in component for crease in graph.vertices[vertex]}
-        if all(len(graph.creases[crease]) == 2 for crease in creases):
-            closing.append(max(index[vertex] for vertex in component))
-    return bare.with_loops(
-        [loop for i, loop in enumerate(loops) if i not in closing], [loops[i] for i in closing]
+    kept, closing = split_dependent(list(graph.vertices.values()))
+    return SCGraph(
+        len(link),
+        joints,
+        [loops[i] for i in kept],
+        closing=[loops[i] for i in closing],
     )
 
 

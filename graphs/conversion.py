@@ -1,0 +1,150 @@
+"""From any object that a file may hold to any other.
+
+One function a target; each says what stands in the way where there is no road. The roads themselves are in
+:mod:`graphs.reconstruction`, :mod:`graphs.panels`, :mod:`graphs.sheet` and :mod:`graphs.vertexedge`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from graphs.errors import UnsolvableError
+from graphs.panels import oriented_panels, scd_from_panels
+from graphs.polyhedron import PolyhedronModel
+from graphs.reconstruction import reconstruct
+from graphs.sc import SCGraph
+from graphs.scd import SCDGraph
+from graphs.sheet import Sheet, mechanism_of_sheet, sheet_from_model
+from graphs.vertexedge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
+
+__all__ = ["CONVERSIONS", "Mechanism", "to_polyhedron", "to_sc", "to_scd", "to_sheet", "to_vertex_edge"]
+
+Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet
+"""What a file may hold (an SCDGraph is an SCGraph)."""
+
+
+def to_sc(thing: Mechanism) -> SCGraph:
+    """Return the SC graph of anything that has one.
+
+    Raises
+    ------
+    UnsolvableError
+
+    Examples
+    --------
+    >>> print(to_sc(VertexEdgeGraph({"O": ("a", "b", "c", "d")})))
+    SCGraph with 4 links, 4 joints, 1 centred and 0 spatial loops
+    """
+    if isinstance(thing, SCDGraph):
+        return thing.sc_graph()
+    if isinstance(thing, SCGraph):
+        return thing
+    if isinstance(thing, VertexEdgeGraph):
+        return sc_from_vertex_edge(thing)
+    if isinstance(thing, Sheet):
+        return mechanism_of_sheet(thing).sc
+    return to_scd(thing).sc_graph()
+
+
+def to_scd(thing: Mechanism) -> SCDGraph:
+    """Return the SCD graph of an SCD graph, a sheet of plain panels, or a model that knows its links.
+
+    Raises
+    ------
+    UnsolvableError
+    """
+    if isinstance(thing, SCDGraph):
+        return thing
+    if isinstance(thing, Sheet):
+        return scd_from_panels(dict(enumerate(_plain(thing).faces)))
+    if isinstance(thing, PolyhedronModel):
+        if not thing.links:
+            raise UnsolvableError("the polyhedron model does not say which vertices make up a link")
+        if thing.centres or thing.on_line or thing.on_plane or thing.scissors or thing.ground is not None:
+            raise UnsolvableError("the polyhedron model has more than panels (remote centres, points, ground)")
+        return scd_from_panels(thing.links)
+    raise UnsolvableError("the order of the sides of the links is not known: write an SCD graph or a sheet")
+
+
+def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
+    """Return the polyhedron model; a sheet's coordinates go with it.
+
+    Raises
+    ------
+    UnsolvableError
+
+    Examples
+    --------
+    >>> model = to_polyhedron(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
+    >>> len(model), model.number_of_edges()
+    (4, 5)
+    """
+    if isinstance(thing, PolyhedronModel):
+        return thing
+    scd = to_scd(thing)
+    model = reconstruct(scd)
+    if not isinstance(thing, Sheet) or thing.coordinates is None:
+        return model
+    panels = oriented_panels(dict(enumerate(thing.faces)))
+    old = {}
+    for link, vertices in scd.vertices.items():
+        for i, vertex in enumerate(vertices):  # vertex i lies after side i, which starts at panel vertex i
+            old[vertex] = panels[link][(i + 1) % len(vertices)]
+    places = {vertex: (*thing.coordinates[v], 0.0)[:3] for vertex, v in old.items()}
+    return PolyhedronModel(
+        model.nodes, model.edges, coordinates=places, centres=model.centres, links=dict(model.links)
+    )
+
+
+def to_sheet(thing: Mechanism) -> Sheet:
+    """Return the sheet of a sheet, an SCD graph or a model that knows its links.
+
+    Raises
+    ------
+    UnsolvableError
+    """
+    if isinstance(thing, Sheet):
+        return thing
+    model = to_polyhedron(thing)
+    if not model.links:
+        raise UnsolvableError("the polyhedron model does not say which vertices make up a link")
+    return sheet_from_model(model)
+
+
+def to_vertex_edge(thing: Mechanism) -> VertexEdgeGraph:
+    """Return the vertex-edge graph.
+
+    Raises
+    ------
+    UnsolvableError
+    """
+    return thing if isinstance(thing, VertexEdgeGraph) else vertex_edge_from_sc(to_sc(thing))
+
+
+CONVERSIONS: dict[str, Callable[[Mechanism], Mechanism]] = {
+    "sc": to_sc,
+    "scd": to_scd,
+    "polyhedron": to_polyhedron,
+    "vertex-edge": to_vertex_edge,
+    "sheet": to_sheet,
+}
+"""Name of a kind to the function that makes it."""
+
+
+def _plain(sheet: Sheet) -> Sheet:
+    """Refuse a sheet whose faces are not its links: flat folds merged, cuts, split hinges."""
+    mechanism = mechanism_of_sheet(sheet)
+    if len(mechanism.panels) < len(sheet.faces):
+        raise UnsolvableError("the sheet has flat edges: its links are more than one face each")
+    shared = sum(len(sheet_side) == 2 for sheet_side in _faces_at_sides(sheet).values())
+    if shared != len(mechanism.sc.joints):
+        raise UnsolvableError("the sheet has cuts between faces or hinges in several pieces")
+    return sheet
+
+
+def _faces_at_sides(sheet: Sheet) -> dict[frozenset[int], list[int]]:
+    at: dict[frozenset[int], list[int]] = {}
+    for index, face in enumerate(sheet.faces):
+        for side in zip(face, (*face[1:], face[0]), strict=True):
+            at.setdefault(frozenset(side), []).append(index)
+    return at

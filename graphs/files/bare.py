@@ -1,0 +1,192 @@
+"""Bare link-joint graphs: graph6 and sparse6 (nauty), GraphML, and edge lists.
+
+Such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
+centres (:func:`graphs.embedding.sc_from_link_joint_graph`); written, loops and centres are lost.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+from xml.etree.ElementTree import ParseError
+
+import networkx as nx
+
+from graphs.errors import FileError, InvariantError, UnsolvableError, shown
+from graphs.files.source import MOST_NODES, read_text
+from graphs.sc import SCGraph
+
+__all__ = ["edge_list_text", "graph6_text", "graphml_text", "read_edge_list", "read_graph6", "read_graphml"]
+
+_GRAPH6_OFFSET = 63
+_LARGEST_SHORT = 62
+
+
+def read_graph6(path: Path) -> Iterator[tuple[int, nx.Graph]]:
+    """Yield line number and graph for each line of a graph6 or sparse6 file.
+
+    Raises
+    ------
+    FileError
+        With the line.
+    """
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        text = re.sub(r"^>>(graph6|sparse6)<<", "", line.strip())
+        if not text:
+            continue
+        place = f"line {number}"
+        if not all(_GRAPH6_OFFSET <= ord(letter) <= 126 for letter in text.removeprefix(":")):
+            raise FileError(path, place, f"not graph6: {shown(text)}", "graph6 or sparse6")
+        order = _order(text.removeprefix(":"))
+        if order is None or order > MOST_NODES:
+            raise FileError(path, place, "the number of nodes is missing or too large", f"at most {MOST_NODES}")
+        parse = nx.from_sparse6_bytes if text.startswith(":") else nx.from_graph6_bytes
+        try:
+            yield number, parse(text.encode("ascii"))
+        except (nx.NetworkXError, ValueError, IndexError) as error:
+            raise FileError(path, place, f"not graph6: {error}".splitlines()[0], "graph6 or sparse6") from None
+
+
+def _order(text: str) -> int | None:
+    """Return the number of nodes that a graph6 or sparse6 line announces."""
+    digits = [ord(letter) - _GRAPH6_OFFSET for letter in text]
+    if digits and digits[0] <= _LARGEST_SHORT:
+        return digits[0]
+    body = digits[2:8] if digits[1:2] == [63] else digits[1:4]
+    if len(body) < 3 or (digits[1:2] == [63] and len(body) < 6):
+        return None
+    return sum(digit << 6 * i for i, digit in enumerate(reversed(body)))
+
+
+def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
+    r"""Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
+
+    Raises
+    ------
+    UnsolvableError
+        If two links share several joints and the form is graph6, which cannot say so.
+
+    Examples
+    --------
+    >>> graph6_text(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]), sparse=False)
+    'Cl\n'
+    """
+    if sc.parallel_joints() and not sparse:
+        raise UnsolvableError("graph6 cannot hold links that share several joints; write sparse6 (.s6)")
+    numbered = nx.convert_node_labels_to_integers(nx.MultiGraph(sc))
+    if sparse:
+        return str(nx.to_sparse6_bytes(numbered, header=False).decode("ascii"))
+    return str(nx.to_graph6_bytes(nx.Graph(numbered), header=False).decode("ascii"))
+
+
+def read_graphml(path: Path) -> nx.MultiGraph:
+    """Read the link-joint graph of a GraphML file; directions are dropped.
+
+    Raises
+    ------
+    FileError
+    """
+    text = read_text(path)
+    try:
+        graph = nx.read_graphml(BytesIO(text.encode("utf-8")), force_multigraph=True)
+    except ParseError as error:
+        line, column = error.position
+        raise FileError(path, f"line {line} column {column}", "not XML", "GraphML") from None
+    except (nx.NetworkXError, KeyError, TypeError, ValueError, AttributeError) as error:
+        raise FileError(path, "", f"not GraphML: {shown(str(error))}", "GraphML") from None
+    return nx.MultiGraph(graph)
+
+
+def graphml_text(sc: SCGraph) -> str:
+    """Return the GraphML text of the link-joint graph.
+
+    Raises
+    ------
+    UnsolvableError
+        If a name holds a character that XML cannot.
+
+    Examples
+    --------
+    >>> "edge" in graphml_text(SCGraph(2, [(0, 1)]))
+    True
+    """
+    for name in (*sc.nodes, *sc.joints):
+        if re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", str(name)):
+            raise UnsolvableError(f"XML cannot hold the name {shown(name)}")
+    named = nx.MultiGraph()
+    named.add_nodes_from(map(str, sc.nodes))
+    named.add_edges_from((str(a), str(b), str(joint)) for joint, (a, b) in sc.joints.items())
+    return "\n".join(nx.generate_graphml(named)) + "\n"
+
+
+def read_edge_list(path: Path) -> nx.MultiGraph:
+    """Read lines ``link link [joint id]``; ``#`` starts a comment, blanks or a comma part the names.
+
+    Names that are all integers become integers.
+
+    Raises
+    ------
+    FileError
+        With the line.
+    """
+    rows: list[list[str]] = []
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        words = re.split(r"[\s,;]+", line.split("#", 1)[0].strip())
+        if words == [""]:
+            continue
+        if len(words) not in (2, 3):
+            raise FileError(path, f"line {number}", f"{len(words)} word(s)", "two links, and perhaps a joint id")
+        rows.append(words)
+    if not rows:
+        raise FileError(path, "", "no joints", "lines with two links each")
+    whole = all(re.fullmatch(r"-?\d{1,18}", word) for words in rows for word in words[:2])
+    ids = [words[2] if len(words) == 3 else str(i) for i, words in enumerate(rows)]
+    if len(set(ids)) < len(ids):
+        again = next(one for one in ids if ids.count(one) > 1)
+        raise FileError(path, "", f"the joint id {shown(again)} occurs twice", "distinct ids")
+    plain = all(len(words) == 2 for words in rows)
+    graph = nx.MultiGraph()
+    for i, words in enumerate(rows):
+        a, b = (int(word) if whole else word for word in words[:2])
+        graph.add_edge(a, b, key=i if plain else ids[i])
+    return graph
+
+
+def edge_list_text(sc: SCGraph) -> str:
+    r"""Return one line ``link link joint`` a joint.
+
+    Raises
+    ------
+    UnsolvableError
+        If a name holds blanks, commas or ``#``, or a link has no joint.
+
+    Examples
+    --------
+    >>> edge_list_text(SCGraph(["A", "B"], {"a": ("A", "B")}))
+    'A B a\n'
+    """
+    for name in (*sc.nodes, *sc.joints):
+        if not re.fullmatch(r"[^\s,;#]+", str(name)):
+            raise UnsolvableError(f"an edge list cannot hold the name {shown(name)}")
+    if lonely := [link for link in sc.nodes if not sc.degree(link)]:
+        raise UnsolvableError(f"an edge list cannot hold link {shown(lonely[0])}, which has no joint")
+    return "".join(f"{a} {b} {joint}\n" for joint, (a, b) in sc.joints.items())
+
+
+def loopless(graph: nx.Graph, path: Path, place: str) -> nx.Graph:
+    """Refuse a graph with a self-joint, naming the place."""
+    for a in nx.nodes_with_selfloops(graph):
+        raise FileError(path, place, f"a joint joins link {shown(a)} to itself", "two links")
+    return graph
+
+
+def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:
+    """Give a graph read from a file its loops."""
+    from graphs.embedding import sc_from_link_joint_graph
+
+    try:
+        return sc_from_link_joint_graph(loopless(graph, path, place))
+    except InvariantError as error:
+        raise FileError(path, place, error.offender, error.expected) from None

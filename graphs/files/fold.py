@@ -1,0 +1,139 @@
+"""FOLD files in their plain form: one frame, faces given.
+
+Read as a :class:`graphs.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The format
+is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
+demands.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from graphs.errors import FileError
+from graphs.files.source import MOST_NODES, Checker
+from graphs.sheet import FLAT, HINGES, Sheet
+
+__all__ = ["fold_text", "sheet_from_fold"]
+
+_ASSIGNMENTS = HINGES + FLAT + "BC"
+
+
+def sheet_from_fold(value: Any, path: Path) -> Sheet:
+    """Build a sheet from a parsed FOLD document.
+
+    Parameters
+    ----------
+    value : parsed JSON
+    path : Path
+        Where it comes from, for messages.
+
+    Raises
+    ------
+    FileError
+        If the document is no FOLD file in plain form, with the place.
+
+    Examples
+    --------
+    >>> sheet = sheet_from_fold({"faces_vertices": [[0, 1, 2], [0, 2, 3]]}, Path("two.fold"))
+    >>> sheet.vertices, len(sheet.faces)
+    (4, 2)
+    """
+    check = Checker(path)
+    if not isinstance(value, dict):
+        check.fail("", value, "a FOLD document (an object)")
+    if "faces_vertices" not in value:
+        raise FileError(path, "faces_vertices", "missing", "the faces of the pattern, in the first frame")
+    faces = _indices(value["faces_vertices"], "faces_vertices", check)
+    edges = _indices(value.get("edges_vertices", []), "edges_vertices", check)
+    for i, edge in enumerate(edges):
+        if len(edge) != 2:
+            raise FileError(path, f"edges_vertices[{i}]", f"{len(edge)} vertices", "two")
+    coordinates = _coordinates(value.get("vertices_coords", []), check)
+    vertices = len(coordinates) or 1 + max((v for row in (*faces, *edges) for v in row), default=-1)
+    assignments, repairs = _assignments(value, len(edges), check)
+    more = value.get("file_frames", [])
+    if isinstance(more, list) and more:
+        repairs = (*repairs, f"{len(more)} more frame(s) not read")
+    title = value.get("frame_title", value.get("file_title", ""))
+    return check.build(
+        lambda: Sheet(
+            vertices,
+            tuple((a, b) for a, b in edges),
+            assignments,
+            faces,
+            coordinates or None,
+            title if isinstance(title, str) else "",
+            repairs,
+        ),
+        lambda part: f"{part[0]}_vertices[{part[1]}]",
+    )
+
+
+def fold_text(sheet: Sheet) -> str:
+    """Return the text of a FOLD 1.2 file; without coordinates the frame is marked abstract.
+
+    Examples
+    --------
+    >>> text = fold_text(Sheet(3, ((0, 1),), "B", ((0, 1, 2),)))
+    >>> json.loads(text)["frame_attributes"]
+    ['abstract']
+    """
+    document: dict[str, Any] = {
+        "file_spec": 1.2,
+        "file_creator": "synthedra",
+        "file_classes": ["singleModel"],
+    }
+    if sheet.title:
+        document["frame_title"] = sheet.title
+    if sheet.coordinates is None:
+        document["frame_attributes"] = ["abstract"]
+    else:
+        document["frame_attributes"] = [f"{len(sheet.coordinates[0]) if sheet.coordinates else 2}D"]
+        document["vertices_coords"] = [list(place) for place in sheet.coordinates]
+    document["edges_vertices"] = [list(edge) for edge in sheet.edges]
+    document["edges_assignment"] = list(sheet.assignments)
+    document["faces_vertices"] = [list(face) for face in sheet.faces]
+    lines = []
+    for key, value in document.items():
+        wide = isinstance(value, list) and value and isinstance(value[0], list)
+        items = ",\n".join("    " + json.dumps(item, allow_nan=False) for item in value) if wide else ""
+        lines.append(f'  "{key}": [\n{items}\n  ]' if wide else f'  "{key}": {json.dumps(value, allow_nan=False)}')
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
+    rows = []
+    for i, row in enumerate(check.list(value, key)):
+        place = f"{key}[{i}]"
+        rows.append(
+            tuple(
+                check.integer(v, f"{place}[{k}]", most=MOST_NODES)
+                for k, v in enumerate(check.list(row, place, what="a list of vertices"))
+            )
+        )
+    return tuple(rows)
+
+
+def _coordinates(value: Any, check: Checker) -> tuple[tuple[float, ...], ...]:
+    places = []
+    for i, row in enumerate(check.list(value, "vertices_coords")):
+        place = f"vertices_coords[{i}]"
+        listed = check.list(row, place, what="two or three numbers")
+        if len(listed) not in (2, 3):
+            raise FileError(check.path, place, f"{len(listed)} numbers", "two or three")
+        places.append(tuple(check.number(x, f"{place}[{k}]") for k, x in enumerate(listed)))
+    width = max((len(place) for place in places), default=0)
+    return tuple((*place, 0.0) if len(place) < width else place for place in places)
+
+
+def _assignments(value: dict[str, Any], edges: int, check: Checker) -> tuple[str, tuple[str, ...]]:
+    if "edges_assignment" not in value:
+        repairs = ("no edges_assignment: every side between two faces taken as a crease",) if edges else ()
+        return "U" * edges, repairs
+    letters = check.list(value["edges_assignment"], "edges_assignment", edges, f"a list of {edges}, one an edge")
+    for i, letter in enumerate(letters):
+        if not isinstance(letter, str) or len(letter) != 1 or letter not in _ASSIGNMENTS:
+            check.fail(f"edges_assignment[{i}]", letter, "one of " + " ".join(_ASSIGNMENTS))
+    return "".join(letters), ()

@@ -1,0 +1,181 @@
+"""One path from a file to a mechanism and back: formats by extension.
+
+To add a format, write a reader or a writer and enter it in ``READERS`` or ``WRITERS`` (CONTRIBUTING.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from graphs.conversion import Mechanism, to_sc, to_sheet
+from graphs.errors import FileError
+from graphs.files.bare import (
+    as_sc,
+    edge_list_text,
+    graph6_text,
+    graphml_text,
+    read_edge_list,
+    read_graph6,
+    read_graphml,
+)
+from graphs.files.fold import fold_text, sheet_from_fold
+from graphs.files.native import dumps, from_document
+from graphs.files.source import load_json, write_text
+from graphs.sheet import Sheet
+
+__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "write"]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One mechanism of a file.
+
+    Attributes
+    ----------
+    label : str
+        The file, and the line where it holds several.
+    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph or Sheet
+    """
+
+    label: str
+    mechanism: Mechanism
+
+
+def read_all(path: str | Path) -> Iterator[Entry]:
+    """Yield every mechanism of a file; most files hold one, graph6 files one a line.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    """
+    path = Path(path)
+    found = list(_reader(path)(path))
+    for place, mechanism in found:
+        yield Entry(f"{path}:{place}" if len(found) > 1 else str(path), mechanism)
+
+
+def read(path: str | Path) -> Mechanism:
+    """Return the one mechanism of a file.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read, or holds several mechanisms.
+
+    Examples
+    --------
+    >>> read("no such file.json")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: no such file.json: no such file; expected a file
+    """
+    entries = list(read_all(path))
+    if len(entries) != 1:
+        raise FileError(path, "", f"{len(entries)} mechanisms", "one")
+    return entries[0].mechanism
+
+
+def write(mechanism: Mechanism, path: str | Path) -> tuple[str, ...]:
+    """Write a mechanism in the format that the extension names.
+
+    Parameters
+    ----------
+    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph or Sheet
+        A sheet written as ``.json`` becomes the SC graph of its mechanism.
+    path : str or Path
+
+    Returns
+    -------
+    tuple of str
+        What the format could not hold.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known or the file cannot be written.
+    UnsolvableError
+        If the format cannot hold the mechanism.
+    """
+    path = Path(path)
+    writer = WRITERS.get(path.suffix.lower())
+    if writer is None:
+        raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(WRITERS)))
+    text, lost = writer(mechanism)
+    write_text(path, text)
+    return lost
+
+
+def _reader(path: Path) -> Callable[[Path], Iterator[tuple[str, Mechanism]]]:
+    reader = READERS.get(path.suffix.lower())
+    if reader is None and path.is_dir():
+        raise FileError(path, "", "a directory", "a file")
+    if reader is None and not path.exists():
+        raise FileError(path, "", "no such file", "a file")
+    if reader is None:
+        raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(READERS)))
+    return reader
+
+
+def _unknown(path: Path) -> str:
+    return f"files ending in {path.suffix!r} are not known" if path.suffix else "the name has no extension"
+
+
+def _read_json(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    yield "", from_document(load_json(path), path)
+
+
+def _read_fold(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    yield "", sheet_from_fold(load_json(path), path)
+
+
+def _read_graph6(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    for line, graph in read_graph6(path):
+        yield str(line), as_sc(graph, path, f"line {line}")
+
+
+def _read_graphml(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    yield "", as_sc(read_graphml(path), path)
+
+
+def _read_edges(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    yield "", as_sc(read_edge_list(path), path)
+
+
+READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
+    ".json": _read_json,
+    ".fold": _read_fold,
+    ".g6": _read_graph6,
+    ".s6": _read_graph6,
+    ".graphml": _read_graphml,
+    ".edges": _read_edges,
+    ".txt": _read_edges,
+}
+"""Extension to the reader: path to (place in the file, mechanism)."""
+
+_NO_LOOPS = ("loops and their centres",)
+
+
+def _write_json(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    if isinstance(mechanism, Sheet):
+        return dumps(to_sc(mechanism)), ("coordinates, and the shapes of the panels",)
+    return dumps(mechanism), ()
+
+
+def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    lost = () if isinstance(mechanism, Sheet) else ("names of links and joints",)
+    return fold_text(to_sheet(mechanism)), lost
+
+
+WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
+    ".json": _write_json,
+    ".fold": _write_fold,
+    ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), (*_NO_LOOPS, "names")),
+    ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), (*_NO_LOOPS, "names")),
+    ".graphml": lambda m: (graphml_text(to_sc(m)), _NO_LOOPS),
+    ".edges": lambda m: (edge_list_text(to_sc(m)), _NO_LOOPS),
+    ".txt": lambda m: (edge_list_text(to_sc(m)), _NO_LOOPS),
+}
+"""Extension to the writer: mechanism to text, and what the text could not hold."""

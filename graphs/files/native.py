@@ -1,0 +1,137 @@
+"""The native JSON files: SC graphs, SCD graphs, polyhedron models and vertex-edge graphs.
+
+The formats are published as JSON Schemas in ``graphs/schema/``; DESIGN, section 4. Guide: docs/files.md.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Hashable, Mapping
+from pathlib import Path
+from typing import Any
+
+from graphs.errors import FileError, shown
+from graphs.files.names import VERSION, head, tuple_of, written
+from graphs.files.native_graphs import read_sc, read_scd, sc_document
+from graphs.files.native_models import polyhedron_document, read_polyhedron
+from graphs.files.source import Checker
+from graphs.polyhedron import PolyhedronModel
+from graphs.sc import SCGraph
+from graphs.scd import SCDGraph
+from graphs.vertexedge import VertexEdgeGraph
+
+__all__ = ["FORMATS", "NativeObject", "document", "dumps", "from_document"]
+
+NativeObject = SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph
+
+
+def from_document(value: Any, path: Path) -> NativeObject:
+    """Build the object that a parsed native document describes.
+
+    Parameters
+    ----------
+    value : parsed JSON
+    path : Path
+        Where it comes from, for messages.
+
+    Raises
+    ------
+    FileError
+
+    Examples
+    --------
+    >>> doc = {"format": "synthedra/sc", "version": 1, "links": 2, "joints": [[0, 1]], "loops": []}
+    >>> print(from_document(doc, Path("two.json")))
+    SCGraph with 2 links, 1 joints, 0 centred and 0 spatial loops
+    """
+    check = Checker(path)
+    if not isinstance(value, dict):
+        check.fail("", value, "an object with the key 'format'")
+    kind = value.get("format")
+    if not isinstance(kind, str) or kind not in FORMATS:
+        raise FileError(
+            path, "format", "missing" if kind is None else shown(kind), "one of " + ", ".join(sorted(FORMATS))
+        )
+    if value.get("version") != VERSION or isinstance(value.get("version"), bool):
+        raise FileError(path, "version", shown(value.get("version")), str(VERSION))
+    return FORMATS[kind](value, check)
+
+
+def document(thing: NativeObject) -> dict[str, Any]:
+    """Return the native document of an object.
+
+    Raises
+    ------
+    UnsolvableError
+        If an id is neither text nor an integer.
+
+    Examples
+    --------
+    >>> document(SCGraph(2, [(0, 1)]))["joints"]
+    [[0, 1]]
+    """
+    if isinstance(thing, VertexEdgeGraph):
+        return _vertex_edge_document(thing)
+    return polyhedron_document(thing) if isinstance(thing, PolyhedronModel) else sc_document(thing)
+
+
+def dumps(thing: NativeObject) -> str:
+    """Return the text of a native file: one item of a list a line.
+
+    Examples
+    --------
+    >>> print(dumps(SCGraph(2, [(0, 1)])), end="")
+    {
+      "format": "synthedra/sc",
+      "version": 1,
+      "links": 2,
+      "joints": [
+        [0, 1]
+      ],
+      "loops": []
+    }
+    """
+    lines = []
+    for key, value in document(thing).items():
+        if isinstance(value, list) and value:
+            items = ",\n".join("    " + _compact(item) for item in value)
+            lines.append(f"  {_compact(key)}: [\n{items}\n  ]")
+        elif isinstance(value, dict) and value and key == "rotation":
+            items = ",\n".join(f"    {_compact(k)}: {_compact(v)}" for k, v in value.items())
+            lines.append(f"  {_compact(key)}: {{\n{items}\n  }}")
+        else:
+            lines.append(f"  {_compact(key)}: {_compact(value)}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _compact(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _read_vertex_edge(value: Mapping[str, Any], check: Checker) -> VertexEdgeGraph:
+    check.mapping(value, "", ("format", "version", "vertices"))
+    vertices: dict[Hashable, tuple[Hashable, ...]] = {}
+    for i, item in enumerate(check.list(value["vertices"], "vertices", what="a list of vertices")):
+        place = f"vertices[{i}]"
+        check.mapping(item, place, ("id", "creases"))
+        name = check.name(item["id"], f"{place}.id")
+        if name in vertices:
+            raise FileError(check.path, place, f"vertex {shown(name)} occurs twice", "distinct vertices")
+        vertices[name] = tuple_of(item["creases"], f"{place}.creases", check, what="a list of creases")
+    return check.build(lambda: VertexEdgeGraph(vertices), lambda part: part[0])
+
+
+def _vertex_edge_document(graph: VertexEdgeGraph) -> dict[str, Any]:
+    return head("vertex-edge") | {
+        "vertices": [
+            {"id": written(v), "creases": list(map(written, creases))} for v, creases in graph.vertices.items()
+        ]
+    }
+
+
+FORMATS: dict[str, Callable[[Mapping[str, Any], Checker], NativeObject]] = {
+    "synthedra/sc": read_sc,
+    "synthedra/scd": read_scd,
+    "synthedra/polyhedron": read_polyhedron,
+    "synthedra/vertex-edge": _read_vertex_edge,
+}

@@ -1,0 +1,61 @@
+"""The ``synth`` command and its subcommands.
+
+Subcommands are imported when they run, or to show their help, and they import what they need when they are
+called: ``synth --help`` loads neither networkx nor rich.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from typing import Any
+
+import click
+
+__all__ = ["main"]
+
+_COMMANDS = {
+    "mobility": "synth.cli.mobility:mobility",
+    "convert": "synth.cli.convert:convert",
+    "reconstruct": "synth.cli.reconstruct:reconstruct",
+}
+"""Name of a subcommand to where it is."""
+
+
+class _LazyGroup(click.Group):
+    """A group that finds its subcommands by name."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in _COMMANDS:
+            return None
+        module, name = _COMMANDS[cmd_name].split(":")
+        command = getattr(import_module(module), name)
+        assert isinstance(command, click.Command)
+        return command
+
+    def invoke(self, ctx: click.Context) -> Any:
+        from graphs.errors import SynthedraError
+
+        try:
+            return super().invoke(ctx)
+        except SynthedraError as error:
+            click.echo(str(error), err=True)
+            sys.exit(2)
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="synthedra", prog_name="synth")
+def main() -> None:
+    """Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
+
+    \b
+    Examples:
+      synth mobility mechanism.json crease-pattern.fold
+      synth convert crease-pattern.fold mechanism.json
+      synth reconstruct mechanism.json -o model.json
+
+    Exit status: 0 done, 1 the answer is no, 2 bad input or usage.
+    """

@@ -1,0 +1,142 @@
+"""``synth mobility``: the mobility of the mechanisms in files."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+import click
+
+from synth.cli.output import console, entries, plain, print_json, table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from graphs.conversion import Mechanism
+    from graphs.report import MobilityReport
+
+__all__ = ["mobility"]
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object a mechanism.")
+@click.option("--exact/--no-exact", default=True, help="Compute the exact generic rank too (on by default).")
+@click.option("--pose", type=click.IntRange(min=0), metavar="FRAME", help="Compute the freedoms at this frame.")
+def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | None) -> None:
+    """Say how many degrees of freedom a mechanism has, and which formula tells.
+
+    FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
+    (.fold), or a bare link-joint graph (.g6, .s6, .graphml, .edges). One file gives the whole report, several
+    give a table.
+
+    \b
+    Example:
+      synth mobility data/wiener/fortune-teller.json
+    """
+    from graphs.errors import SynthedraError
+
+    failures: list[str] = []
+    reports: list[tuple[str, MobilityReport]] = []
+    for entry in entries(files, failures):
+        try:
+            reports.append((entry.label, _report(entry.mechanism, exact, pose)))
+        except SynthedraError as error:
+            click.echo(f"{plain(entry.label)}: {error}", err=True)
+            failures.append(entry.label)
+    if as_json:
+        print_json([report.to_json(label) for label, report in reports])
+    elif len(reports) == 1 and not failures:
+        _print_report(console(), *reports[0])
+    elif reports:
+        _print_table(console(), reports)
+    if failures:
+        sys.exit(2)
+
+
+def _report(mechanism: Mechanism, exact: bool, pose: int | None) -> MobilityReport:
+    from graphs.conversion import to_sc
+    from graphs.polyhedron import PolyhedronModel
+    from graphs.report import mobility_report
+    from graphs.sc import SCGraph
+    from graphs.sheet import Sheet, mechanism_of_sheet
+
+    if isinstance(mechanism, Sheet):
+        found = mechanism_of_sheet(mechanism)
+        report = mobility_report(found.sc).with_notes(found.repairs, found.warnings)
+    elif isinstance(mechanism, SCGraph | PolyhedronModel):
+        report = mobility_report(mechanism)
+    else:
+        report = mobility_report(to_sc(mechanism))
+    missing = []
+    if exact:
+        missing.append("the exact generic rank is not computed by this version; counts are formulas")
+    if pose is not None:
+        missing.append("the freedoms at a pose are not computed by this version")
+    return report.with_notes(warnings=missing)
+
+
+_TITLES = {
+    "traditional_cgk": "C-G-K (Wiener Eq. 1)",
+    "modified_cgk": "modified C-G-K (Wiener Eq. 2)",
+    "spherical_system": "spherical system (Wiener Eq. 3)",
+    "polyhedron": "polyhedron (Wiener Eq. 4)",
+    "loop_form": "loop form",
+    "closed_surface": "closed surface",
+    "wampler_eq5": "Wampler Eq. 5, rods",
+    "wampler_eq6": "Wampler Eq. 6, points",
+    "wampler_eq7": "Wampler Eq. 7, S+3",
+    "wampler_eq8": "Wampler Eq. 8, S+k",
+    "wampler_eq9": "Wampler Eq. 9, scissors",
+    "wampler_eq10": "Wampler Eq. 10, no ground",
+}
+
+_COUNTS = {
+    "vertices": "vertices V",
+    "implicit_centres": "implicit centres C",
+    "edges": "rods E",
+    "external_edges": "external edges",
+    "internal_edges": "internal edges",
+    "spatial_loops": "spatial loops",
+    "remote": "sum of k over remote centres",
+    "on_plane": "points on planes P",
+    "on_line": "points on lines L",
+    "scissors": "scissors X",
+}
+
+
+def _print_report(out: Console, label: str, report: MobilityReport) -> None:
+    out.print(plain(label), style="bold")
+    out.print(f"mobility M = {plain(report.mobility)}   ({report.mechanism_class})")
+    known = [
+        ("links N", report.links),
+        ("joints J", report.joints),
+        ("loops L", report.loops),
+        ("centres", report.centres),
+        *((title, report.counts.get(key)) for key, title in _COUNTS.items()),
+    ]
+    out.print(", ".join(f"{title} {value}" for title, value in known if value is not None))
+    rows = table("equation", "M", "applies", "why", numbers=["M"])
+    for name, one in report.equations.items():
+        rows.add_row(_TITLES[name], plain(one.value), "yes" if one.applies else "no", one.why)
+    out.print(rows)
+    for kind, notes in (("repaired", report.repairs), ("note", report.warnings)):
+        for note in notes:
+            out.print(f"{kind}: {note}")
+
+
+def _print_table(out: Console, reports: list[tuple[str, MobilityReport]]) -> None:
+    rows = table("file", "class", "N", "J", "L", "centres", "M", numbers=["N", "J", "L", "centres", "M"])
+    for label, report in reports:
+        rows.add_row(
+            plain(label),
+            report.mechanism_class,
+            *map(plain, (report.links, report.joints, report.loops, report.centres, report.mobility)),
+        )
+    out.print(rows)
+    notes: dict[str, int] = {}
+    for _, report in reports:
+        for note in (*report.repairs, *report.warnings):
+            notes[note] = notes.get(note, 0) + 1
+    for note, number in notes.items():
+        out.print(f"note ({number} of {len(reports)}): {note}")
