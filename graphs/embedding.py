@@ -107,7 +107,8 @@ def sc_from_link_joint_graph(
         for block in blocks:
             if block.outer is None:
                 raise InvariantError("closed surface", "a block of the graph is not planar", "a planar graph")
-            closing.append(Loop(block.outer, Centre(centre)))
+            if len(block.inner) > 1:  # a ring has the same loop on both its sides
+                closing.append(Loop(block.outer, Centre(centre)))
     return bare.with_loops(loops, closing)
 
 

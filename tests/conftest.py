@@ -1,0 +1,38 @@
+"""Fixtures that all tests share."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+ROOT = Path(__file__).resolve().parent.parent
+
+settings.register_profile(
+    "synthedra", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("synthedra")
+
+
+@pytest.fixture(scope="session")
+def data() -> Path:
+    """The folder of the project's own mechanisms and golden values."""
+    return ROOT / "data"
+
+
+@pytest.fixture(scope="session")
+def golden(data: Path) -> dict:
+    """The checked numbers of the source papers."""
+    return json.loads((data / "golden.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="session")
+def fold_folder() -> Path:
+    """The folder of crease patterns by other people; the test skips where it is missing."""
+    folder = Path(os.environ.get("SYNTHEDRA_FOLD", ROOT.parent / "shared" / "fold"))
+    if not (folder / "INDEX.tsv").exists():
+        pytest.skip(f"no crease patterns at {folder}; name their folder in SYNTHEDRA_FOLD")
+    return folder

@@ -1,0 +1,45 @@
+"""A second method: generic mobility as joints minus the numerical rank of the loop closure at random."""
+
+from __future__ import annotations
+
+import networkx as nx
+import numpy as np
+
+from graphs.loops import Centre
+from graphs.sc import SCGraph
+
+
+def numeric_mobility(sc: SCGraph, seed: int = 0) -> int:
+    """Place the centres of a mechanism at random and count the freedoms of its joints."""
+    rng = np.random.default_rng(seed)
+    points = [np.append(rng.normal(size=3), 0.0 if one.centre is Centre.INFINITE else 1.0)
+              for one in sc.centre_classes()]  # fmt: skip
+    twists = {}
+    for joint in sc.joints:
+        on_axis = [p for one, p in zip(sc.centre_classes(), points, strict=True) if joint in one.joints]
+        assert len(on_axis) <= 2, "three centres on one axis need placing"
+        while len(on_axis) < 2:
+            on_axis.append(np.append(rng.normal(size=3), 1.0))
+        p, q = on_axis
+        twists[joint] = np.concatenate([p[3] * q[:3] - q[3] * p[:3], np.cross(p[:3], q[:3])])
+    rows = []
+    forest = nx.minimum_spanning_tree(nx.Graph(sc))
+    in_tree, first = {}, set()
+    for joint, (a, b) in sc.joints.items():
+        if forest.has_edge(a, b) and frozenset((a, b)) not in first:
+            first.add(frozenset((a, b)))
+            in_tree[frozenset((a, b))] = joint
+    number = {joint: i for i, joint in enumerate(sc.joints)}
+    for joint, (a, b) in sc.joints.items():
+        if in_tree.get(frozenset((a, b))) == joint:
+            continue
+        block = np.zeros((6, len(number)))
+        block[:, number[joint]] = twists[joint]  # from a to b, and back through the tree
+        path = nx.shortest_path(forest, b, a)
+        for u, v in zip(path, path[1:], strict=False):
+            k = in_tree[frozenset((u, v))]
+            block[:, number[k]] += twists[k] * (1 if sc.joints[k] == (u, v) else -1)
+        rows.append(block)
+    if not rows:
+        return len(number)
+    return len(number) - int(np.linalg.matrix_rank(np.vstack(rows), tol=1e-9))
