@@ -121,6 +121,8 @@ def _panels_at_side(panels: Mapping[LinkId, Panel]) -> dict[frozenset[Hashable],
     for link, vertices in panels.items():
         if len(set(vertices)) != len(vertices):
             raise InvariantError("panel", f"panel {shown(link)} names a vertex twice", "different vertices")
+        if len(vertices) < 3:
+            raise InvariantError("panel", f"panel {shown(link)} has {len(vertices)} vertices", "three or more")
         for side in _sides(vertices):
             at_side.setdefault(frozenset(side), []).append(link)
     for edge, links in at_side.items():

@@ -139,8 +139,8 @@ def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
     Raises
     ------
     UnsolvableError
-        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, a joint lies in no
-        loop or in more than two, or the loops cannot be walked so that each shared joint is passed both ways.
+        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no
+        loop or in more than two.
 
     Examples
     --------
@@ -170,7 +170,10 @@ def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
 def _walked_alike(
     sc: SCGraph, loops: Sequence[Loop], through: Mapping[JointId, list[int]]
 ) -> dict[int, tuple[JointId, ...]]:
-    """Choose a direction for each loop so that a joint in two loops is passed in opposite directions."""
+    """Choose a direction for each loop so that a joint in two loops is passed in opposite directions.
+
+    That can be done: a sheet with one side has a cycle that is no sum of loops, and so a spatial loop.
+    """
     walks = [_passages(loop.joints, sc.joints) for loop in loops]
     turned: dict[int, bool] = {}
     for start in range(len(loops)):
@@ -184,14 +187,9 @@ def _walked_alike(
                 for k in through[joint]:
                     if k == i:
                         continue
-                    wanted = turned[i] ^ (walks[i][joint] == walks[k][joint])
                     if k not in turned:
-                        turned[k] = wanted
+                        turned[k] = turned[i] ^ (walks[i][joint] == walks[k][joint])
                         queue.append(k)
-                    elif turned[k] != wanted:
-                        raise UnsolvableError(
-                            f"{loops[i].label} and {loops[k].label} do not lie on a sheet with two sides"
-                        )
     return {i: loop.joints[::-1] if turned[i] else loop.joints for i, loop in enumerate(loops)}
 
 
