@@ -92,22 +92,17 @@ class _ScParts:
         return joints
 
     def _loops(self, value: Any, key: str) -> list[Loop]:
-        loops = []
-        for i, item in enumerate(self.check.list(value, key, what="a list of loops")):
-            place = f"{key}[{i}]"
-            self.check.mapping(item, place, ("joints", "centre"), ("name", "at"))
-            around = self.check.list(item["joints"], f"{place}.joints", what="a list of joint ids")
-            ids = [self.check.name(j, f"{place}.joints[{k}]", "a joint id") for k, j in enumerate(around)]
-            if item["centre"] not in [centre.value for centre in Centre]:
-                self.check.fail(f"{place}.centre", item["centre"], "finite, infinite or none")
-            name, at = (self.check.text(item[k], f"{place}.{k}") if k in item else None for k in ("name", "at"))
-            loops.append(
-                self.check.build(
-                    lambda ids=ids, item=item, name=name, at=at: Loop(tuple(ids), item["centre"], name, at),  # type: ignore[misc]
-                    lambda _, place=place: place,  # type: ignore[misc]
-                )
-            )
-        return loops
+        listed = self.check.list(value, key, what="a list of loops")
+        return [self._loop(item, f"{key}[{i}]") for i, item in enumerate(listed)]
+
+    def _loop(self, item: Any, place: str) -> Loop:
+        self.check.mapping(item, place, ("joints", "centre"), ("name", "at"))
+        around = self.check.list(item["joints"], f"{place}.joints", what="a list of joint ids")
+        ids = tuple(self.check.name(j, f"{place}.joints[{k}]", "a joint id") for k, j in enumerate(around))
+        if item["centre"] not in [centre.value for centre in Centre]:
+            self.check.fail(f"{place}.centre", item["centre"], "finite, infinite or none")
+        name, at = (self.check.text(item[k], f"{place}.{k}") if k in item else None for k in ("name", "at"))
+        return self.check.build(lambda: Loop(ids, Centre(item["centre"]), name, at), self.place_of, place)
 
     def place_of(self, part: tuple[str, object]) -> str:
         """Return the JSON path of a part of the graph."""

@@ -203,12 +203,15 @@ class Checker:
             raise FileError(self.path, place, "half of a surrogate pair", "text")
         return value
 
-    def build(self, make: Callable[[], T], place_of: Callable[[tuple[str, object]], str]) -> T:
-        """Build an object; turn a breach of its invariants into an error with a place in the file."""
+    def build(self, make: Callable[[], T], place_of: Callable[[tuple[str, object]], str], place: str = "") -> T:
+        """Build an object; turn a breach of its invariants into an error with a place in the file.
+
+        ``place_of`` gives the place of a part of the object, ``place`` that of the whole.
+        """
         try:
             return make()
         except InvariantError as error:
-            place = "" if error.part is None else place_of(error.part)
+            place = place if error.part is None else place_of(error.part)
             raise FileError(self.path, place, error.offender, error.expected) from None
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import plain, print_json
+from synth.cli.output import about, plain, print_json
 
 __all__ = ["convert"]
 
@@ -42,15 +42,16 @@ def convert(source: str, target: str, kind: str | None, form: str | None, as_jso
     from graphs.sc import SCGraph
 
     mechanism = read(source)
-    if kind is not None:
-        mechanism = CONVERSIONS[kind](mechanism)
-    if form is not None:
-        forms = {"planar": planar_analogue, "spherical": spherical_analogue, "general": generalised_form}
-        mechanism = forms[form](mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism))
-    lost = write(mechanism, target)
+    with about(source):
+        if kind is not None:
+            mechanism = CONVERSIONS[kind](mechanism)
+        if form is not None:
+            forms = {"planar": planar_analogue, "spherical": spherical_analogue, "general": generalised_form}
+            mechanism = forms[form](mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism))
+        lost = write(mechanism, target)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
         return
-    click.echo(f"{plain(target)}: from {type(mechanism).__name__}")
+    click.echo(f"{plain(target, 4096)}: from {type(mechanism).__name__}")
     if lost:
         click.echo("not stored: " + ", ".join(lost))

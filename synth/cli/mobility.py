@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import console, entries, plain, print_json, table
+from synth.cli.output import about, console, entries, plain, print_json, table
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from graphs.report import MobilityReport
 
 __all__ = ["mobility"]
+
+_LONGEST_PATH = 4096
 
 
 @click.command()
@@ -34,15 +36,16 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | Non
     Example:
       synth mobility data/wiener/fortune-teller.json
     """
-    from graphs.errors import SynthedraError
+    from graphs.errors import FileError
 
     failures: list[str] = []
     reports: list[tuple[str, MobilityReport]] = []
     for entry in entries(files, failures):
         try:
-            reports.append((entry.label, _report(entry.mechanism, exact, pose)))
-        except SynthedraError as error:
-            click.echo(f"{plain(entry.label)}: {error}", err=True)
+            with about(entry.label):
+                reports.append((entry.label, _report(entry.mechanism, exact, pose)))
+        except FileError as error:
+            click.echo(str(error), err=True)
             failures.append(entry.label)
     if as_json:
         print_json([report.to_json(label) for label, report in reports])
@@ -106,7 +109,7 @@ _COUNTS = {
 
 
 def _print_report(out: Console, label: str, report: MobilityReport) -> None:
-    out.print(plain(label), style="bold")
+    out.print(plain(label, _LONGEST_PATH), style="bold")
     out.print(f"mobility M = {plain(report.mobility)}   ({report.mechanism_class})")
     known = [
         ("links N", report.links),
@@ -129,7 +132,7 @@ def _print_table(out: Console, reports: list[tuple[str, MobilityReport]]) -> Non
     rows = table("file", "class", "N", "J", "L", "centres", "M", numbers=["N", "J", "L", "centres", "M"])
     for label, report in reports:
         rows.add_row(
-            plain(label),
+            plain(label, _LONGEST_PATH),
             report.mechanism_class,
             *map(plain, (report.links, report.joints, report.loops, report.centres, report.mobility)),
         )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -14,12 +15,12 @@ if TYPE_CHECKING:
 
     from graphs.files.formats import Entry
 
-__all__ = ["console", "entries", "plain", "print_json", "table"]
+__all__ = ["about", "console", "entries", "plain", "print_json", "table"]
 
 _WIDEST = 60
 
 
-def plain(value: object) -> str:
+def plain(value: object, widest: int = _WIDEST) -> str:
     r"""Return text that is safe to print: one line, no control characters, not too long.
 
     Examples
@@ -31,7 +32,22 @@ def plain(value: object) -> str:
     """
     text = "-" if value is None else str(value)
     text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
-    return text if len(text) <= _WIDEST else text[: _WIDEST - 3] + "..."
+    return text if len(text) <= widest else text[: widest - 3] + "..."
+
+
+@contextmanager
+def about(label: str) -> Iterator[None]:
+    """Put the file's name before what is wrong with its mechanism."""
+    from graphs.errors import FileError, InvariantError, SynthedraError
+
+    try:
+        yield
+    except FileError:
+        raise
+    except InvariantError as error:
+        raise FileError(label, "", error.offender, error.expected) from None
+    except SynthedraError as error:
+        raise FileError(label, "", str(error)) from None
 
 
 def print_json(value: Any) -> None:
@@ -57,7 +73,8 @@ def table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) 
     )
     flush = set(numbers)
     for column in columns:
-        made.add_column(Text(column), justify="right" if column in flush else "left")
+        justify: Literal["left", "right"] = "right" if column in flush else "left"
+        made.add_column(Text(column), justify=justify, overflow="fold")
     return made
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import console, plain, print_json, table
+from synth.cli.output import about, console, plain, print_json, table
 
 __all__ = ["reconstruct"]
 
@@ -29,8 +29,9 @@ def reconstruct(file: str, output: str | None, as_json: bool) -> None:
     from graphs.reconstruction import vertex_steps
 
     thing = read(file)
-    scd = to_scd(thing)
-    model = to_polyhedron(thing)
+    with about(file):
+        scd = to_scd(thing)
+        model = to_polyhedron(thing)
     if output is not None:
         write(model, output)
     steps = list(vertex_steps(scd))
@@ -65,4 +66,4 @@ def reconstruct(file: str, output: str | None, as_json: bool) -> None:
         f"+ {counts.internal_edges} internal, M = {mobility_of_model(model)}"
     )
     if output is not None:
-        out.print(f"written: {plain(output)}")
+        out.print(f"written: {plain(output, 4096)}")

@@ -9,7 +9,6 @@ from strategies import random_scd, randoms, scd_graphs
 from graphs.errors import InvariantError
 from graphs.loops import Loop
 from graphs.mobility import loop_form, polyhedron_equation
-from graphs.panels import scd_from_panels
 from graphs.report import mobility_report
 from graphs.scd import FaceKind, SCDGraph
 from graphs.scd_rules import points_of_joints, points_of_links

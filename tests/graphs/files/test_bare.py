@@ -1,0 +1,88 @@
+import networkx as nx
+import pytest
+from hypothesis import given
+from strategies import sc_graphs
+
+from graphs.embedding import sc_from_link_joint_graph
+from graphs.errors import FileError, UnsolvableError
+from graphs.files.bare import edge_list_text, graph6_text, graphml_text
+from graphs.files.formats import read, read_all, write
+from graphs.report import mobility_report
+from graphs.sc import SCGraph
+
+PARALLEL = SCGraph(["A", "B", "C"], {"a": ("A", "B"), "b": ("A", "B"), "c": ("B", "C")})
+
+
+def test_graph6_gives_loops_by_embedding(tmp_path):
+    path = tmp_path / "chains.g6"
+    path.write_text(">>graph6<<Cl\nEFz_\n\n", encoding="ascii")
+    entries = list(read_all(path))
+    assert [entry.label for entry in entries] == [f"{path}:1", f"{path}:2"]
+    four_bar = mobility_report(entries[0].mechanism)
+    assert (four_bar.mechanism_class, four_bar.mobility) == ("spherical", 1)
+    k33 = entries[1].mechanism
+    assert nx.is_isomorphic(nx.Graph(k33), nx.complete_bipartite_graph(3, 3))
+    assert len(k33.loops) == k33.independent_loops == 4  # not planar: a shortest cycle basis
+
+
+@pytest.mark.parametrize("suffix", [".s6", ".graphml", ".edges", ".txt"])
+def test_parallel_joints_survive(suffix, tmp_path):
+    path = tmp_path / f"a{suffix}"
+    assert "loops and their centres" in write(PARALLEL, path)
+    back = read(path)
+    assert sorted(d for _, d in back.degree()) == [1, 2, 3]
+    if suffix != ".s6":
+        assert dict(back.joints) == dict(PARALLEL.joints)
+
+
+def test_graph6_cannot_hold_parallel_joints():
+    with pytest.raises(UnsolvableError, match=r"write sparse6 \(.s6\)"):
+        graph6_text(PARALLEL, sparse=False)
+
+
+def test_names_that_a_format_cannot_hold():
+    with pytest.raises(UnsolvableError, match="an edge list cannot hold the name 'a b'"):
+        edge_list_text(SCGraph(["a b", "c"], [("a b", "c")]))
+    with pytest.raises(UnsolvableError, match="which has no joint"):
+        edge_list_text(SCGraph(3, [(0, 1)]))
+    with pytest.raises(UnsolvableError, match="XML cannot hold the name"):
+        graphml_text(SCGraph(["\x01", "c"], [("\x01", "c")]))
+
+
+def test_markup_in_names_is_escaped_in_graphml(tmp_path):
+    sc = SCGraph(["<script>", "& \"'"], {"]]>": ("<script>", "& \"'")})
+    write(sc, tmp_path / "a.graphml")
+    assert "<script>" not in (tmp_path / "a.graphml").read_text(encoding="utf-8")
+    assert read(tmp_path / "a.graphml").is_identical(sc)
+
+
+@given(sc_graphs)
+def test_bare_formats_keep_links_and_joints(tmp_path_factory, sc):
+    folder = tmp_path_factory.mktemp("bare")
+    plain = sc.relabel({link: i for i, link in enumerate(sc.nodes)})
+    for suffix in (".s6", ".graphml", ".edges"):
+        try:
+            write(plain, folder / f"a{suffix}")
+            back = read(folder / f"a{suffix}")
+        except UnsolvableError as error:
+            assert "no joint" in str(error)
+            continue
+        except FileError as error:
+            assert "is empty" in str(error)
+            continue
+        edges = sorted(tuple(sorted((str(a), str(b)))) for a, b in back.edges())
+        assert edges == sorted(tuple(sorted((str(a), str(b)))) for a, b in plain.edges())
+
+
+def test_an_edge_list_may_have_comments_and_commas(tmp_path):
+    path = tmp_path / "watt.edges"
+    path.write_text("# Watt\nA,B\nB, C\nC D # here\nD A\nD E\nE F\nF A\n", encoding="utf-8")
+    report = mobility_report(read(path))
+    assert (report.links, report.joints, report.centres, report.mobility) == (6, 7, 2, 1)
+
+
+def test_edge_keys_become_joint_ids():
+    graph = nx.MultiGraph()
+    graph.add_edge(0, 1, key="a")
+    graph.add_edge(0, 1, key="b")
+    assert set(sc_from_link_joint_graph(graph).joints) == {"a", "b"}

@@ -1,0 +1,136 @@
+import csv
+import json
+
+import pytest
+
+from graphs.errors import FileError, InvariantError
+from graphs.files.fold import fold_text, sheet_from_fold
+from graphs.files.formats import read, write
+from graphs.report import mobility_report
+from graphs.sheet import Sheet, mechanism_of_sheet
+
+SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+
+
+def test_flat_edges_merge_and_may_be_hinged():
+    sheet = Sheet(4, ((0, 2),), "F", ((0, 1, 2), (0, 2, 3)), SQUARE)
+    assert len(mechanism_of_sheet(sheet).sc) == 1
+    assert mechanism_of_sheet(sheet).panels == ((0, 1),)
+    assert len(mechanism_of_sheet(sheet, hinge_flat=True).sc.joints) == 1
+
+
+def test_a_border_between_two_faces_is_a_cut():
+    sheet = Sheet(4, ((0, 2),), "B", ((0, 1, 2), (0, 2, 3)), SQUARE)
+    mechanism = mechanism_of_sheet(sheet)
+    assert (len(mechanism.sc), len(mechanism.sc.joints)) == (2, 0)
+    assert any("taken as cuts" in note for note in mechanism.warnings)
+    assert "relative motion" in mobility_report(mechanism.sc).warnings[0]
+
+
+def test_a_crease_that_ends_inside_a_panel_folds_nothing():
+    points = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.5))
+    faces = ((0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))
+    sheet = Sheet(5, ((0, 4), (1, 4), (2, 4), (3, 4)), "VFFF", faces, points)
+    mechanism = mechanism_of_sheet(sheet)
+    assert (len(mechanism.sc), len(mechanism.sc.joints)) == (1, 0)
+    assert any("fold nothing" in note for note in mechanism.warnings)
+
+
+def test_a_split_hinge_is_one_joint_if_its_parts_are_in_line():
+    points = ((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (1.0, 1.0), (1.0, -1.0))
+    faces = ((0, 1, 3), (1, 2, 3), (1, 0, 4), (2, 1, 4))
+    edges = ((0, 1), (1, 2), (1, 3), (1, 4))
+    straight = mechanism_of_sheet(Sheet(5, edges, "VVFF", faces, points))
+    assert (len(straight.sc), len(straight.sc.joints), straight.interior_vertices) == (2, 1, 0)
+    assert straight.repairs == ("1 collinear split hinge(s) joined",)
+    bent = tuple((x, 0.1 if i == 1 else y) for i, (x, y) in enumerate(points))
+    mechanism = mechanism_of_sheet(Sheet(5, edges, "VVFF", faces, bent))
+    assert (len(mechanism.sc.joints), mechanism.interior_vertices) == (2, 1)
+    report = mobility_report(mechanism.sc)
+    assert report.mobility == -1
+    assert any("constrain 2 freedoms, not 3" in note for note in report.warnings)
+
+
+def test_a_panel_that_comes_back_to_a_vertex_parts_its_walk():
+    """Two opposite sectors of a vertex are one panel by a detour: the fan falls into two loops of two joints."""
+    points = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (2.0, 2.0), (-2.0, 3.0))
+    faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1), (2, 1, 5), (2, 5, 6), (3, 2, 6), (4, 3, 6, 5, 1))
+    edges = (
+        (0, 1),
+        (0, 2),
+        (0, 3),
+        (0, 4),
+        (1, 2),
+        (2, 5),
+        (5, 6),
+        (3, 6),
+        (3, 4),
+        (1, 4),
+        (2, 3),
+        (2, 6),
+        (1, 5),
+    )
+    letters = "VVVVFFFFFVVVV"
+    mechanism = mechanism_of_sheet(Sheet(7, edges, letters, faces, points))
+    assert all(len(loop.joints) >= 2 for loop in (*mechanism.sc.loops, *mechanism.sc.closing))
+    assert mechanism.sc.independent_loops >= len(mechanism.sc.loops)
+
+
+def test_three_faces_at_an_edge_are_refused():
+    with pytest.raises(InvariantError, match=r"the edge \(0, 1\) belongs to 3 faces; expected two at most"):
+        mechanism_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 1, 3), (0, 1, 4))))
+
+
+def test_flatness_is_judged_by_coordinates():
+    flat = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), tuple((x, y, 5.0) for x, y in SQUARE))
+    lifted = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), tuple((x, y, x * y) for x, y in SQUARE))
+    skewed = Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (0.0, 1.0, 1.0)))
+    assert [bool(mechanism_of_sheet(s).warnings) for s in (flat, lifted, skewed)] == [True, False, True]
+
+
+def test_a_closed_surface_has_a_closing_loop():
+    octahedron = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1), (5, 2, 1), (5, 3, 2), (5, 4, 3), (5, 1, 4)]
+    sc = mechanism_of_sheet(Sheet(6, (), "", tuple(octahedron))).sc
+    assert (len(sc.loops), len(sc.closing), mobility_report(sc).mobility) == (5, 1, 0)
+
+
+def test_fold_text_reads_back(tmp_path):
+    for sheet in (
+        Sheet(4, ((0, 2), (0, 1)), "VB", ((0, 1, 2), (0, 2, 3)), SQUARE, "Square"),
+        Sheet(4, ((0, 2),), "U", ((0, 1, 2), (0, 2, 3))),
+    ):
+        assert sheet_from_fold(json.loads(fold_text(sheet)), tmp_path) == sheet
+
+
+def test_crease_patterns_by_other_people(fold_folder, tmp_path):
+    """Counts equal the reference figures for every FOLD file that is plain; the others are refused by name."""
+    columns = ("N_panels(F merged)", "J_hinges", "Vint", "extra_loops", "Mgeneric_J-3Vint-6L")
+    plain = refused = 0
+    with (fold_folder / "INDEX.tsv").open(encoding="utf-8") as stream:
+        rows = [row for row in csv.DictReader(stream, delimiter="\t") if row["name"].endswith(".fold")]
+    for row in rows:
+        try:
+            sheet = read(fold_folder / row["name"])
+        except FileError as error:
+            assert row["has_faces_vertices"] == "no", row["name"]
+            assert "faces_vertices: missing" in str(error) or "not JSON" in str(error)
+            refused += 1
+            continue
+        if row["name"] == "rtori_13horns_triangulated.fold":
+            with pytest.raises(InvariantError, match="belongs to 4 faces"):
+                mechanism_of_sheet(sheet)
+            continue
+        mechanism = mechanism_of_sheet(sheet)
+        report = mobility_report(mechanism.sc)
+        found = (
+            report.links,
+            report.joints,
+            mechanism.interior_vertices,
+            report.counts["spatial_loops"],
+            report.mobility,
+        )
+        assert list(map(str, found)) == [row[column] for column in columns], row["name"]
+        write(sheet, tmp_path / "again.fold")
+        assert mechanism_of_sheet(read(tmp_path / "again.fold")).sc.is_identical(mechanism.sc), row["name"]
+        plain += 1
+    assert (plain, refused) == (50, 9)

@@ -1,0 +1,219 @@
+"""The command line: words, exit status, JSON, and harm done by odd input (none)."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import jsonschema
+import pytest
+from click.testing import CliRunner
+from strategies import ODD_NAMES
+
+from graphs.files.formats import read, write
+from graphs.loops import Loop
+from graphs.polyhedron import PolyhedronModel
+from graphs.sc import SCGraph
+from graphs.scd import SCDGraph
+from synth.cli.main import main
+
+KEYS = {"file", "class", "links", "joints", "loops", "centres", "mobility", "equations", "exact", "pose",
+        "repairs", "warnings"}  # fmt: skip
+
+
+def run(*words, code=0):
+    result = CliRunner().invoke(main, [str(word) for word in words])
+    assert result.exit_code == code, (result.output, result.exception)
+    if code == 2:
+        assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result
+
+
+def test_mobility_of_one_file(data):
+    out = run("mobility", data / "wiener" / "hybrid-ten-bar.json").stdout
+    assert "mobility M = 2   (hybrid)" in out
+    assert re.search(r"spherical system \(Wiener Eq. 3\) +5 +no", out)
+    assert "exact generic rank is not computed" in out
+    assert "exact" not in run("mobility", "--no-exact", data / "wiener" / "hybrid-ten-bar.json").stdout
+
+
+def test_mobility_of_several_files(data):
+    out = run("mobility", "--no-exact", data / "wiener" / "watt.json", data / "wampler" / "fig9.json").stdout
+    assert re.search(r"spherical system +6 +7 +2 +2 +1", out)
+    assert re.search(r"polyhedron model +- +- +- +0 +1", out)
+
+
+def test_mobility_json_has_the_promised_keys(data):
+    files = sorted(data.glob("w*/*.json")) + sorted(data.glob("patterns/*.fold"))
+    reports = json.loads(run("mobility", "--json", *files).stdout)
+    assert [report["file"] for report in reports] == list(map(str, files))
+    for report in reports:
+        assert report.keys() >= KEYS
+        assert report["exact"] is None
+        assert report["pose"] is None
+        assert any("exact generic rank" in note for note in report["warnings"])
+        for one in report["equations"].values():
+            assert one.keys() == {"value", "applies", "why"}
+            assert isinstance(one["applies"], bool)
+    watt = next(r for r in reports if r["file"].endswith("watt.json"))
+    assert (watt["links"], watt["joints"], watt["loops"], watt["centres"], watt["mobility"]) == (6, 7, 2, 2, 1)
+    posed = json.loads(run("mobility", "--json", "--pose", 0, files[0]).stdout)
+    assert any("pose" in note for note in posed[0]["warnings"])
+
+
+def test_good_files_are_reported_and_bad_ones_named(data, tmp_path):
+    (tmp_path / "bad.json").write_text("{", encoding="utf-8")
+    (tmp_path / "three.fold").write_text('{"faces_vertices": [[0,1,2],[0,1,3],[0,1,4]]}', encoding="utf-8")
+    good = data / "wiener" / "watt.json"
+    result = run("mobility", "--json", tmp_path / "bad.json", good, tmp_path / "three.fold", code=2)
+    assert [report["file"] for report in json.loads(result.stdout)] == [str(good)]
+    lines = result.stderr.splitlines()
+    assert len(lines) == 2
+    assert lines[0].startswith(f"{tmp_path}/bad.json: line 1 column 2: not JSON")
+    assert "three.fold: the edge (0, 1) belongs to 3 faces" in lines[1]
+    assert "watt.json" in run("mobility", tmp_path / "bad.json", good, code=2).stdout
+
+
+def test_a_file_of_many_graphs(tmp_path):
+    (tmp_path / "two.g6").write_text("Cl\nC~\n", encoding="ascii")
+    reports = json.loads(run("mobility", "--json", tmp_path / "two.g6").stdout)
+    assert [report["file"].rsplit(":", 1)[1] for report in reports] == ["1", "2"]
+
+
+@pytest.mark.parametrize("name", ODD_NAMES)
+def test_odd_names_do_no_harm(name, tmp_path):
+    path = tmp_path / "odd.json"
+    sc = SCGraph([name, "b"], {name: (name, "b"), "other": (name, "b")}, [Loop((name, "other"), name=name)])
+    write(sc, path)
+    out = run("mobility", path).stdout
+    assert all(len(line) < 200 for line in out.splitlines())
+    assert "\x1b" not in out
+    json.loads(run("mobility", "--json", path).stdout)
+    scd = SCDGraph([name, "b"], {"j": (name, "b")}, rotation={name: ("j", None, None), "b": ("j", None, None)})
+    write(scd, path)
+    out = run("reconstruct", path).stdout
+    assert all(len(line) < 200 for line in out.splitlines())
+    json.loads(run("reconstruct", "--json", path).stdout)
+    write(SCGraph([name, "b"], {"x": (name, "b"), "y": (name, "b")}, [Loop(("x",))] * 0), path)
+    path.write_text(path.read_text(encoding="utf-8").replace('"b"]', '"gone"]', 1), encoding="utf-8")
+    result = run("mobility", path, code=2)
+    assert len(result.stderr.splitlines()) == 1
+    assert len(result.stderr) < 400 + len(str(path))
+
+
+def test_terminal_control_in_names_is_not_printed(tmp_path):
+    path = tmp_path / "a.json"
+    scd = SCDGraph(
+        ["\x1b[2Jx", "b"], [("\x1b[2Jx", "b")], rotation={"\x1b[2Jx": (0, None, None), "b": (0, None, None)}
+    )
+    write(scd, path)
+    assert "\x1b" not in run("reconstruct", path).stdout
+
+
+def test_convert_round_trip(data, tmp_path):
+    scd = tmp_path / "scd.json"
+    run("convert", data / "patterns" / "bird-base.fold", scd, "--to", "scd")
+    assert isinstance(read(scd), SCDGraph)
+    run("convert", scd, tmp_path / "back.fold")
+    run("convert", tmp_path / "back.fold", tmp_path / "sc.json")
+    sc = read(tmp_path / "sc.json")
+    assert (len(sc), len(sc.joints), len(sc.loops)) == (16, 20, 5)
+    run("convert", data / "patterns" / "miura-3x3.fold", tmp_path / "model.json", "--to", "polyhedron")
+    model = read(tmp_path / "model.json")
+    assert isinstance(model, PolyhedronModel)
+    assert len(model.coordinates) == 16
+    run("convert", data / "wiener" / "nine-bar-mesh.json", tmp_path / "ve.json", "--to", "vertex-edge")
+    run("convert", tmp_path / "ve.json", tmp_path / "sc2.json", "--to", "sc")
+    assert len(read(tmp_path / "sc2.json")) == 9
+
+
+def test_convert_tells_what_is_lost(data, tmp_path):
+    watt = data / "wiener" / "watt.json"
+    assert "not stored: loops and their centres" in run("convert", watt, tmp_path / "watt.graphml").stdout
+    told = json.loads(run("convert", watt, tmp_path / "watt.g6", "--json").stdout)
+    assert told["lost"] == ["loops and their centres", "names"]
+    assert told["kind"] == "SCGraph"
+    result = run("convert", watt, tmp_path / "watt.fold", code=2)
+    assert result.stderr.splitlines() == [
+        "the order of the sides of the links is not known: write an SCD graph or a sheet"
+    ]
+    assert not (tmp_path / "watt.fold").exists()
+
+
+@pytest.mark.parametrize(("form", "centres"), [("planar", 1), ("spherical", 1), ("general", 2)])
+def test_convert_changes_the_centres(form, centres, data, tmp_path):
+    out = tmp_path / "out.json"
+    run("convert", data / "wiener" / "watt.json", out, "--form", form)
+    (report,) = json.loads(run("mobility", "--json", out).stdout)
+    assert (report["centres"], report["mobility"]) == (centres, 1)
+
+
+def test_reconstruct_writes_the_model(data, tmp_path):
+    out = run("reconstruct", data / "wiener" / "table3-row3.json", "-o", tmp_path / "model.json").stdout
+    assert "V = 9, C = 1, E = 15 external + 8 internal, M = 1" in out
+    assert "explicit centre" in out
+    told = json.loads(run("reconstruct", data / "wiener" / "table3-row3.json", "--json").stdout)
+    assert [v["vertex"] for v in told["vertices"]] == list(range(9))
+    (report,) = json.loads(run("mobility", "--json", tmp_path / "model.json").stdout)
+    assert (report["mobility"], report["centres"], report["counts"]["edges"]) == (1, 1, 23)
+    schema = Path(__file__).resolve().parents[2] / "graphs" / "schema" / "polyhedron.schema.json"
+    jsonschema.validate(json.loads((tmp_path / "model.json").read_text()), json.loads(schema.read_text()))
+
+
+def test_reconstruct_needs_the_sides_of_the_links(data):
+    result = run("reconstruct", data / "wiener" / "watt.json", code=2)
+    assert "the order of the sides of the links is not known" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "words", [[], ["mobility"], ["nonsense"], ["convert", "a.json"], ["mobility", "--pose", "-1", "a.json"]]
+)
+def test_usage_errors_keep_clicks_format(words):
+    result = run(*words, code=2)
+    assert "Usage:" in result.output
+
+
+@pytest.mark.parametrize("command", ["mobility", "convert", "reconstruct"])
+def test_every_help_text_has_an_example(command):
+    out = run(command, "--help").stdout
+    assert re.search(rf"Examples?:\n +synth {command} ", out)
+    assert "--json" in out
+
+
+def test_help_needs_neither_networkx_nor_rich():
+    code = (
+        "import sys; from synth.cli.main import main\n"
+        "try: main(['--help'])\n"
+        "except SystemExit: pass\n"
+        "heavy = {'networkx', 'numpy', 'rich', 'graphs.sc'} & set(sys.modules)\n"
+        "sys.exit(f'imported: {heavy}' if heavy else 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_closed_pipe_leaves_no_traceback(data):
+    """As with `synth mobility ... | head -1`."""
+    files = sorted(map(str, data.glob("w*/*.json"))) * 20
+    with subprocess.Popen(
+        [sys.executable, "-m", "synth.cli", "mobility", "--json", *files],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"},
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        assert b"Traceback" not in process.stderr.read()
+
+
+def test_shell_completion_knows_the_commands():
+    env = os.environ | {"_SYNTH_COMPLETE": "bash_complete", "COMP_WORDS": "synth ", "COMP_CWORD": "1"}
+    code = "from synth.cli.main import main; main(prog_name='synth')"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=env)
+    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {"mobility", "convert", "reconstruct"}

@@ -1,0 +1,59 @@
+"""The files under data/ are what data/make.py makes, and the imports go one way."""
+
+import ast
+import csv
+import json
+from pathlib import Path
+
+import make
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def test_the_data_are_what_the_script_makes(tmp_path, data):
+    make.main(tmp_path)
+    made = {path.relative_to(tmp_path): path.read_text() for path in tmp_path.rglob("*.*") if path.is_file()}
+    kept = {path.relative_to(data): path.read_text() for sub in ("wiener", "wampler", "patterns")
+            for path in (data / sub).iterdir()}  # fmt: skip
+    kept[Path("index.json")] = (data / "index.json").read_text()
+    assert made == kept
+
+
+def test_the_index_names_every_mechanism(data):
+    rows = json.loads((data / "index.json").read_text(encoding="utf-8"))
+    assert sorted(row["file"] for row in rows) == sorted(str(p.relative_to(data)) for p in data.glob("w*/*.json"))
+
+
+def test_golden_values_are_those_of_the_owner(golden):
+    original = ROOT.parent / "shared" / "golden" / "golden.json"
+    if not original.exists():
+        pytest.skip("the owner's golden values are not at hand")
+    assert golden == json.loads(original.read_text(encoding="utf-8"))
+
+
+ORDER = ["graphs", "enumerate", "synth"]
+
+
+@pytest.mark.parametrize("package", ORDER)
+def test_imports_go_one_way(package):
+    later = ORDER[ORDER.index(package) + 1 :]
+    for path in (ROOT / package).rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            for name in names:
+                assert name.split(".")[0] not in later, f"{path} imports {name}"
+                assert name != "enumerate", f"{path} hides the builtin"
+
+
+def test_no_file_outgrows_a_reader():
+    long = {str(p): n for package in ORDER for p in (ROOT / package).rglob("*.py")
+            if (n := len(p.read_text().splitlines())) > 430}  # fmt: skip
+    assert not long
+
+
+def test_crease_patterns_have_an_index(fold_folder):
+    with (fold_folder / "INDEX.tsv").open(encoding="utf-8") as stream:
+        names = [row["name"] for row in csv.DictReader(stream, delimiter="\t")]
+    assert all((fold_folder / name).exists() for name in names)
