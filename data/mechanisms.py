@@ -80,7 +80,7 @@ def one_remote_centre(centre: str) -> SCDGraph:
         5: [5, None, 6],
     }
     loops = [Loop(WATT_LOOPS[0].joints, centre), WATT_LOOPS[1]]
-    return SCDGraph(6, WATT, loops, rotation=rotation, outer=(0, "left"))
+    return SCDGraph(6, WATT, loops, rotation=rotation, outer=(0, "right"))
 
 
 def fig15_chain() -> SCDGraph:

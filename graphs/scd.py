@@ -160,23 +160,18 @@ class SCDGraph(SCGraph):
         self.outer_face = self.face_at(joint, side)
 
     def _match_loops(self) -> tuple[int | None, ...]:
-        """Find the loop of each face; every loop is the outer cycle of a bounded face, or closes the outer."""
-        of_cycle = {frozenset(x.joints): i for i, x in enumerate((*self.loops, *self.closing))}
-        matched: list[int | None] = []
-        for face in self.faces:
-            index = of_cycle.get(frozenset(self._own_cycle(face)))
-            matched.append(index)
-        missing = set(range(len(self.loops) + len(self.closing))) - set(matched)
-        if missing:
-            loop = (*self.loops, *self.closing)[min(missing)]
-            raise InvariantError("loops are faces", f"{loop.label} is not the outer cycle of a face")
-        if len(set(matched) - {None}) != len(matched) - matched.count(None):
-            matched = self._each_loop_once(matched)
-        return tuple(matched)
-
-    def _each_loop_once(self, matched: list[int | None]) -> list[int | None]:
-        """Where a single cycle bounds two faces, its loop belongs to the bounded one."""
-        return [None if face == self.outer_face else loop for face, loop in enumerate(matched)]
+        """Find the loop of each face: loops belong to bounded faces, a closing loop to the outer one."""
+        every = (*self.loops, *self.closing)
+        bounded = {frozenset(loop.joints): i for i, loop in enumerate(self.loops)}
+        outer = {frozenset(loop.joints): i for i, loop in enumerate(self.closing, start=len(self.loops))}
+        matched = tuple(
+            (outer if face.index == self.outer_face else bounded).get(frozenset(self._own_cycle(face)))
+            for face in self.faces
+        )
+        for index in sorted(set(range(len(every))) - set(matched)):
+            which = "a bounded face" if index < len(self.loops) else "the outer face"
+            raise InvariantError("loops are faces", f"{every[index].label} is not the outer cycle of {which}")
+        return matched
 
     def _own_cycle(self, face: Face) -> tuple[JointId, ...]:
         """Return the cycle that a face's centre belongs to: the one that parts it from the outer face."""

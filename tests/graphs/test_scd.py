@@ -42,12 +42,12 @@ LADDER_ROTATION = {0: (0, None, 6), 1: (1, None, 0, 7), 2: (2, None, 1, 8), 3: (
                    4: (3, 6, None), 5: (4, 7, 3, None), 6: (5, 8, 4, None), 7: (9, 5, None)}  # fmt: skip
 
 
-def watt(first, rotation, at=None):
+def watt(first, rotation, at=None, outer=(0, "right")):
     """Watt's chain with the rotations of the links of its first loop as given, the others triangles."""
     joints = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
     loops = [Loop(first, at=at), Loop((3, 4, 5, 6), at=at)]
     rotation = {4: (4, None, 5), 5: (5, None, 6)} | rotation
-    return SCDGraph(6, joints, loops, rotation=rotation, outer=(0, "left"))
+    return SCDGraph(6, joints, loops, rotation=rotation, outer=outer)
 
 
 INNER_RING = {5: (5, None, 4), 6: (6, None, 5), 7: (7, None, 6)}
@@ -69,7 +69,12 @@ BROKEN = {
     "odd outer face": (lambda: four_bar(outer=(0, "up")), "expected a joint and 'left' or 'right' [outer face]"),
     "loop is no face": (
         lambda: SCDGraph(8, LADDER, [Loop((0, 1, 8, 4, 3, 6))], rotation=LADDER_ROTATION, outer=(0, "left")),
-        "loop '0 1 8 4 3 6' is not the outer cycle of a face [loops are faces]",
+        "loop '0 1 8 4 3 6' is not the outer cycle of a bounded face [loops are faces]",
+    ),
+    "loop of the outer face": (
+        lambda: watt([0, 1, 2, 3], {0: (6, None, 0, 3), 1: (0, None, 1), 2: (1, None, 2), 3: (3, 2, None, 4)},
+                     outer=(0, "left")),
+        "loop '0 1 2 3' is not the outer cycle of a bounded face",
     ),
     "link degree": (lambda: four_bar(TRIANGLES | {0: (0, 3)}), "link 0 has 2 side(s); expected three or more"),
     "explicit centre": (

@@ -139,7 +139,7 @@ def test_convert_tells_what_is_lost(data, tmp_path):
     assert told["kind"] == "SCGraph"
     result = run("convert", watt, tmp_path / "watt.fold", code=2)
     assert result.stderr.splitlines() == [
-        "the order of the sides of the links is not known: write an SCD graph or a sheet"
+        f"{watt}: the order of the sides of the links is not known: write an SCD graph or a sheet"
     ]
     assert not (tmp_path / "watt.fold").exists()
 

@@ -1,0 +1,20 @@
+#!/bin/sh
+# What `make demo` shows. BIN is the folder of the synth command.
+set -eu
+cd "$(dirname "$0")/.."
+synth="${BIN:+$BIN/}synth"
+
+say() { printf '\n\033[1m%s\033[0m\n' "$1"; }
+show() { printf '$ synth %s\n' "$*"; "$synth" "$@"; }
+
+say "The mechanisms of Wiener's thesis: which class, how many freedoms M?"
+show mobility --no-exact data/wiener/*.json
+
+say "One of them in full: a spherical six-bar with a spatial chain across it. Which formulas hold, and why not the others?"
+show mobility --no-exact data/wiener/hybrid-ten-bar.json
+
+say "A crease pattern (FOLD): the bird base of the origami crane"
+show mobility --no-exact data/patterns/bird-base.fold
+
+say "A six-bar with a centre that its links do not reach, reconstructed vertex by vertex"
+show reconstruct data/wiener/table3-row3.json
