@@ -8,13 +8,21 @@ A *loop* is a cycle of links and joints. Where all its joint axes pass through o
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 from graphs.errors import InvariantError, shown
 
-__all__ = ["Centre", "Loop", "check_independent", "cyclic_order", "dependent_loop", "split_dependent"]
+__all__ = [
+    "Centre",
+    "Loop",
+    "check_independent",
+    "cyclic_order",
+    "dependent_loop",
+    "in_span_of",
+    "split_dependent",
+]
 
 JointId = Hashable
 LinkId = Hashable
@@ -231,6 +239,38 @@ def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], lis
     return kept, sorted(dependent)
 
 
+def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:
+    """Return the indices of cycles that sum to a given one over GF(2), or None if it is no such sum.
+
+    Examples
+    --------
+    >>> in_span_of((0, 1, 3, 4), [(0, 1, 2), (2, 3, 4), (5, 6, 7)])
+    (0, 1)
+    """
+    *rows, target = _bit_rows([*cycles, cycle])
+    shift = max(row.bit_length() for row in (*rows, target))
+    # The low bits hold the cycle, the bits above them which of the given cycles have been added.
+    basis: dict[int, int] = {}
+
+    def reduced(row: int) -> int:
+        while low := row & ((1 << shift) - 1):
+            pivot = basis.get(low.bit_length())
+            if pivot is None:
+                return row
+            row ^= pivot
+        return row
+
+    for index, row in enumerate(rows):
+        left = reduced(row | 1 << (shift + index))
+        if low := left & ((1 << shift) - 1):
+            basis[low.bit_length()] = left
+    left = reduced(target)
+    if left & ((1 << shift) - 1):
+        return None
+    used = left >> shift
+    return tuple(index for index in range(len(rows)) if used >> index & 1)
+
+
 def _peel(cycles: Sequence[Sequence[JointId]]) -> list[int]:
     """Return the indices of the cycles left when those with a joint of their own are taken off, repeatedly."""
     owners: dict[JointId, set[int]] = defaultdict(set)
@@ -251,7 +291,7 @@ def _peel(cycles: Sequence[Sequence[JointId]]) -> list[int]:
     return sorted(left)
 
 
-def _bit_rows(cycles: Sequence[Sequence[JointId]]) -> list[int]:
+def _bit_rows(cycles: Sequence[Collection[JointId]]) -> list[int]:
     """Write cycles as integers, one bit a joint."""
     place: dict[JointId, int] = {}
     return [sum(1 << place.setdefault(joint, len(place)) for joint in cycle) for cycle in cycles]

@@ -9,7 +9,7 @@ from synth.cli.output import about, plain, print_json
 __all__ = ["convert"]
 
 
-@click.command()
+@click.command(short_help="Convert between kinds of files; change centres.")
 @click.argument("source", metavar="IN")
 @click.argument("target", metavar="OUT")
 @click.option(

@@ -16,6 +16,7 @@ __all__ = ["main"]
 
 _COMMANDS = {
     "mobility": "synth.cli.mobility:mobility",
+    "reduce": "synth.cli.reduce:reduce_command",
     "convert": "synth.cli.convert:convert",
     "reconstruct": "synth.cli.reconstruct:reconstruct",
 }
@@ -54,6 +55,7 @@ def main() -> None:
     \b
     Examples:
       synth mobility mechanism.json crease-pattern.fold
+      synth reduce mechanism.json -o reduced.json
       synth convert crease-pattern.fold mechanism.json
       synth reconstruct mechanism.json -o model.json
 

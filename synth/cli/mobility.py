@@ -20,7 +20,7 @@ __all__ = ["mobility"]
 _LONGEST_PATH = 4096
 
 
-@click.command()
+@click.command(short_help="Say how many freedoms a mechanism has, and which formula tells.")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object a mechanism.")
 @click.option("--exact/--no-exact", default=True, help="Compute the exact generic rank too (on by default).")

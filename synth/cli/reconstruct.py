@@ -9,7 +9,7 @@ from synth.cli.output import about, console, plain, print_json, table
 __all__ = ["reconstruct"]
 
 
-@click.command()
+@click.command(short_help="Reconstruct the polyhedron model, vertex by vertex.")
 @click.argument("file", metavar="FILE")
 @click.option("-o", "--output", metavar="OUT", help="Write the model here (.json or .fold).")
 @click.option("--json", "as_json", is_flag=True, help="Print the vertices and the counts as JSON.")

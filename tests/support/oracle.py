@@ -9,18 +9,42 @@ from graphs.loops import Centre
 from graphs.sc import SCGraph
 
 
-def numeric_mobility(sc: SCGraph, seed: int = 0) -> int:
+def placed_centres(sc: SCGraph, rng: np.random.Generator) -> list[np.ndarray] | None:
+    """Place the centres one by one at random, on the axes that two placed centres fix; None if that fails."""
+    classes = sc.centre_classes()
+    points: list[np.ndarray] = []
+    on_axis: dict[object, list[int]] = {}
+    for k, one in enumerate(classes):
+        infinite = one.centre is Centre.INFINITE
+        lines = [on_axis[joint][:2] for joint in one.joints if len(on_axis.get(joint, [])) >= 2]
+        if len(lines) > 1:
+            return None
+        if lines:
+            p, q = (points[i] for i in lines[0])
+            at_infinity = p[3] * q - q[3] * p
+            point = at_infinity if infinite else rng.normal() * p + rng.normal() * q
+            if not np.any(point):
+                return None
+        else:
+            point = np.append(rng.normal(size=3), 0.0 if infinite else 1.0)
+        points.append(point)
+        for joint in one.joints:
+            on_axis.setdefault(joint, []).append(k)
+    return points
+
+
+def numeric_mobility(sc: SCGraph, seed: int = 0) -> int | None:
     """Place the centres of a mechanism at random and count the freedoms of its joints."""
     rng = np.random.default_rng(seed)
-    points = [np.append(rng.normal(size=3), 0.0 if one.centre is Centre.INFINITE else 1.0)
-              for one in sc.centre_classes()]  # fmt: skip
+    points = placed_centres(sc, rng)
+    if points is None:
+        return None
     twists = {}
     for joint in sc.joints:
         on_axis = [p for one, p in zip(sc.centre_classes(), points, strict=True) if joint in one.joints]
-        assert len(on_axis) <= 2, "three centres on one axis need placing"
         while len(on_axis) < 2:
             on_axis.append(np.append(rng.normal(size=3), 1.0))
-        p, q = on_axis
+        p, q = on_axis[:2]
         twists[joint] = np.concatenate([p[3] * q[:3] - q[3] * p[:3], np.cross(p[:3], q[:3])])
     rows = []
     forest = nx.minimum_spanning_tree(nx.Graph(sc))

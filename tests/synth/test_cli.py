@@ -152,6 +152,28 @@ def test_convert_changes_the_centres(form, centres, data, tmp_path):
     assert (report["centres"], report["mobility"]) == (centres, 1)
 
 
+def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
+    out = run("reduce", data / "wiener" / "fortune-teller.json", "-o", tmp_path / "eight.json").stdout
+    assert "before  links 16, joints 20, mobility 5" in out
+    assert "after   links 8, joints 8, mobility 5" in out
+    assert "4 step(s) in 4 adjunct addenda" in out
+    assert len(read(tmp_path / "eight.json")) == 8
+    told = json.loads(run("reduce", "--json", data / "wiener" / "fortune-teller.json").stdout)
+    assert told["before"] == {"links": 16, "joints": 20, "mobility": 5}
+    assert told["after"] == {"links": 8, "joints": 8, "mobility": 5}
+    assert [step["sits_on"] for step in told["steps"]] == [None] * 4
+    assert (
+        "nothing to take off" in run("reduce", data / "wiener" / "watt.json", "--keep", "1", "--keep", "4").stdout
+    )
+    assert (
+        "after   links 2, joints 1, mobility 1"
+        in run("reduce", "--fully", data / "wampler" / "fig12-scd.json").stdout
+    )
+    result = run("reduce", data / "wiener" / "watt.json", "--keep", "sky", code=2)
+    assert "'sky' is to be kept and is no link; expected one of the links" in result.stderr
+    run("reduce", "--rule", "assur", data / "wiener" / "watt.json", code=2)
+
+
 def test_reconstruct_writes_the_model(data, tmp_path):
     out = run("reconstruct", data / "wiener" / "table3-row3.json", "-o", tmp_path / "model.json").stdout
     assert "V = 9, C = 1, E = 15 external + 8 internal, M = 1" in out
@@ -177,7 +199,7 @@ def test_usage_errors_keep_clicks_format(words):
     assert "Usage:" in result.output
 
 
-@pytest.mark.parametrize("command", ["mobility", "convert", "reconstruct"])
+@pytest.mark.parametrize("command", ["mobility", "reduce", "convert", "reconstruct"])
 def test_every_help_text_has_an_example(command):
     out = run(command, "--help").stdout
     assert re.search(rf"Examples?:\n +synth {command} ", out)
@@ -216,4 +238,4 @@ def test_shell_completion_knows_the_commands():
     env = os.environ | {"_SYNTH_COMPLETE": "bash_complete", "COMP_WORDS": "synth ", "COMP_CWORD": "1"}
     code = "from synth.cli.main import main; main(prog_name='synth')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=env)
-    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {"mobility", "convert", "reconstruct"}
+    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {"mobility", "reduce", "convert", "reconstruct"}

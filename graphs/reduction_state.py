@@ -1,0 +1,241 @@
+"""The mutable working copy on which a reduction is done and undone.
+
+Loops are sets of joints here, so that changing a long loop costs as much as what changes. See
+:mod:`graphs.reduction` for what a step is.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import networkx as nx
+
+from graphs.centres import centre_classes
+from graphs.loops import JointId, Joints, LinkId, Loop, in_span_of
+from graphs.sc import SCGraph
+
+__all__ = ["Removal", "WorkingGraph"]
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """Two binary links taken out, and what became of the loops; enough to put everything back.
+
+    Attributes
+    ----------
+    links : (link, link)
+        u and v, joined to each other.
+    joints : (joint, joint, joint)
+        a-u, u-v and v-b.
+    ends : tuple of (link, link)
+        The ends of the three joints.
+    dropped : int
+        Index of the loop that went.
+    changed : tuple of (int, frozenset of joint ids)
+        Loops that were rerouted, each with the joints that it gained or lost.
+    reopened : int or None
+        A closing loop that took the place of a dropped independent one, if any.
+    """
+
+    links: tuple[LinkId, LinkId]
+    joints: tuple[JointId, JointId, JointId]
+    ends: tuple[tuple[LinkId, LinkId], ...]
+    dropped: int
+    changed: tuple[tuple[int, frozenset[JointId]], ...]
+    reopened: int | None
+
+
+class WorkingGraph:
+    """A mechanism with links, joints and loops that come and go.
+
+    Parameters
+    ----------
+    sc : SCGraph
+        Its classes are computed once and kept throughout.
+    """
+
+    def __init__(self, sc: SCGraph) -> None:
+        self.original = sc
+        self.at_link: dict[LinkId, set[JointId]] = {link: set() for link in sc.nodes}
+        self.joints: dict[JointId, tuple[LinkId, LinkId]] = dict(sc.joints)
+        for joint, ends in self.joints.items():
+            for link in ends:
+                self.at_link[link].add(joint)
+        self.labels = (*sc.loops, *sc.closing)
+        self.loops = [set(loop.joints) for loop in self.labels]
+        self.alive = [True] * len(self.loops)
+        self.closing = set(range(len(sc.loops), len(self.loops)))
+        self.through: dict[JointId, set[int]] = defaultdict(set)
+        for index, around in enumerate(self.loops):
+            for joint in around:
+                self.through[joint].add(index)
+        self.class_of = {loop: k for k, one in enumerate(sc.centre_classes()) for loop in one.loops}
+        self._full = [self._is_full(one.loops, one.joints) for one in sc.centre_classes()]
+        self.block_of: dict[JointId, int] = {}
+        self.loops_in_block: list[int] = []
+        self._find_blocks(sc)
+
+    def _is_full(self, loops: Sequence[int], joints: Iterable[JointId]) -> bool:
+        """Whether every cycle over the joints of a class is a sum of its loops."""
+        if len(loops) == 1:
+            return True
+        if any(loop in self.closing for loop in loops):
+            return False
+        part = nx.Graph()
+        part.add_edges_from(self.joints[joint] for joint in joints)
+        number = sum(1 for _ in joints)
+        return bool(number - len(part) + nx.number_connected_components(part) == len(loops))
+
+    def _find_blocks(self, graph: nx.MultiGraph) -> None:
+        """Number the blocks of a graph, and the independent cycles of each."""
+        for edges in nx.biconnected_component_edges(graph):
+            links, number = set(), 0
+            for a, b in edges:
+                links.add(a)
+                links.add(b)
+                for joint in graph[a][b]:
+                    self.block_of[joint] = len(self.loops_in_block)
+                    number += 1
+            self.loops_in_block.append(number - len(links) + 1)
+
+    # ---- questions ----------------------------------------------------------------------------------
+
+    def other_end(self, joint: JointId, link: LinkId) -> LinkId:
+        """Return the link on the other side of a joint."""
+        a, b = self.joints[joint]
+        return b if a == link else a
+
+    def path(self, middle: JointId) -> tuple[LinkId, JointId, LinkId, LinkId, JointId, LinkId] | None:
+        """Return (a, a-u, u, v, v-b, b) if a joint joins two binary links u and v of a path a-u-v-b."""
+        u, v = self.joints[middle]
+        if len(self.at_link[u]) != 2 or len(self.at_link[v]) != 2:
+            return None
+        (before,) = self.at_link[u] - {middle}
+        (after,) = self.at_link[v] - {middle}
+        a, b = self.other_end(before, u), self.other_end(after, v)
+        return None if v == a else (a, before, u, v, after, b)
+
+    def centred_through(self, joint: JointId) -> list[int]:
+        """Return the loops with a centre that pass a joint; round a binary path they are of one class."""
+        return sorted(index for index in self.through[joint] if index in self.class_of)
+
+    def member_through(self, cycle: frozenset[JointId], middle: JointId) -> int | None:
+        """Return a loop through a joint that takes part in a sum of loops of one class giving a cycle.
+
+        None if the cycle is no such sum.
+        """
+        passing = self.centred_through(middle)
+        if not passing:
+            return None
+        for index in passing:
+            if self.loops[index] == cycle:
+                return index
+        which = self.class_of[passing[0]]
+        if any(all(self.class_of.get(i) != which for i in self.through[joint]) for joint in cycle):
+            return None
+        if self._full[which] and len(passing) == 1:
+            return passing[0]  # the sum holds an odd number of the loops through the joint: this one
+        members = [i for i, k in self.class_of.items() if k == which and self.alive[i]]
+        summands = in_span_of(cycle, [self.loops[i] for i in members])
+        if summands is None:
+            return None
+        return min((members[i] for i in summands if members[i] in passing), key=lambda i: (i in self.closing, i))
+
+    # ---- changes ------------------------------------------------------------------------------------
+
+    def remove(
+        self,
+        middle: JointId,
+        dropped: int,
+        deltas: Sequence[tuple[int, frozenset[JointId]]],
+        reopened: int | None = None,
+    ) -> Removal:
+        """Take out the two links that a joint joins; ``deltas`` says how the other loops through it change."""
+        found = self.path(middle)
+        assert found is not None
+        _, before, u, v, after, _ = found
+        removal = Removal(
+            (u, v),
+            (before, middle, after),
+            tuple(self.joints[joint] for joint in (before, middle, after)),
+            dropped,
+            tuple(deltas),
+            reopened,
+        )
+        if reopened is not None:
+            self.closing ^= {dropped, reopened}
+        self._set_alive(dropped, False)
+        for index, delta in removal.changed:
+            self._toggle(index, delta)
+        self.loops_in_block[self.block_of[middle]] -= 1
+        for joint in removal.joints:
+            for link in self.joints.pop(joint):
+                self.at_link[link].discard(joint)
+        del self.at_link[u], self.at_link[v]
+        return removal
+
+    def renumber_block(self, block: int) -> None:
+        """Find the blocks that are left of a block."""
+        left = nx.MultiGraph()
+        left.add_edges_from((*ends, joint) for joint, ends in self.joints.items() if self.block_of[joint] == block)
+        self._find_blocks(left)
+
+    def put_back(self, removal: Removal) -> None:
+        """Undo a removal; only the last one that stands can be undone."""
+        self.at_link |= {link: set() for link in removal.links}
+        for joint, ends in zip(removal.joints, removal.ends, strict=True):
+            self.joints[joint] = ends
+            for link in ends:
+                self.at_link[link].add(joint)
+        for index, delta in removal.changed:
+            self._toggle(index, delta)
+        self._set_alive(removal.dropped, True)
+        if removal.reopened is not None:
+            self.closing ^= {removal.dropped, removal.reopened}
+
+    def _toggle(self, index: int, delta: frozenset[JointId]) -> None:
+        self.loops[index] ^= delta
+        for joint in delta:
+            self.through[joint] ^= {index}
+
+    def _set_alive(self, index: int, alive: bool) -> None:
+        self.alive[index] = alive
+        for joint in self.loops[index]:
+            if alive:
+                self.through[joint].add(index)
+            else:
+                self.through[joint].discard(index)
+
+    # ---- result -------------------------------------------------------------------------------------
+
+    def graph(self) -> SCGraph:
+        """Return what is left as an SC graph with the classes of the original."""
+        independent = [i for i in range(len(self.loops)) if self.alive[i] and i not in self.closing]
+        held = {frozenset(self.loops[i]) for i in independent}
+        closing = [i for i in sorted(self.closing) if self.alive[i] and frozenset(self.loops[i]) not in held]
+        kept = [*independent, *closing]
+        loops = [replace(self.labels[i], joints=tuple(sorted(self.loops[i], key=str))) for i in kept]
+        loops = self._with_classes(kept, loops)
+        links = [link for link in self.original.nodes if link in self.at_link]
+        joints: Joints = {joint: self.joints[joint] for joint in self.original.joints if joint in self.joints}
+        cut = len(independent)
+        return SCGraph(links, joints, loops[:cut], closing=loops[cut:], ground=self.original.ground)
+
+    def _with_classes(self, kept: Sequence[int], loops: list[Loop]) -> list[Loop]:
+        """Name the centre of loops that share one although their joints no longer force them to."""
+        new_class = {loop: k for k, one in enumerate(centre_classes(loops)) for loop in one.loops}
+        members: dict[int, list[int]] = defaultdict(list)
+        for place, index in enumerate(kept):
+            if index in self.class_of:
+                members[self.class_of[index]].append(place)
+        taken = {loop.at for loop in loops}
+        for which, places in members.items():
+            if len({new_class[place] for place in places}) > 1:
+                name = next(loops[p].at for p in places) or f"centre {which}"
+                while name in taken and not any(loops[p].at == name for p in places):
+                    name += "'"
+                for place in places:
+                    loops[place] = replace(loops[place], at=name)
+        return loops

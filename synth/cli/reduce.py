@@ -1,0 +1,106 @@
+"""``synth reduce``: take adjunct addenda off a mechanism."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from synth.cli.output import about, console, plain, print_json
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+    import networkx as nx
+    from rich.tree import Tree
+
+    from graphs.reduction import Reduction
+    from graphs.sc import SCGraph
+
+__all__ = ["link_named", "reduce_command"]
+
+_MOST_SHOWN = 200
+
+
+@click.command("reduce", short_help="Take off ride-alongs and adjunct addenda.")
+@click.argument("file", metavar="FILE")
+@click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism here.")
+@click.option("--rule", type=click.Choice(["ride-along", "dyad"]), default="ride-along", show_default=True)
+@click.option("--fully", is_flag=True, help="Reduce a block even where it then has no loop left.")
+@click.option("--keep", multiple=True, metavar="LINK", help="A link that stays (an input, say); may be repeated.")
+@click.option("--json", "as_json", is_flag=True, help="Print counts and steps as JSON.")
+def reduce_command(
+    file: str, output: str | None, rule: str, fully: bool, keep: tuple[str, ...], as_json: bool
+) -> None:
+    """Take ride-alongs off a mechanism, one by one, until none is left. Mobility stays.
+
+    A ride-along is two binary links u, v on two adjacent links a, b, the four about one centre. Chains of them,
+    adjunct addenda, are shown as trees. The rule "dyad" takes off such pairs also where a and b are not joined.
+
+    \b
+    Example:
+      synth reduce data/wiener/fortune-teller.json -o eight-bar.json
+    """
+    from graphs.conversion import to_sc
+    from graphs.files.formats import read, write
+    from graphs.reduction import reduce_addenda
+
+    with about(file):
+        sc = to_sc(read(file))
+        reduction = reduce_addenda(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
+    if output is not None:
+        write(reduction.graph, output)
+    if as_json:
+        print_json({"file": file, "output": output, **reduction.to_json()})
+        return
+    _print(reduction)
+    if output is not None:
+        click.echo(f"written: {plain(output, 4096)}")
+
+
+def link_named(sc: SCGraph, name: str) -> Hashable:
+    """Return the link whose name reads as given, or the name itself."""
+    return next((link for link in sc.nodes if str(link) == name), name)
+
+
+def _print(reduction: Reduction) -> None:
+    told = reduction.to_json()
+    for when in ("before", "after"):
+        counts = told[when]
+        click.echo(f"{when:6}  links {counts['links']}, joints {counts['joints']}, mobility {counts['mobility']}")
+    if not reduction.steps:
+        click.echo("nothing to take off")
+        return
+    chains = reduction.chains()
+    click.echo(
+        f"{len(reduction.steps)} step(s) in {len(chains)} adjunct addend{'um' if len(chains) == 1 else 'a'}"
+    )
+    if len(reduction.steps) > _MOST_SHOWN:
+        click.echo(f"more than {_MOST_SHOWN} steps: --json lists them")
+        return
+    out = console()
+    for chain in chains:
+        out.print(_tree(reduction, chain))
+
+
+def _tree(reduction: Reduction, chain: nx.DiGraph) -> Tree:
+    """Draw an adjunct addendum from the mechanism outwards."""
+    from rich.text import Text
+    from rich.tree import Tree
+
+    def words(step: int) -> Text:
+        one = reduction.steps[step]
+        u, v = map(plain, one.removed)
+        a, b = map(plain, one.onto)
+        return Text(f"step {step + 1}: links {u}, {v} on {a}, {b}")
+
+    (root,) = (step for step in chain if not chain.in_degree(step))
+    tree = Tree(words(root))
+    branches = {root: tree}
+    waiting = [root]
+    while waiting:
+        step = waiting.pop()
+        for above in sorted(chain.successors(step)):
+            branches[above] = branches[step].add(words(above))
+            waiting.append(above)
+    return tree

@@ -1,0 +1,298 @@
+import random
+from pathlib import Path
+
+import networkx as nx
+import pytest
+from canonical import canonical_code
+from hypothesis import given
+from oracle import numeric_mobility
+from strategies import randoms, scd_graphs
+
+from graphs.errors import InvariantError
+from graphs.files.formats import read
+from graphs.loops import Loop
+from graphs.panels import scd_from_panels
+from graphs.reduction import RULES, reduce_addenda
+from graphs.report import mobility_report
+from graphs.sc import SCGraph
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+
+
+def mobility(sc):
+    return mobility_report(sc).mobility
+
+
+def strip(rows, columns=2):
+    """A mesh of quadrilaterals."""
+    wide = columns + 1
+    return scd_from_panels(
+        [
+            (i * wide + j, i * wide + j + 1, (i + 1) * wide + j + 1, (i + 1) * wide + j)
+            for i in range(rows)
+            for j in range(columns)
+        ]
+    ).sc_graph()
+
+
+def random_addenda(rng: random.Random, *, size: int = 12) -> SCGraph:
+    """A core with ride-alongs on it and on each other, loops of other lengths, flaps, cut links, mixed bases."""
+    links, joints, loops = [0], {}, []
+
+    def chain(a, b, number, closing, centre):
+        """Append a chain of links between a and b; it closes a loop with the given joints."""
+        path, before = [], a
+        for _ in range(number):
+            link = len(links)
+            links.append(link)
+            path.append(len(joints))
+            joints[path[-1]] = (before, link)
+            before = link
+        path.append(len(joints))
+        joints[path[-1]] = (before, b)
+        loops.append(([*closing, *path], centre))
+
+    for _ in range(rng.randint(1, 2)):  # cores that share one link: a cut link
+        start, n = rng.choice(links), rng.randint(3, 5)
+        first = len(links)
+        links.extend(range(first, first + n - 1))
+        around = [start, *range(first, first + n - 1)]
+        ids = []
+        for a, b in zip(around, [*around[1:], start], strict=True):
+            ids.append(len(joints))
+            joints[ids[-1]] = (a, b)
+        loops.append((ids, rng.choice(["finite", "finite", "none"])))
+    for _ in range(rng.randint(0, size)):
+        what = rng.random()
+        joint = rng.choice(list(joints))
+        a, b = joints[joint]
+        if what < 0.7:
+            chain(a, b, 2, [joint], "finite")
+        elif what < 0.85:
+            chain(a, b, rng.randint(1, 4), [joint], rng.choice(["finite", "none"]))
+        else:  # a flap
+            link = len(links)
+            links.append(link)
+            joints[len(joints)] = (rng.choice(links[:-1]), link)
+    ground = rng.choice([None, None, rng.choice(links)])
+    sc = SCGraph(links, joints, [Loop(tuple(j), c) for j, c in loops], ground=ground)
+    return shuffled_basis(sc, rng)
+
+
+def shuffled_basis(sc: SCGraph, rng: random.Random) -> SCGraph:
+    """Replace loops by sums with loops of their class, where these are cycles."""
+    from graphs.loops import cyclic_order
+
+    current = list(sc.loops)
+    for _ in range(rng.randint(0, 4)):
+        classes = sc.centre_classes()
+        many = [one for one in classes if len(one.loops) > 1]
+        if not many:
+            break
+        one = rng.choice(many)
+        i, k = rng.sample(one.loops, 2)
+        total = set(current[i].joints) ^ set(current[k].joints)
+        try:
+            cyclic_order(Loop(tuple(total)), sc.joints)
+        except InvariantError:
+            continue
+        trial = [*current]
+        trial[i] = Loop(tuple(total), current[i].centre, current[i].name, current[i].at)
+        changed = sc.with_loops(trial)
+        if {c.joints for c in changed.centre_classes()} == {c.joints for c in classes}:
+            current = trial
+    return sc.with_loops(current)
+
+
+def relabelled(sc: SCGraph, rng: random.Random) -> SCGraph:
+    """The same mechanism with links, joints and loops renamed and in another order."""
+    links = dict(zip(sc.nodes, rng.sample(range(len(sc)), len(sc)), strict=True))
+    joints = dict(zip(sc.joints, rng.sample(range(len(sc.joints)), len(sc.joints)), strict=True))
+    other = sc.relabel(links, joints)
+    order = list(other.loops)
+    rng.shuffle(order)
+    ids = list(other.joints)
+    rng.shuffle(ids)
+    return SCGraph(
+        sorted(other.nodes), {j: other.joints[j] for j in ids}, order, closing=other.closing, ground=other.ground
+    )
+
+
+def check_one(rng: random.Random, *, fully: bool) -> int:
+    """Confluence, count, protection and undo on one random mechanism; return how many steps were taken."""
+    sc = random_addenda(rng)
+    keep = rng.sample(list(sc.nodes), rng.randint(0, 2))
+    kept = {link: f"keep {i}" for i, link in enumerate(keep)}
+    sc = sc.relabel(kept)
+    there = relabelled(sc, rng) if not keep else sc
+    one = reduce_addenda(sc, fully=fully, keep=kept.values())
+    assert mobility(one.graph) == mobility(sc)
+    assert set(kept.values()) <= set(one.graph.nodes)
+    assert sc.ground is None or one.graph.ground == sc.ground
+    assert one.undo().is_identical(sc)
+    assert len(one.steps) * 2 == len(sc) - len(one.graph)
+    if not keep:
+        two = reduce_addenda(there, fully=fully)
+        assert canonical_code(one.graph) == canonical_code(two.graph)
+    return len(one.steps)
+
+
+def test_confluence_count_protection_and_undo():
+    rng = random.Random(2016)
+    steps = sum(check_one(rng, fully=bool(i % 2)) for i in range(1000))
+    assert steps > 2000
+
+
+@pytest.mark.slow
+def test_confluence_on_ten_thousand_mechanisms():
+    rng = random.Random(7)
+    steps = sum(check_one(rng, fully=bool(i % 2)) for i in range(10_000))
+    assert steps > 20_000
+
+
+def test_reduction_keeps_the_rank():
+    """The numerical rank, not only the count, on mechanisms whose collinear centres can be placed in turn."""
+    rng = random.Random(11)
+    ranked = 0
+    for i in range(150):
+        sc = random_addenda(rng, size=7)
+        before = numeric_mobility(sc)
+        if before is None:
+            continue
+        ranked += 1
+        assert numeric_mobility(reduce_addenda(sc, fully=bool(i % 2)).graph) == before
+    assert ranked > 100
+
+
+def test_undo_goes_step_by_step():
+    reduction = reduce_addenda(strip(6))
+    for number in range(len(reduction.steps) + 1):
+        back = reduction.undo(number)
+        assert len(back) == len(reduction.graph) + 2 * number
+        assert mobility(back) == 1
+        assert len(reduce_addenda(back).steps) == number
+    assert reduction.undo().is_identical(strip(6))
+    with pytest.raises(ValueError, match="cannot undo 9 of"):
+        reduction.undo(9)
+
+
+def test_a_strip_is_one_chain():
+    reduction = reduce_addenda(strip(8))
+    assert [step.sits_on for step in reduction.steps] == [*range(1, len(reduction.steps)), None]
+    (chain,) = reduction.chains()
+    assert nx.is_arborescence(chain)
+    assert nx.dag_longest_path_length(chain) == len(reduction.steps) - 1
+
+
+def test_blocks_keep_a_loop_unless_fully():
+    four_bar = strip(2)
+    assert not reduce_addenda(four_bar).steps
+    whole = reduce_addenda(four_bar, fully=True)
+    assert (len(whole.graph), len(whole.graph.joints), mobility(whole.graph)) == (2, 1, 1)
+    assert whole.undo().is_identical(four_bar)
+
+
+def test_ground_and_kept_links_stay():
+    sc = strip(4)
+    grounded = SCGraph(sc.nodes, sc.joints, sc.loops, ground=0)
+    assert 0 in reduce_addenda(grounded).graph
+    assert not reduce_addenda(sc, keep=[0, 7]).steps
+    with pytest.raises(InvariantError, match="99 is to be kept and is no link"):
+        reduce_addenda(sc, keep=[99])
+    with pytest.raises(ValueError, match="the rule 'assur' is not one of ride-along, dyad"):
+        reduce_addenda(sc, rule="assur")
+
+
+def test_a_four_bar_of_two_centres_is_no_ride_along():
+    """The cycle a-u-v-b must have a centre: a spatial one stays."""
+    sc = strip(3).with_loops(
+        [Loop(loop.joints, "none" if i else "finite") for i, loop in enumerate(strip(3).loops)]
+    )
+    assert len(reduce_addenda(sc).steps) == 1
+    spatial = strip(3).with_loops([Loop(loop.joints, "none") for loop in strip(3).loops])
+    assert not reduce_addenda(spatial).steps
+
+
+def test_a_loop_not_given_but_a_sum_counts():
+    """A four-bar with a ride-along, written as the four-bar and the outer six-bar of one class."""
+    joints = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 1)]
+    outer = Loop((1, 2, 3, 4, 5, 6))
+    sc = SCGraph(6, joints, [Loop((0, 1, 2, 3)), outer])
+    assert len(sc.centre_classes()) == 1
+    reduction = reduce_addenda(sc)
+    assert len(reduction.steps) == 1
+    assert mobility(reduction.graph) == mobility(sc) == 1
+    assert len(reduce_addenda(sc.with_loops([Loop((0, 1, 2, 3)), Loop(outer.joints, "none")])).steps) == 1
+
+
+def test_classes_are_kept_though_their_joints_go():
+    """Two loops over the same ride-along are one class; without it their joints no longer say so."""
+    joints = {"ab": (0, 1), "au": (0, 2), "uv": (2, 3), "vb": (3, 1), "ac": (0, 4), "cb": (4, 1), "ad": (0, 5),
+              "db": (5, 1)}  # fmt: skip
+    path = ("au", "uv", "vb")
+    loops = [Loop((*path, "ab")), Loop((*path, "cb", "ac")), Loop((*path, "db", "ad"))]
+    sc = SCGraph(6, joints, loops)
+    assert len(sc.centre_classes()) == 1
+    reduced = reduce_addenda(sc).graph
+    assert len(reduced.centre_classes()) == 1
+    assert len({loop.at for loop in reduced.loops}) == 1
+    assert reduced.loops[0].at is not None
+    assert reduce_addenda(sc).undo().is_identical(sc)
+
+
+def test_a_closed_surface_stays_closed():
+    """A ride-along on a tetrahedron of four panels: the closing loop changes, the count does not."""
+    from graphs.embedding import sc_from_link_joint_graph
+
+    graph = nx.MultiGraph(nx.complete_graph(4))
+    nx.add_path(graph, [0, 4, 5, 1])
+    for start in range(2):
+        sc = sc_from_link_joint_graph(
+            nx.relabel_nodes(graph, {k: (k + 3 * start) % 6 for k in range(6)}), closed=True
+        )
+        assert sc.is_closed
+        loops = [*sc.loops, *sc.closing]
+        for last in range(len(loops)):  # whichever face is the dependent one
+            turned = sc.with_loops([x for i, x in enumerate(loops) if i != last], [loops[last]])
+            reduction = reduce_addenda(turned)
+            assert len(reduction.graph) == 4
+            assert reduction.graph.is_closed
+            assert mobility(reduction.graph) == mobility(turned)
+            assert reduction.undo().is_identical(turned)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_an_scd_graph_may_be_reduced(rule):
+    reduction = reduce_addenda(read(DATA / "wiener" / "fortune-teller.json"), rule=rule)
+    assert mobility(reduction.graph) == 5
+
+
+def test_dyads_need_no_joint_between_their_bases():
+    """A chain u-v between two opposite links of a six-bar: no ride-along, but a dyad."""
+    joints = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (0, 6), (6, 7), (7, 3)]
+    sc = SCGraph(8, joints, [Loop((0, 1, 2, 8, 7, 6)), Loop((3, 4, 5, 6, 7, 8))])
+    assert len(sc.centre_classes()) == 1
+    assert not reduce_addenda(sc).steps
+    dyads = reduce_addenda(sc, rule="dyad")
+    assert len(dyads.steps) >= 1
+    assert dyads.steps[0].joint is None
+    assert mobility(dyads.graph) == mobility(sc)
+    assert dyads.undo().is_identical(sc)
+
+
+@given(randoms)
+def test_dyad_reduction_keeps_the_count_and_can_be_undone(rng):
+    sc = random_addenda(rng)
+    for fully in (False, True):
+        reduction = reduce_addenda(sc, rule="dyad", fully=fully)
+        assert mobility(reduction.graph) == mobility(sc)
+        assert reduction.undo().is_identical(sc)
+        assert len(reduction.steps) >= len(reduce_addenda(sc, fully=fully).steps) or not fully
+
+
+@given(scd_graphs)
+def test_random_scd_graphs_keep_their_count(scd):
+    for rule in RULES:
+        reduction = reduce_addenda(scd, rule=rule)
+        assert mobility(reduction.graph) == mobility(scd)
+        assert reduction.undo().is_identical(scd.sc_graph())
