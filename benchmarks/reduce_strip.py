@@ -3,8 +3,8 @@
     python benchmarks/reduce_strip.py
 
 writes the times and the slope in log-log to benchmarks/results/reduce_strip.json. The strip is a four-bar with a
-chain of ride-alongs. Building the graph and undoing are timed apart. Smaller strips fit into the processor's caches and
-take about half as long a panel, so that a fit over them too would measure the caches.
+chain of ride-alongs. Building the graph and undoing are timed apart. Smaller strips fit into the processor's
+caches and take about half as long a panel, so that a fit over them too would measure the caches.
 """
 
 from __future__ import annotations

@@ -271,6 +271,48 @@ def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]
     return tuple(index for index in range(len(rows)) if used >> index & 1)
 
 
+def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[JointId, ...]]:
+    """Cut joints that meet every link an even number of times into cycles.
+
+    Parameters
+    ----------
+    even : collection of joint ids
+        A GF(2) sum of cycles.
+    joints : mapping of joint id to (link, link)
+
+    Returns
+    -------
+    list of tuples of joint ids
+        Cycles that visit each link once, in cyclic order.
+
+    Examples
+    --------
+    >>> eight = {0: ("A", "B"), 1: ("B", "C"), 2: ("C", "A"), 3: ("A", "D"), 4: ("D", "E"), 5: ("E", "A")}
+    >>> cut_into_cycles(range(6), eight)
+    [(0, 1, 2), (3, 4, 5)]
+    """
+    at_link: dict[LinkId, list[JointId]] = defaultdict(list)
+    for joint in even:
+        for link in joints[joint]:
+            at_link[link].append(joint)
+    left, cycles = dict.fromkeys(even), []
+    while left:
+        link = joints[next(iter(left))][0]
+        order: list[tuple[LinkId, JointId]] = []
+        entered: dict[LinkId, int] = {}
+        while link not in entered:
+            entered[link] = len(order)
+            came = order[-1][1] if order else None
+            joint = next(j for j in at_link[link] if j in left and (came is None or j != came))
+            order.append((link, joint))
+            a, b = joints[joint]
+            link = b if a == link else a
+        cycles.append(tuple(joint for _, joint in order[entered[link] :]))
+        for joint in cycles[-1]:
+            del left[joint]
+    return cycles
+
+
 def _peel(cycles: Sequence[Sequence[JointId]]) -> list[int]:
     """Return the indices of the cycles left when those with a joint of their own are taken off, repeatedly."""
     owners: dict[JointId, set[int]] = defaultdict(set)

@@ -14,7 +14,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import JointId, LinkId, dependent_loop, in_span_of
+from graphs.loops import JointId, LinkId, cut_into_cycles, dependent_loop, in_span_of
 from graphs.reduction_state import Removal, WorkingGraph
 from graphs.report import mobility_report
 from graphs.sc import SCGraph
@@ -199,8 +199,8 @@ def reduce_addenda(
         a, b = found[0], found[5]
         taken.append((*step, (a, b)))
         for link in (a, b):
-            if len(work.at_link[link]) == 2:
-                waiting |= dict.fromkeys(work.at_link[link])
+            if work.degree[link] == 2:
+                waiting |= dict.fromkeys(work.joints_at(link))
     return Reduction(bare, work.graph(), rule, _steps(taken), tuple(removal for removal, _, _ in taken), work)
 
 
@@ -270,7 +270,7 @@ def _take_dyad(work: WorkingGraph, middle: JointId) -> tuple[Removal, None] | No
 def _one_cycle(work: WorkingGraph, index: int, dropped: int, done: list[int]) -> set[JointId] | None:
     """Return the sum of two loops as one cycle; if it falls apart, a part that is independent of the rest."""
     merged = work.loops[index] ^ work.loops[dropped]
-    parts = _cycles_of(work, merged)
+    parts = [set(part) for part in cut_into_cycles(sorted(merged, key=str), work.joints)]
     if len(parts) == 1:
         return parts[0]
     if index in work.closing:
@@ -283,22 +283,3 @@ def _one_cycle(work: WorkingGraph, index: int, dropped: int, done: list[int]) ->
         if dependent_loop([*rest, tuple(part)]) is None:
             return part
     return None
-
-
-def _cycles_of(work: WorkingGraph, even: set[JointId]) -> list[set[JointId]]:
-    """Cut a set of joints that meets every link an even number of times into cycles."""
-    left, cycles = set(even), []
-    while left:
-        start = next(iter(sorted(left, key=str)))
-        link = work.joints[start][0]
-        order: list[tuple[LinkId, JointId]] = []
-        entered: dict[LinkId, int] = {}
-        while link not in entered:
-            entered[link] = len(order)
-            joint = min((j for j in work.at_link[link] if j in left and (not order or j != order[-1][1])), key=str)
-            order.append((link, joint))
-            link = work.other_end(joint, link)
-        cycle = {joint for _, joint in order[entered[link] :]}
-        cycles.append(cycle)
-        left -= cycle
-    return cycles

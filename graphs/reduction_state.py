@@ -58,11 +58,8 @@ class WorkingGraph:
 
     def __init__(self, sc: SCGraph) -> None:
         self.original = sc
-        self.at_link: dict[LinkId, set[JointId]] = {link: set() for link in sc.nodes}
+        self.degree: dict[LinkId, int] = dict(sc.degree)
         self.joints: dict[JointId, tuple[LinkId, LinkId]] = dict(sc.joints)
-        for joint, ends in self.joints.items():
-            for link in ends:
-                self.at_link[link].add(joint)
         self.labels = (*sc.loops, *sc.closing)
         self.loops = [set(loop.joints) for loop in self.labels]
         self.alive = [True] * len(self.loops)
@@ -107,13 +104,18 @@ class WorkingGraph:
         a, b = self.joints[joint]
         return b if a == link else a
 
+    def joints_at(self, link: LinkId) -> list[JointId]:
+        """Return the joints of a link that are left; costs as much as it had at first."""
+        # The dict itself: the views of networkx triple the time of a reduction.
+        return [joint for keys in self.original._adj[link].values() for joint in keys if joint in self.joints]
+
     def path(self, middle: JointId) -> tuple[LinkId, JointId, LinkId, LinkId, JointId, LinkId] | None:
         """Return (a, a-u, u, v, v-b, b) if a joint joins two binary links u and v of a path a-u-v-b."""
         u, v = self.joints[middle]
-        if len(self.at_link[u]) != 2 or len(self.at_link[v]) != 2:
+        if self.degree[u] != 2 or self.degree[v] != 2:
             return None
-        (before,) = self.at_link[u] - {middle}
-        (after,) = self.at_link[v] - {middle}
+        (before,) = (joint for joint in self.joints_at(u) if joint != middle)
+        (after,) = (joint for joint in self.joints_at(v) if joint != middle)
         a, b = self.other_end(before, u), self.other_end(after, v)
         return None if v == a else (a, before, u, v, after, b)
 
@@ -172,8 +174,8 @@ class WorkingGraph:
         self.loops_in_block[self.block_of[middle]] -= 1
         for joint in removal.joints:
             for link in self.joints.pop(joint):
-                self.at_link[link].discard(joint)
-        del self.at_link[u], self.at_link[v]
+                self.degree[link] -= 1
+        del self.degree[u], self.degree[v]
         return removal
 
     def renumber_block(self, block: int) -> None:
@@ -184,11 +186,11 @@ class WorkingGraph:
 
     def put_back(self, removal: Removal) -> None:
         """Undo a removal; only the last one that stands can be undone."""
-        self.at_link |= {link: set() for link in removal.links}
+        self.degree |= dict.fromkeys(removal.links, 0)
         for joint, ends in zip(removal.joints, removal.ends, strict=True):
             self.joints[joint] = ends
             for link in ends:
-                self.at_link[link].add(joint)
+                self.degree[link] += 1
         for index, delta in removal.changed:
             self._toggle(index, delta)
         self._set_alive(removal.dropped, True)
@@ -218,7 +220,7 @@ class WorkingGraph:
         kept = [*independent, *closing]
         loops = [replace(self.labels[i], joints=tuple(sorted(self.loops[i], key=str))) for i in kept]
         loops = self._with_classes(kept, loops)
-        links = [link for link in self.original.nodes if link in self.at_link]
+        links = [link for link in self.original.nodes if link in self.degree]
         joints: Joints = {joint: self.joints[joint] for joint in self.original.joints if joint in self.joints}
         cut = len(independent)
         return SCGraph(links, joints, loops[:cut], closing=loops[cut:], ground=self.original.ground)

@@ -17,6 +17,7 @@ __all__ = ["main"]
 _COMMANDS = {
     "mobility": "synth.cli.mobility:mobility",
     "reduce": "synth.cli.reduce:reduce_command",
+    "edit": "synth.cli.edit:edit",
     "convert": "synth.cli.convert:convert",
     "reconstruct": "synth.cli.reconstruct:reconstruct",
 }

@@ -174,6 +174,43 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     run("reduce", "--rule", "assur", data / "wiener" / "watt.json", code=2)
 
 
+def test_edit_tells_predicted_and_counted_change(data, tmp_path):
+    six = data / "wiener" / "six-bar.json"
+    out = run("edit", six, "--add-ride-along", "0,1", "--lock", "0", "-o", tmp_path / "out.json").stdout
+    assert re.search(r"ride-along on \d and \d +Eq. 7 +0 +0 +1", out)
+    assert re.search(r"lock joint 0 +Eq. 7 +-1 +-1 +0", out)
+    assert isinstance(read(tmp_path / "out.json"), SCDGraph)
+    told = json.loads(run("edit", "--json", data / "wiener" / "watt.json", "--add-loop", "0,1,3", "--add-spatial-loop",
+                          "0,1,4", "--add-crease", "2:1").stdout)["edits"]  # fmt: skip
+    assert [(one["predicted"], one["counted"], one["equation"]) for one in told] == [
+        (1, 1, "Eq. 6"), (1, 1, "Eq. 6"), (-1, -1, "Eq. 5")
+    ]  # fmt: skip
+    fan = tmp_path / "fan.json"
+    run("convert", data / "patterns" / "four-bar-vertex.fold", fan, "--to", "scd")
+    moved = json.loads(run("edit", "--json", fan, "--implicit", "0", "-o", tmp_path / "away.json").stdout)["edits"]
+    assert [one["predicted"] for one in moved] == [0]
+    run("edit", tmp_path / "away.json", "--explicit", "0", "-o", tmp_path / "back.json")
+    assert read(tmp_path / "back.json").is_identical(read(fan))
+    mesh = data / "wiener" / "nine-bar-mesh.json"
+    a, _, b, _ = read(mesh).vertices[4]
+    assert re.search(r"crease in 4 +Eq. 7 +1 +1 +1", run("edit", mesh, "--add-crease", f"4:{a},{b}").stdout)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--lock", "99"], "'99' is no joint; expected one of the joints"),
+        (["--implicit", "0"], "--implicit needs the sides of the links: an SCD graph"),
+        (["--add-ride-along", "0"], "'0' has 1 part(s), not 2"),
+        (["--add-ride-along", "0,sky"], "'sky' is no link"),
+        (["--add-loop", "0,1,x"], "'x' is not a number"),
+        ([], "name an edit"),
+    ],
+)
+def test_edits_that_cannot_be(words, message, data):
+    assert message in run("edit", data / "wiener" / "watt.json", *words, code=2).stderr
+
+
 def test_reconstruct_writes_the_model(data, tmp_path):
     out = run("reconstruct", data / "wiener" / "table3-row3.json", "-o", tmp_path / "model.json").stdout
     assert "V = 9, C = 1, E = 15 external + 8 internal, M = 1" in out
@@ -199,7 +236,7 @@ def test_usage_errors_keep_clicks_format(words):
     assert "Usage:" in result.output
 
 
-@pytest.mark.parametrize("command", ["mobility", "reduce", "convert", "reconstruct"])
+@pytest.mark.parametrize("command", ["mobility", "reduce", "edit", "convert", "reconstruct"])
 def test_every_help_text_has_an_example(command):
     out = run(command, "--help").stdout
     assert re.search(rf"Examples?:\n +synth {command} ", out)
@@ -238,4 +275,4 @@ def test_shell_completion_knows_the_commands():
     env = os.environ | {"_SYNTH_COMPLETE": "bash_complete", "COMP_WORDS": "synth ", "COMP_CWORD": "1"}
     code = "from synth.cli.main import main; main(prog_name='synth')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=env)
-    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {"mobility", "reduce", "convert", "reconstruct"}
+    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {"mobility", "reduce", "edit", "convert", "reconstruct"}

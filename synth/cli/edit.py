@@ -1,0 +1,157 @@
+"""``synth edit``: change a mechanism, and say what that does to its mobility."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import click
+
+from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.reduce import link_named
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+    from graphs.edits import Edit
+    from graphs.sc import SCGraph
+
+__all__ = ["edit"]
+
+
+def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[..., object]]:
+    return click.option(name, multiple=True, metavar=metavar, help=text)
+
+
+@click.command(short_help="Add creases, ride-alongs, loops; move centres; lock joints.")
+@click.argument("file", metavar="FILE")
+@_repeated("--add-crease", "LINK[:X,Y]", "Crease a link. SC graph: X,Y are joints beyond it. SCD graph: vertices.")
+@_repeated("--add-loop", "A,B,K", "Append K links between links A and B: a loop with a centre.")
+@_repeated("--add-spatial-loop", "A,B,K", "Append K links between links A and B: a loop without a centre.")
+@_repeated("--add-ride-along", "A,B", "Append a ride-along to the adjacent links A and B.")
+@_repeated("--implicit", "LOOP", "SCD graph: take the links off the centre of a loop (its index).")
+@_repeated("--explicit", "LOOP", "SCD graph: let the links reach the centre of a loop (its index).")
+@_repeated("--lock", "JOINT", "Lock a joint: its two links become one.")
+@click.option("-o", "--output", metavar="OUT", help="Write the result here.")
+@click.option("--json", "as_json", is_flag=True, help="Print the edits as JSON.")
+def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]) -> None:
+    """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
+
+    Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
+    links, except where a loop is added: that leaves an SC graph.
+
+    \b
+    Example:
+      synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
+    """
+    from graphs.conversion import to_sc
+    from graphs.files.formats import read, write
+    from graphs.sc import SCGraph
+
+    thing = read(file)
+    with about(file):
+        sc = thing if isinstance(thing, SCGraph) else to_sc(thing)
+        edits = []
+        for make in _edits(wanted):
+            edits.append(make(sc))
+            sc = edits[-1].graph
+    if not edits:
+        raise click.UsageError("name an edit, such as --add-ride-along A,B")
+    if output is not None:
+        write(sc, output)
+    if as_json:
+        print_json({"file": file, "output": output, "edits": [one.to_json() for one in edits]})
+        return
+    rows = table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
+    for one in edits:
+        told = one.to_json()
+        rows.add_row(plain(one.what), one.equation, *map(plain, (one.predicted, one.counted, told["mobility"])))
+    console().print(rows)
+    if output is not None:
+        click.echo(f"written: {plain(output, 4096)}")
+
+
+def _edits(wanted: dict[str, tuple[str, ...]]) -> Iterator[Callable[[SCGraph], Edit]]:
+    """Yield the edits that were asked for, in the order of the options."""
+    kinds: dict[str, Callable[[SCGraph, str], Edit]] = {
+        "add_crease": _crease,
+        "add_loop": lambda sc, text: _loop(sc, text, "finite", "--add-loop"),
+        "add_spatial_loop": lambda sc, text: _loop(sc, text, "none", "--add-spatial-loop"),
+        "add_ride_along": _ride_along,
+        "implicit": lambda sc, text: _centre(sc, text, "--implicit"),
+        "explicit": lambda sc, text: _centre(sc, text, "--explicit"),
+        "lock": _lock,
+    }
+    for name, make in kinds.items():
+        for text in wanted[name]:
+            yield lambda sc, make=make, text=text: make(sc, text)  # type: ignore[misc]
+
+
+def _words(text: str, number: int, option: str) -> list[str]:
+    words = [word.strip() for word in text.split(",")]
+    if len(words) != number:
+        raise click.BadParameter(f"{plain(text)!r} has {len(words)} part(s), not {number}", param_hint=option)
+    return words
+
+
+def _whole(word: str, option: str) -> int:
+    if not word.isascii() or not word.isdigit() or len(word) > 6:
+        raise click.BadParameter(f"{plain(word)!r} is not a number", param_hint=option)
+    return int(word)
+
+
+def _joint_named(sc: SCGraph, name: str) -> Hashable:
+    return next((joint for joint in sc.joints if str(joint) == name), name)
+
+
+def _crease(sc: SCGraph, text: str) -> Edit:
+    from graphs.edits import add_crease
+    from graphs.scd import SCDGraph
+    from graphs.scd_edits import crease_link
+
+    name, _, rest = text.partition(":")
+    link, words = link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
+    if not isinstance(sc, SCDGraph):
+        return add_crease(sc, link, [_joint_named(sc, word) for word in words])
+    if len(words) not in (1, 2):
+        raise click.BadParameter("an SCD graph needs LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease")
+    return crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
+
+
+def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
+    from graphs.edits import add_loop
+    from graphs.scd import SCDGraph
+
+    a, b, k = _words(text, 3, option)
+    bare = sc.sc_graph() if isinstance(sc, SCDGraph) else sc
+    return add_loop(bare, link_named(sc, a), link_named(sc, b), _whole(k, option), centre=centre)
+
+
+def _ride_along(sc: SCGraph, text: str) -> Edit:
+    from graphs.edits import add_ride_along
+    from graphs.scd import SCDGraph
+    from graphs.scd_edits import ride_along
+
+    a, b = (link_named(sc, word) for word in _words(text, 2, "--add-ride-along"))
+    if isinstance(sc, SCDGraph) and sc.has_edge(a, b):
+        return ride_along(sc, next(iter(sc[a][b])))
+    return add_ride_along(sc, a, b)
+
+
+def _centre(sc: SCGraph, text: str, option: str) -> Edit:
+    from graphs.errors import UnsolvableError
+    from graphs.scd import SCDGraph
+    from graphs.scd_edits import make_explicit, make_implicit
+
+    if not isinstance(sc, SCDGraph):
+        raise UnsolvableError(f"{option} needs the sides of the links: an SCD graph")
+    return (make_implicit if option == "--implicit" else make_explicit)(sc, _whole(text, option))
+
+
+def _lock(sc: SCGraph, text: str) -> Edit:
+    from graphs.edits import lock_joint
+    from graphs.scd import SCDGraph
+    from graphs.scd_edits import lock_hinge
+
+    joint = _joint_named(sc, text)
+    return lock_hinge(sc, joint) if isinstance(sc, SCDGraph) else lock_joint(sc, joint)
