@@ -16,7 +16,7 @@ from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, shown
 
-__all__ = ["MOST_NODES", "Checker", "load_json", "read_text", "write_bytes", "write_text"]
+__all__ = ["MOST_NODES", "Checker", "load_json", "read_text", "write_chunks", "write_text"]
 
 MOST_NODES = 2_000_000
 """Most links or vertices that a bare number in a file may call for."""
@@ -61,11 +61,11 @@ def write_text(path: Path, text: str) -> None:
     FileError
         If it cannot be written; what was there is kept.
     """
-    write_bytes(path, text.encode("utf-8"))
+    write_chunks(path, [text])
 
 
-def write_bytes(path: Path, data: bytes) -> None:
-    """Write bytes as :func:`write_text` writes text."""
+def write_chunks(path: Path, chunks: Iterable[str]) -> None:
+    """Write text that comes piece by piece, as :func:`write_text` writes one piece."""
     if path.is_dir():
         raise FileError(path, "", "a directory", "a file to write")
     try:
@@ -75,8 +75,8 @@ def write_bytes(path: Path, data: bytes) -> None:
         raise FileError(path, "", f"cannot be written: {_reason(error)}", "a writable folder") from None
     beside = Path(name)
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
+            stream.writelines(chunks)
         beside.chmod(mode)
         beside.replace(path)
     except OSError as error:

@@ -18,6 +18,7 @@ _COMMANDS = {
     "mobility": "synth.cli.mobility:mobility",
     "reduce": "synth.cli.reduce:reduce_command",
     "edit": "synth.cli.edit:edit",
+    "enumerate": "synth.cli.enumerate:enumerate_group",
     "convert": "synth.cli.convert:convert",
     "reconstruct": "synth.cli.reconstruct:reconstruct",
 }
