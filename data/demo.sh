@@ -8,7 +8,8 @@ say() { printf '\n\033[1m%s\033[0m\n' "$1"; }
 show() { printf '$ synth %s\n' "$*"; "$synth" "$@"; }
 
 say "The mechanisms of Wiener's thesis: which class, how many freedoms M?"
-show mobility --no-exact data/wiener/*.json
+show mobility --no-exact data/wiener/[a-z]*-*bar*.json data/wiener/table3-*.json data/wiener/watt*.json \
+  data/wiener/stephenson*.json data/wiener/fortune-teller.json data/wiener/concentric-loops.json data/wiener/three-link-chain.json
 
 say "One of them in full: a spherical six-bar with a spatial chain across it. Which formulas hold, and why not the others?"
 show mobility --no-exact data/wiener/hybrid-ten-bar.json
@@ -18,3 +19,9 @@ show mobility --no-exact data/patterns/bird-base.fold
 
 say "A six-bar with a centre that its links do not reach, reconstructed vertex by vertex"
 show reconstruct data/wiener/table3-row3.json
+
+say "The fortune teller without its ride-alongs"
+show reduce data/wiener/fortune-teller.json
+
+say "All chains of panels with six creases between two bodies"
+show enumerate strings --dof 6

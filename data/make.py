@@ -10,29 +10,28 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import linkages_on_surfaces
 import patterns
-from mechanisms import ENTRIES
+import wampler_2007
+import wiener_2016
 
 from graphs.files.formats import write
 
 HERE = Path(__file__).resolve().parent
 
 
+ENTRIES = [*wiener_2016.ENTRIES, *wampler_2007.ENTRIES, *linkages_on_surfaces.ENTRIES]
+
+
 def main(folder: Path = HERE) -> None:
     """Write the mechanisms, the crease patterns and index.json into a folder."""
-    for sub in ("wiener", "wampler", "patterns"):
-        (folder / sub).mkdir(exist_ok=True)
     index = []
     for entry in ENTRIES:
+        (folder / entry.file).parent.mkdir(exist_ok=True)
         write(entry.make(), folder / entry.file)
         index.append(entry.row())
-    for name, sheet in {
-        "miura-3x3": patterns.miura(3, 3),
-        "miura-4x5": patterns.miura(4, 5),
-        "bird-base": patterns.bird_base(),
-        "square-twist": patterns.square_twist(),
-        "four-bar-vertex": patterns.fourbar_vertex(),
-    }.items():
+    (folder / "patterns").mkdir(exist_ok=True)
+    for name, sheet in {"bird-base": patterns.bird_base(), "four-bar-vertex": patterns.fourbar_vertex()}.items():
         write(sheet, folder / "patterns" / f"{name}.fold")
     rows = ",\n".join("  " + json.dumps(row) for row in index)
     (folder / "index.json").write_text(f"[\n{rows}\n]\n", encoding="utf-8")

@@ -53,7 +53,7 @@ def test_figures_of_rods(name, entry, golden):
 
 
 def test_rigid_bodies(golden):
-    """Figs. 2 to 5 (the text points to Fig. 1). Two vertices: the spin about the rod is not counted."""
+    """Misprint 004-3: the text points to Fig. 1 for Figs. 2 to 5. Two vertices: the spin about the rod is not counted."""
     values = golden["004"]["rigid_bodies"]
     for v, e, dof in zip(values["inputs"]["V"], values["computed"]["E"], values["computed"]["dof"], strict=True):
         body = model(f"fig{v}")
@@ -62,7 +62,7 @@ def test_rigid_bodies(golden):
 
 
 def test_fig_1(golden):
-    """The count is 1 by Eq. 2 and by Eq. 5; that a folded branch has 2 is no matter of counting."""
+    """The count is 1 by Eq. 2 and by Eq. 5; that a folded branch has 2 (004-2) is no matter of counting."""
     values = golden["004"]["fig1"]
     rods = model("fig1")
     assert (len(rods), rods.number_of_edges()) == (values["inputs"]["V"], values["inputs"]["E"])
@@ -95,6 +95,7 @@ def test_joint_costs_of_eq_6(golden):
 
 
 def test_fig_12_remote_centre(golden):
+    """004-5: the count is right; a rank of the rods is not, as the four points of each link are coplanar."""
     values = golden["004"]["fig12_remote"]
     closed, chain = mobility_report(model("fig12")), mobility_report(model("fig12-open"))
     computed = values["computed"]
@@ -121,6 +122,7 @@ def test_s_k_is_what_the_rods_miscount(k, golden):
 
 
 def test_scissors(golden):
+    """004-6: one S_{+4} an independent loop."""
     values = golden["004"]["scissors_spherical_loops"]
     for n, name in ((4, "spherical-scissors"), (5, "spherical-scissors-5"), (6, "spherical-scissors-6")):
         report = mobility_report(model(name))

@@ -122,7 +122,7 @@ def test_convert_round_trip(data, tmp_path):
     run("convert", tmp_path / "back.fold", tmp_path / "sc.json")
     sc = read(tmp_path / "sc.json")
     assert (len(sc), len(sc.joints), len(sc.loops)) == (16, 20, 5)
-    run("convert", data / "patterns" / "miura-3x3.fold", tmp_path / "model.json", "--to", "polyhedron")
+    run("convert", data / "wiener" / "miura-3x3.fold", tmp_path / "model.json", "--to", "polyhedron")
     model = read(tmp_path / "model.json")
     assert isinstance(model, PolyhedronModel)
     assert len(model.coordinates) == 16
@@ -211,6 +211,39 @@ def test_edits_that_cannot_be(words, message, data):
     assert message in run("edit", data / "wiener" / "watt.json", *words, code=2).stderr
 
 
+def test_enumerate_strings(tmp_path):
+    rows = json.loads(run("enumerate", "strings", "--json").stdout)
+    assert len(rows) == 20
+    assert rows[-2]["string"] == "RR-R-RRR"
+    assert rows[-2].keys() == {"creases", "string", "joints", "distance", "dof", "modes", "comment"}
+    assert re.search(r"6 +RR-R-RRR +UPS +variable +6 +2", run("enumerate", "strings").stdout)
+    assert run("enumerate", "strings", "--count").stdout == "20\n"
+    assert json.loads(run("enumerate", "strings", "--count", "--json").stdout) == {"count": 20}
+    assert run("enumerate", "strings", "--dof", 30, "--max-panels", "none", "--count").stdout == "26903492\n"
+    assert run("enumerate", "strings", "--modes", "--max-dof", 6, "--count").stdout == "30\n"
+    moded = json.loads(run("enumerate", "strings", "--dof", 6, "--modes", "--json").stdout)
+    assert [row["mode"] for row in moded if row["string"] == "RR-RR-RR"] == ["SS", "DS", "DD"]
+    run("enumerate", "strings", "-o", tmp_path / "s.jsonl")
+    assert [json.loads(line) for line in (tmp_path / "s.jsonl").read_text().splitlines()] == rows
+    many = run("enumerate", "strings", "--dof", 14, "--max-panels", "none").stdout.splitlines()
+    assert many[0].split("\t")[:2] == ["creases", "string"]
+    assert len(many) == 1 + int(run("enumerate", "strings", "--dof", 14, "--max-panels", "none", "--count").stdout)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--dof", 3, "--max-dof", 4], "give --dof or --max-dof, not both"),
+        (["--max-panels", "many"], "'many' is neither a number nor 'none'"),
+        (["--max-cluster", 0], "max_cluster is 0; expected 1 or more"),
+        (["--dof", 0], "0 is not in the range"),
+        (["-o", "strings.txt"], "strings.txt: the extension is not known; expected .jsonl"),
+    ],
+)
+def test_strings_that_cannot_be_listed(words, message):
+    assert message in run("enumerate", "strings", *words, code=2).stderr
+
+
 def test_reconstruct_writes_the_model(data, tmp_path):
     out = run("reconstruct", data / "wiener" / "table3-row3.json", "-o", tmp_path / "model.json").stdout
     assert "V = 9, C = 1, E = 15 external + 8 internal, M = 1" in out
@@ -236,11 +269,11 @@ def test_usage_errors_keep_clicks_format(words):
     assert "Usage:" in result.output
 
 
-@pytest.mark.parametrize("command", ["mobility", "reduce", "edit", "convert", "reconstruct"])
+@pytest.mark.parametrize("command", ["mobility", "reduce", "edit", "enumerate", "convert", "reconstruct"])
 def test_every_help_text_has_an_example(command):
     out = run(command, "--help").stdout
     assert re.search(rf"Examples?:\n +synth {command} ", out)
-    assert "--json" in out
+    assert "--json" in out or command == "enumerate"
 
 
 def test_help_needs_neither_networkx_nor_rich():
@@ -275,4 +308,11 @@ def test_shell_completion_knows_the_commands():
     env = os.environ | {"_SYNTH_COMPLETE": "bash_complete", "COMP_WORDS": "synth ", "COMP_CWORD": "1"}
     code = "from synth.cli.main import main; main(prog_name='synth')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=env)
-    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {"mobility", "reduce", "edit", "convert", "reconstruct"}
+    assert set(re.findall(r"plain,(\w+)", done.stdout)) == {
+        "mobility",
+        "reduce",
+        "edit",
+        "enumerate",
+        "convert",
+        "reconstruct",
+    }
