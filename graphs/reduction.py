@@ -139,6 +139,7 @@ def reduce_addenda(
     Parameters
     ----------
     sc : SCGraph
+        Of an SCD graph, the SC graph is reduced.
     rule : {"ride-along", "dyad"}, optional
         ``"ride-along"``: a and b are joined, and the cycle a-u-v-b is a sum of loops of one class.
         ``"dyad"``: a and b need not be joined; some loop through u and v has a centre.
