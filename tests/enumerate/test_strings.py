@@ -96,15 +96,16 @@ def test_listing_and_generating_function_agree(limits):
 
 
 def test_listing_and_generating_function_agree_to_thirty():
-    for panels, cluster in ((2, 3), (5, None), (9, 3), (None, 1)):
+    for panels, cluster in ((2, 3), (2, None), (5, None), (9, 3), (None, 1)):
         for n in range(15, 31):
             listed = sum(1 for _ in strings(n, max_panels=panels, max_cluster=cluster))
             assert listed == count_strings(n, max_panels=panels, max_cluster=cluster)
 
 
 @pytest.mark.slow
-def test_listing_and_generating_function_agree_to_thirty_without_limit_on_panels():
-    for n in (*range(15, 25), 30):
+def test_listing_and_generating_function_agree_without_limit_on_panels():
+    """To 24 creases, 600 000 strings; there are 26 903 492 of thirty."""
+    for n in range(15, 25):
         listed = sum(1 for _ in strings(n, max_panels=None))
         assert listed == count_strings(n, max_panels=None)
 
