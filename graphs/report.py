@@ -285,9 +285,11 @@ def _warnings(sc: SCGraph) -> Iterable[str]:
             f"{sc.components} parts that are not joined: their relative motion, "
             f"{6 * (sc.components - 1)} freedoms more, is not counted"
         )
-    for group in sc.parallel_joints():
-        names = " ".join(str(joint) for joint in group)
-        yield f"joints {shown(names)} join the same two links: rigid, unless they are collinear"
+    groups = sc.parallel_joints()
+    if groups:
+        names = shown(" ".join(str(joint) for joint in groups[0]))
+        more = f" (and {len(groups) - 1} more pairs of links)" if len(groups) > 1 else ""
+        yield f"joints {names}{more} join the same two links: rigid, unless they are collinear"
     pairs = sum(len(loop.joints) == 2 and loop.has_centre for loop in (*sc.loops, *sc.closing))
     if pairs:
         yield f"{pairs} loop(s) of two joints constrain 2 freedoms, not 3 (1 if collinear): the count is low"

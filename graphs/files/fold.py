@@ -1,4 +1,4 @@
-"""FOLD files in their plain form: one frame, faces given.
+"""FOLD files in their plain form: one frame; faces that are not given are traced.
 
 Read as a :class:`graphs.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The format
 is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
@@ -8,6 +8,7 @@ demands.
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -43,9 +44,7 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     check = Checker(path)
     if not isinstance(value, dict):
         check.fail("", value, "a FOLD document (an object)")
-    if "faces_vertices" not in value:
-        raise FileError(path, "faces_vertices", "missing", "the faces of the pattern, in the first frame")
-    faces = _indices(value["faces_vertices"], "faces_vertices", check)
+    faces = _indices(value.get("faces_vertices", []), "faces_vertices", check)
     edges = _indices(value.get("edges_vertices", []), "edges_vertices", check)
     for i, edge in enumerate(edges):
         if len(edge) != 2:
@@ -57,7 +56,7 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     if isinstance(more, list) and more:
         repairs = (*repairs, f"{len(more)} more frame(s) not read")
     title = value.get("frame_title", value.get("file_title", ""))
-    return check.build(
+    sheet = check.build(
         lambda: Sheet(
             vertices,
             tuple((a, b) for a, b in edges),
@@ -69,6 +68,25 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
         ),
         lambda part: f"{part[0]}_vertices[{part[1]}]",
     )
+    return sheet if faces else _traced(sheet, check)
+
+
+def _traced(sheet: Sheet, check: Checker) -> Sheet:
+    """Trace the faces of a pattern that comes without; it must be flat."""
+    import numpy as np
+
+    from graphs.tracing import MOST, Lines, trace_sheet
+
+    if not sheet.edges or sheet.coordinates is None:
+        raise FileError(check.path, "faces_vertices", "missing", "faces, or edges with coordinates to trace them")
+    points = np.array(sheet.coordinates, dtype=float)
+    if not np.all(np.abs(points) < MOST) or np.ptp(points[:, 2:], axis=0).any():
+        raise FileError(check.path, "faces_vertices", "missing, and the pattern is not flat", "the faces")
+    ends = points[np.array(sheet.edges), :2]
+    found = check.build(
+        lambda: trace_sheet(Lines(ends, sheet.assignments), title=sheet.title), lambda part: part[0]
+    )
+    return replace(found, repairs=("faces traced", *sheet.repairs, *found.repairs))
 
 
 def fold_text(sheet: Sheet) -> str:

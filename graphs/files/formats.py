@@ -22,6 +22,7 @@ from graphs.files.bare import (
 )
 from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.files.native import dumps, from_document
+from graphs.files.obj import obj_text, sheet_from_obj
 from graphs.files.source import load_json, write_text
 from graphs.sheet import Sheet
 
@@ -144,9 +145,28 @@ def _read_edges(path: Path) -> Iterator[tuple[str, Mechanism]]:
     yield "", as_sc(read_edge_list(path), path)
 
 
+def _read_cp(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    from graphs.files.cp import sheet_from_cp  # tracing loads shapely
+
+    yield "", sheet_from_cp(path)
+
+
+def _read_svg(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    from graphs.files.svg import sheet_from_svg
+
+    yield "", sheet_from_svg(path)
+
+
+def _read_obj(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    yield "", sheet_from_obj(path)
+
+
 READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
     ".json": _read_json,
     ".fold": _read_fold,
+    ".svg": _read_svg,
+    ".cp": _read_cp,
+    ".obj": _read_obj,
     ".g6": _read_graph6,
     ".s6": _read_graph6,
     ".graphml": _read_graphml,
@@ -169,9 +189,21 @@ def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     return fold_text(to_sheet(mechanism)), lost
 
 
+def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    from graphs.files.cp import cp_text
+
+    return cp_text(to_sheet(mechanism)), ("which lines bound which face",)
+
+
+def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    return obj_text(to_sheet(mechanism)), ("mountains, valleys and cuts",)
+
+
 WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
     ".json": _write_json,
     ".fold": _write_fold,
+    ".cp": _write_cp,
+    ".obj": _write_obj,
     ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), (*_NO_LOOPS, "names")),
     ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), (*_NO_LOOPS, "names")),
     ".graphml": lambda m: (graphml_text(to_sc(m)), _NO_LOOPS),

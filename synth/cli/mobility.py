@@ -52,7 +52,7 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | Non
     elif len(reports) == 1 and not failures:
         _print_report(console(), *reports[0])
     elif reports:
-        _print_table(console(), reports)
+        _print_table(console(), reports, len(failures))
     if failures:
         sys.exit(2)
 
@@ -128,18 +128,22 @@ def _print_report(out: Console, label: str, report: MobilityReport) -> None:
             out.print(f"{kind}: {note}")
 
 
-def _print_table(out: Console, reports: list[tuple[str, MobilityReport]]) -> None:
-    rows = table("file", "class", "N", "J", "L", "centres", "M", numbers=["N", "J", "L", "centres", "M"])
+def _print_table(out: Console, reports: list[tuple[str, MobilityReport]], failed: int) -> None:
+    """Print a line a mechanism in the order given, with totals; one file alone tells its notes in full."""
+    rows = table(
+        "file", "class", "N", "J", "L", "centres", "M", "notes", numbers=["N", "J", "L", "centres", "M", "notes"]
+    )
+    common = set.intersection(*(set(report.warnings) for _, report in reports))
     for label, report in reports:
+        notes = len(report.repairs) + len(set(report.warnings) - common)
         rows.add_row(
             plain(label, _LONGEST_PATH),
             report.mechanism_class,
-            *map(plain, (report.links, report.joints, report.loops, report.centres, report.mobility)),
+            *map(plain, (report.links, report.joints, report.loops, report.centres, report.mobility, notes or "")),
         )
     out.print(rows)
-    notes: dict[str, int] = {}
-    for _, report in reports:
-        for note in (*report.repairs, *report.warnings):
-            notes[note] = notes.get(note, 0) + 1
-    for note, number in notes.items():
-        out.print(f"note ({number} of {len(reports)}): {note}")
+    out.print(f"{len(reports)} mechanism(s) reported, {failed} failed")
+    for note in sorted(common):
+        out.print(f"note, for all: {note}")
+    if any(report.repairs or set(report.warnings) - common for _, report in reports):
+        out.print("ask for one file alone to read its notes")

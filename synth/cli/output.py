@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["about", "console", "entries", "plain", "print_json", "table"]
 
 _WIDEST = 60
+_UNWRAPPED = 10_000
 
 
 def plain(value: object, widest: int = _WIDEST) -> str:
@@ -56,10 +58,14 @@ def print_json(value: Any) -> None:
 
 
 def console() -> Console:
-    """Return the console of standard output, without markup: names of links may hold brackets."""
+    """Return the console of standard output, without markup: names of links may hold brackets.
+
+    Lines are wrapped on a terminal only; in a file or a pipe a row stays a line.
+    """
     from rich.console import Console
 
-    return Console(markup=False, highlight=False, emoji=False, soft_wrap=False)
+    width = None if sys.stdout.isatty() else _UNWRAPPED
+    return Console(markup=False, highlight=False, emoji=False, soft_wrap=False, width=width)
 
 
 def table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) -> Table:

@@ -1,11 +1,9 @@
-import csv
 import json
 
 import pytest
 
-from graphs.errors import FileError, InvariantError
+from graphs.errors import InvariantError
 from graphs.files.fold import fold_text, sheet_from_fold
-from graphs.files.formats import read, write
 from graphs.report import mobility_report
 from graphs.sheet import Sheet, mechanism_of_sheet
 
@@ -100,37 +98,3 @@ def test_fold_text_reads_back(tmp_path):
         Sheet(4, ((0, 2),), "U", ((0, 1, 2), (0, 2, 3))),
     ):
         assert sheet_from_fold(json.loads(fold_text(sheet)), tmp_path) == sheet
-
-
-def test_crease_patterns_by_other_people(fold_folder, tmp_path):
-    """Counts equal the reference figures for every FOLD file that is plain; the others are refused by name."""
-    columns = ("N_panels(F merged)", "J_hinges", "Vint", "extra_loops", "Mgeneric_J-3Vint-6L")
-    plain = refused = 0
-    with (fold_folder / "INDEX.tsv").open(encoding="utf-8") as stream:
-        rows = [row for row in csv.DictReader(stream, delimiter="\t") if row["name"].endswith(".fold")]
-    for row in rows:
-        try:
-            sheet = read(fold_folder / row["name"])
-        except FileError as error:
-            assert row["has_faces_vertices"] == "no", row["name"]
-            assert "faces_vertices: missing" in str(error) or "not JSON" in str(error)
-            refused += 1
-            continue
-        if row["name"] == "rtori_13horns_triangulated.fold":
-            with pytest.raises(InvariantError, match="belongs to 4 faces"):
-                mechanism_of_sheet(sheet)
-            continue
-        mechanism = mechanism_of_sheet(sheet)
-        report = mobility_report(mechanism.sc)
-        found = (
-            report.links,
-            report.joints,
-            mechanism.interior_vertices,
-            report.counts["spatial_loops"],
-            report.mobility,
-        )
-        assert list(map(str, found)) == [row[column] for column in columns], row["name"]
-        write(sheet, tmp_path / "again.fold")
-        assert mechanism_of_sheet(read(tmp_path / "again.fold")).sc.is_identical(mechanism.sc), row["name"]
-        plain += 1
-    assert (plain, refused) == (50, 9)

@@ -1,0 +1,71 @@
+"""Crease patterns as ``.cp``: a line of ``type x1 y1 x2 y2`` each; 1 border, 2 mountain, 3 valley, 4 auxiliary."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from graphs.errors import FileError, InvariantError, UnsolvableError, shown
+from graphs.files.source import read_text
+from graphs.sheet import Sheet
+from graphs.tracing import MOST, Lines, trace_sheet
+
+__all__ = ["cp_text", "sheet_from_cp"]
+
+_LETTERS = {"1": "B", "2": "M", "3": "V", "4": "F"}
+_TYPES = {"B": 1, "C": 1, "M": 2, "V": 3, "U": 3, "F": 4, "J": 4}
+
+
+def sheet_from_cp(path: Path) -> Sheet:
+    """Read a ``.cp`` file and trace its faces.
+
+    Raises
+    ------
+    FileError
+        With the line.
+    """
+    ends, letters = [], []
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        words = line.split()
+        if not words:
+            continue
+        place = f"line {number}"
+        if len(words) != 5 or words[0] not in _LETTERS:
+            raise FileError(path, place, shown(line.strip()), "a type from 1 to 4 and four numbers")
+        try:
+            x1, y1, x2, y2 = map(float, words[1:])
+        except ValueError:
+            raise FileError(path, place, shown(line.strip()), "four numbers after the type") from None
+        if not all(abs(x) < MOST for x in (x1, y1, x2, y2)):
+            raise FileError(path, place, "a number that is not finite, or too large", "coordinates")
+        ends.append(((x1, y1), (x2, y2)))
+        letters.append(_LETTERS[words[0]])
+    try:
+        return trace_sheet(Lines(np.array(ends, dtype=float).reshape(-1, 2, 2), "".join(letters)))
+    except InvariantError as error:
+        raise FileError(path, "", error.offender, error.expected) from None
+
+
+def cp_text(sheet: Sheet) -> str:
+    r"""Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, or does not lie in a plane z = constant.
+
+    Examples
+    --------
+    >>> cp_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
+    '2 0.0 0.0 1.0 0.5\n'
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError("a .cp file needs coordinates, and the sheet has none")
+    if len({place[2] for place in sheet.coordinates if len(place) > 2}) > 1:
+        raise UnsolvableError("a .cp file is flat, and the sheet is not")
+    at = [(repr(place[0]), repr(place[1])) for place in sheet.coordinates]
+    return "".join(
+        f"{_TYPES[letter]} {' '.join(at[a])} {' '.join(at[b])}\n"
+        for (a, b), letter in zip(sheet.edges, sheet.assignments, strict=True)
+    )

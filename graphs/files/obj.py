@@ -1,0 +1,80 @@
+"""Wavefront OBJ: vertices and faces of a folded or flat sheet. Sides between two faces are taken for creases."""
+
+from __future__ import annotations
+
+from math import isfinite
+from pathlib import Path
+
+from graphs.errors import FileError, InvariantError, UnsolvableError, shown
+from graphs.files.source import read_text
+from graphs.sheet import Sheet
+
+__all__ = ["obj_text", "sheet_from_obj"]
+
+
+def sheet_from_obj(path: Path) -> Sheet:
+    """Read the ``v`` and ``f`` lines of an OBJ file; all others are left alone.
+
+    Raises
+    ------
+    FileError
+        With the line.
+    """
+    places: list[tuple[float, ...]] = []
+    faces: list[tuple[int, ...]] = []
+    lines: list[int] = []
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        words = line.split("#", 1)[0].split()
+        if not words or words[0] not in ("v", "f"):
+            continue
+        try:
+            if words[0] == "v":
+                places.append(_place(words[1:]))
+            else:
+                faces.append(tuple(_vertex(word, len(places)) for word in words[1:]))
+                lines.append(number)
+        except ValueError:
+            expected = "three numbers" if words[0] == "v" else "numbers of vertices from 1 on"
+            raise FileError(path, f"line {number}", shown(line.strip()), expected) from None
+    if not faces:
+        raise FileError(path, "", "no faces", "lines 'f a b c ...'")
+    try:
+        return Sheet(len(places), (), "", tuple(faces), tuple(places))
+    except InvariantError as error:
+        place = "" if error.part is None else f"line {lines[int(str(error.part[1]))]}"
+        raise FileError(path, place, error.offender, error.expected) from None
+
+
+def obj_text(sheet: Sheet) -> str:
+    r"""Return the OBJ text of a sheet; a flat one lies in z = 0.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates.
+
+    Examples
+    --------
+    >>> obj_text(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).splitlines()[-1]
+    'f 1 2 3'
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError("an OBJ file needs coordinates, and the sheet has none")
+    rows = ["v " + " ".join(repr(x) for x in (*place, 0.0)[:3]) for place in sheet.coordinates]
+    rows += ["f " + " ".join(str(v + 1) for v in face) for face in sheet.faces]
+    return "\n".join(rows) + "\n"
+
+
+def _place(words: list[str]) -> tuple[float, ...]:
+    place = tuple(float(word) for word in words[:3])
+    if len(place) < 3 or not all(isfinite(x) for x in place):
+        raise ValueError(words)
+    return place
+
+
+def _vertex(word: str, known: int) -> int:
+    """Read ``7``, ``7/1``, ``7//3``, or a negative number that counts from the last vertex."""
+    number = int(word.split("/", 1)[0])
+    if number == 0:
+        raise ValueError(word)
+    return number - 1 if number > 0 else known + number

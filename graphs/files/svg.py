@@ -1,0 +1,114 @@
+"""Crease patterns as SVG in origami colours.
+
+Mountain red, valley blue, border black, cut green, flat (facet) yellow, unassigned magenta: the colours of Origami
+Simulator. Shapes, transforms and styles are read by svgelements; curves become polylines.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import ParseError
+
+import numpy as np
+
+from graphs.errors import FileError, InvariantError, shown
+from graphs.files.source import read_text
+from graphs.sheet import Sheet
+from graphs.tracing import MOST, Lines, trace_sheet
+
+__all__ = ["letter_of_colour", "sheet_from_svg"]
+
+_COLOURS = {
+    "M": (255, 0, 0),
+    "V": (0, 0, 255),
+    "B": (0, 0, 0),
+    "C": (0, 255, 0),
+    "F": (255, 255, 0),
+    "U": (255, 0, 255),
+}
+_NEAR = 120
+"""A stroke farther than this from every origami colour (in RGB) is no crease."""
+_PIECES = 8
+"""Straight pieces of a curved segment."""
+
+
+def letter_of_colour(red: int, green: int, blue: int) -> str | None:
+    """Return the assignment that a stroke colour stands for, or None.
+
+    Examples
+    --------
+    >>> letter_of_colour(230, 10, 10), letter_of_colour(128, 128, 128)
+    ('M', None)
+    """
+    found, distance = min(
+        ((letter, abs(red - r) + abs(green - g) + abs(blue - b)) for letter, (r, g, b) in _COLOURS.items()),
+        key=lambda item: item[1],
+    )
+    return found if distance <= _NEAR else None
+
+
+def sheet_from_svg(path: Path) -> Sheet:
+    """Read the lines of an SVG file and trace its faces.
+
+    Raises
+    ------
+    FileError
+    """
+    import svgelements
+
+    read_text(path)  # the plain errors: missing, a directory, empty, not text
+    try:
+        drawing = svgelements.SVG.parse(str(path), reify=True)
+    except ParseError as error:
+        line, column = error.position
+        raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
+    ends: list[Any] = []
+    letters: list[str] = []
+    other = 0
+    for shape in drawing.elements():
+        if not isinstance(shape, svgelements.Shape) or shape.stroke is None or shape.stroke.value is None:
+            continue
+        letter = letter_of_colour(shape.stroke.red, shape.stroke.green, shape.stroke.blue)
+        if letter is None:
+            other += 1
+            continue
+        try:
+            pieces = _pieces(shape)
+        except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
+            raise FileError(path, "", f"a shape cannot be drawn: {shown(str(error))}", "SVG shapes") from None
+        ends += pieces
+        letters += letter * len(pieces)
+    array = np.array(ends, dtype=float).reshape(-1, 2, 2) * (1, -1)  # y points down in SVG
+    if not np.all(np.abs(array) < MOST):
+        raise FileError(path, "", "a coordinate that is not finite, or too large", "coordinates")
+    try:
+        sheet = trace_sheet(Lines(array, "".join(letters)))
+    except InvariantError as error:
+        raise FileError(path, "", error.offender, error.expected or "lines in origami colours") from None
+    return (
+        sheet
+        if not other
+        else replace(sheet, repairs=(*sheet.repairs, f"{other} shape(s) in other colours left out"))
+    )
+
+
+def _pieces(shape: Any) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+    """Return the straight pieces of a shape."""
+    import svgelements
+
+    pieces = []
+    for segment in svgelements.Path(shape):
+        if isinstance(segment, svgelements.Move) or segment.start is None or segment.end is None:
+            continue
+        if isinstance(segment, svgelements.Line | svgelements.Close):
+            points = [segment.start, segment.end]
+        else:
+            points = [segment.point(k / _PIECES) for k in range(_PIECES + 1)]
+        places = [(float(point.x), float(point.y)) for point in points]
+        pieces += [(a, b) for a, b in pairwise(places) if a != b]
+    return pieces

@@ -1,0 +1,135 @@
+"""Tracing of planar patterns, against GEOS where it applies."""
+
+import random
+from collections import Counter
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphs.errors import InvariantError
+from graphs.files.cp import cp_text, sheet_from_cp
+from graphs.files.formats import read, write
+from graphs.sheet import mechanism_of_sheet
+from graphs.tracing import Lines, trace_sheet
+
+SQUARE = [((0, 0), (1, 0)), ((1, 0), (1, 1)), ((1, 1), (0, 1)), ((0, 1), (0, 0))]
+
+
+def traced(lines, letters):
+    return trace_sheet(Lines(np.array(lines, dtype=float).reshape(-1, 2, 2), letters))
+
+
+def areas(sheet):
+    points = np.array(sheet.coordinates)
+    found = []
+    for face in sheet.faces:
+        x, y = points[list(face)].T
+        found.append((x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+    return found
+
+
+@given(st.integers(0, 10**9))
+def test_random_lines_in_a_square_as_geos_sees_them(seed):
+    rng = random.Random(seed)  # lines in general position: not the denormal numbers of a shrinking search
+    lines = list(SQUARE)
+    for _ in range(rng.randint(1, 12)):
+        lines.append(((rng.random(), rng.random()), (rng.random(), rng.random())))
+    letters = "BBBB" + "V" * (len(lines) - 4)
+    sheet = trace_sheet(Lines(np.array(lines, dtype=float), letters), tolerance=1e-9)
+    noded = shapely.unary_union(shapely.linestrings(np.array(lines, dtype=float)))
+    polygons = shapely.get_parts(shapely.polygonize(shapely.get_parts(noded)))
+    without_holes = [polygon for polygon in polygons if not polygon.interiors]
+    if len(without_holes) < len(polygons):
+        return  # an island inside a face; its outline is no side of the face here
+    assert len(sheet.faces) == len(polygons)
+    assert sorted(areas(sheet)) == pytest.approx(sorted(polygon.area for polygon in polygons), abs=1e-5)
+    assert sum(areas(sheet)) == pytest.approx(1, abs=1e-9)
+
+
+@given(st.integers(0, 10**9))
+def test_small_errors_are_welded(seed):
+    """A grid whose every line is drawn apart, each end off by up to a ten-thousandth."""
+    rng = random.Random(seed)
+    n = rng.randint(2, 5)
+    lines, letters = [], ""
+    for i in range(n + 1):
+        for j in range(n):
+            border = i in (0, n)
+            lines += [((j, i), (j + 1, i)), ((i, j), (i, j + 1))]
+            letters += ("B" if border else "M") + ("B" if border else "V")
+    noisy = np.array(lines, dtype=float) / n
+    noisy += [[[rng.uniform(-5e-5, 5e-5) for _ in range(2)] for _ in range(2)] for _ in lines]
+    sheet = trace_sheet(Lines(noisy, letters))
+    mechanism = mechanism_of_sheet(sheet)
+    assert (len(sheet.faces), len(mechanism.sc.joints)) == (n * n, 2 * n * (n - 1))
+    assert mechanism.interior_vertices == (n - 1) ** 2
+
+
+def test_a_line_drawn_twice_counts_once_and_a_crease_wins_over_a_border():
+    sheet = traced([*SQUARE, ((0, 0), (1, 1)), ((1, 1), (0, 0)), ((0, 0), (1, 0))], "BBBBMBV")
+    assert Counter(sheet.assignments) == {"B": 3, "M": 1, "V": 1}
+    assert any(note.endswith("line(s) drawn twice") and note.startswith("2 ") for note in sheet.repairs)
+
+
+def test_ends_on_lines_split_them_and_loose_ends_are_pruned():
+    sheet = traced([*SQUARE, ((0.5, 0), (0.5, 1)), ((0.5, 0.5), (0.8, 0.5)), ((2, 2), (3, 3))], "BBBBMVV")
+    assert (len(sheet.faces), sheet.assignments.count("M")) == (2, 1)
+    assert any("that end nowhere pruned" in note for note in sheet.repairs)
+    assert any("in the middle of a line taken out" in note for note in sheet.repairs)
+
+
+def test_a_hole_is_no_face():
+    hole = [((a + 1) / 3, (b + 1) / 3) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    lines = [
+        *SQUARE,
+        *((hole[i - 1], hole[i]) for i in range(4)),
+        *zip([(0, 0), (1, 0), (1, 1), (0, 1)], hole, strict=True),
+    ]
+    sheet = traced(lines, "BBBB" + "BBBB" + "VVVV")
+    assert len(sheet.faces) == 4
+    sc = mechanism_of_sheet(sheet).sc
+    assert (len(sc), len(sc.joints), sc.spatial_loops) == (4, 4, 1)
+    assert any("taken as holes" in note for note in sheet.repairs)
+
+
+def test_no_lines_no_sheet():
+    for lines in ([], [((1, 1), (1, 1))]):
+        with pytest.raises(InvariantError, match="no line of any length"):
+            traced(lines, "V" * len(lines))
+    with pytest.raises(InvariantError, match="1 letters for ends of shape"):
+        Lines(np.zeros((2, 2, 2)), "V")
+
+
+@pytest.mark.parametrize("name", ["bird-base.fold", "four-bar-vertex.fold"])
+def test_cp_and_obj_round_trips(name, data, tmp_path):
+    sheet = read(data / "patterns" / name)
+    joints = len(mechanism_of_sheet(sheet).sc.joints)
+    assert "mountains, valleys and cuts" in write(sheet, tmp_path / "a.obj")
+    assert len(mechanism_of_sheet(read(tmp_path / "a.obj")).sc.joints) == joints
+    if name.startswith("bird"):
+        write(sheet, tmp_path / "a.cp")
+        again = sheet_from_cp(tmp_path / "a.cp")
+        assert len(mechanism_of_sheet(again).sc.joints) == joints
+        assert Counter(again.assignments) == Counter(sheet.assignments)
+        assert cp_text(again).count("\n") == len(sheet.edges)
+
+
+def test_svg_shapes_transforms_and_colours(tmp_path):
+    path = tmp_path / "a.svg"
+    path.write_text(
+        """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">
+        <rect x="0" y="0" width="10" height="10" fill="none" stroke="black"/>
+        <g transform="translate(5 0)" style="stroke:#f00"><line x1="0" y1="0" x2="0" y2="10"/></g>
+        <polyline points="0,5 5,5 10,5" stroke="rgb(0,0,250)" fill="none"/>
+        <path d="M0 0 C 1 3 3 1 4 4" stroke="gray" fill="none"/>
+        </svg>""",
+        encoding="utf-8",
+    )
+    sheet = read(path)
+    assert (len(sheet.faces), Counter(sheet.assignments)) == (4, {"B": 8, "M": 2, "V": 2})
+    assert "1 shape(s) in other colours left out" in sheet.repairs
+    mechanism = mechanism_of_sheet(sheet)
+    assert (mechanism.interior_vertices, len(mechanism.sc)) == (1, 4)
