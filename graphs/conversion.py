@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from graphs.duality import mechanism_of_sheet
 from graphs.errors import UnsolvableError
 from graphs.panels import oriented_panels, scd_from_panels
 from graphs.polyhedron import PolyhedronModel
 from graphs.reconstruction import reconstruct
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
-from graphs.sheet import Sheet, mechanism_of_sheet, sheet_from_model
+from graphs.sheet import Sheet, sheet_from_model
 from graphs.vertexedge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
 
 __all__ = ["CONVERSIONS", "Mechanism", "to_polyhedron", "to_sc", "to_scd", "to_sheet", "to_vertex_edge"]

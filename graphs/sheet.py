@@ -1,31 +1,23 @@
-"""A sheet: vertices, creases and panels of a crease pattern, and the mechanism it is.
+"""A sheet: vertices, edges and faces of a crease pattern.
 
-By duality panels are links, creases are joints and an interior vertex is a finite centre; leftover loops
-(holes, handles) are spatial. Source: DESIGN, section 4. Theory: docs/theory/crease-patterns.md.
+The mechanism it is: :mod:`graphs.duality`. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
 
-import networkx as nx
-import numpy as np
-
-from graphs.errors import InvariantError, shown
-from graphs.loops import Centre, Loop, split_dependent
+from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.polyhedron import PolyhedronModel
-from graphs.sc import SCGraph
 
-__all__ = ["FLAT", "HINGES", "Sheet", "SheetMechanism", "mechanism_of_sheet", "sheet_from_model"]
+__all__ = ["FLAT", "HINGES", "Edge", "Sheet", "flat_places", "sheet_from_model", "sides_of_face"]
 
 HINGES = "MVU"
 """Edge assignments that are hinges: mountain, valley, unassigned."""
 FLAT = "FJ"
 """Edge assignments that hinge nothing: flat, and joins between parts of one panel."""
-COLLINEAR = 1e-6
-"""Two hinges are collinear if their ends lie this close to one line, in units of their extent."""
 
 Edge = tuple[int, int]
 
@@ -47,6 +39,8 @@ class Sheet:
     title : str
     repairs : tuple of str
         What was mended on reading.
+    fold_angles : tuple of float or None, optional
+        One for each edge, in degrees as in files; None where an edge has none.
 
     Raises
     ------
@@ -55,6 +49,7 @@ class Sheet:
 
     Examples
     --------
+    >>> from graphs.duality import mechanism_of_sheet
     >>> square = Sheet(4, ((0, 1), (1, 2), (2, 3), (3, 0), (0, 2)), "BBBBV", ((0, 1, 2), (0, 2, 3)))
     >>> len(mechanism_of_sheet(square).sc.joints)
     1
@@ -67,6 +62,7 @@ class Sheet:
     coordinates: tuple[tuple[float, ...], ...] | None = None
     title: str = ""
     repairs: tuple[str, ...] = ()
+    fold_angles: tuple[float | None, ...] | None = None
 
     def __post_init__(self) -> None:
         for i, (a, b) in enumerate(self.edges):
@@ -82,75 +78,6 @@ class Sheet:
                     "three or more, each once",
                     ("faces", i),
                 )
-
-
-@dataclass(frozen=True)
-class SheetMechanism:
-    """The mechanism of a sheet.
-
-    Attributes
-    ----------
-    sc : SCGraph
-        Links are numbered in the order of the faces; joint ids are edge indices (the first of a split hinge).
-    panels : tuple of tuple of int
-        The faces that make up each link.
-    interior_vertices : int
-        Vertices with a loop of hinges round them.
-    repairs, warnings : tuple of str
-    """
-
-    sc: SCGraph
-    panels: tuple[tuple[int, ...], ...]
-    interior_vertices: int
-    repairs: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = field(default=())
-
-
-def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechanism:
-    """Return the mechanism of a sheet.
-
-    Parameters
-    ----------
-    sheet : Sheet
-    hinge_flat : bool, optional
-        Make hinges of flat edges too; without it they merge the faces they part.
-
-    Returns
-    -------
-    SheetMechanism
-
-    Raises
-    ------
-    InvariantError
-        If an edge belongs to more than two faces.
-
-    Examples
-    --------
-    >>> from graphs.report import mobility_report
-    >>> fan = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)))
-    >>> mobility_report(mechanism_of_sheet(fan).sc).mobility
-    1
-    """
-    hinges = HINGES + ("F" if hinge_flat else "")
-    faces_at, assignment, notes = _edges_of_faces(sheet)
-    panel_of_face, panels = _merge_flat(sheet, faces_at, assignment, hinges)
-    joint_of_edge, joints, idle = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
-    if idle:
-        notes.warnings.append(f"{idle} crease(s) end inside a panel and fold nothing")
-    cycles = _vertex_cycles(sheet, faces_at, joint_of_edge, panel_of_face)
-    kept, closing = split_dependent(cycles)
-    sc = SCGraph(
-        len(panels),
-        joints,
-        [Loop(cycles[i], Centre.FINITE) for i in kept],
-        closing=[Loop(cycles[i], Centre.FINITE) for i in closing],
-    )
-    split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
-    if split:
-        notes.repairs.append(f"{split} collinear split hinge(s) joined")
-    if _is_flat(sheet):
-        notes.warnings.append("flat state: the sheet has more infinitesimal freedoms as drawn than when folded")
-    return SheetMechanism(sc, panels, len(cycles), (*sheet.repairs, *notes.repairs), tuple(notes.warnings))
 
 
 def sheet_from_model(model: PolyhedronModel) -> Sheet:
@@ -171,236 +98,39 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
         raise InvariantError("links", "the polyhedron model does not say which vertices make up a link")
     number = {vertex: i for i, vertex in enumerate(model.nodes)}
     faces = tuple(tuple(number[v] for v in around) for around in model.links.values())
-    sides = Counter(frozenset(side) for face in faces for side in _sides(face))
+    sides = Counter(frozenset(side) for face in faces for side in sides_of_face(face))
     edges = tuple((min(side), max(side)) for side in sides)
     coordinates = tuple(model.coordinates[v] for v in model.nodes) if model.coordinates else None
     assignments = "".join("B" if number == 1 else "U" for number in sides.values())
     return Sheet(len(model), edges, assignments, faces, coordinates)
 
 
-@dataclass
-class _Notes:
-    repairs: list[str] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
+def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
+    """Return the coordinates of a sheet in the plane, for a format that is flat.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has none, or does not lie in a plane z = constant.
+
+    Examples
+    --------
+    >>> flat_places(Sheet(1, (), "", (), ((1.0, 2.0, 0.0),)), "a picture")
+    [(1.0, 2.0)]
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
+    if len({place[2] for place in sheet.coordinates if len(place) > 2}) > 1:
+        raise UnsolvableError(f"{what} is flat, and the sheet is not")
+    return [(place[0], place[1]) for place in sheet.coordinates]
+
+
+def sides_of_face(face: Sequence[int]) -> list[Edge]:
+    """Return the sides of a face, each from a vertex to the next."""
+    return list(zip(face, (*face[1:], face[0]), strict=True))
 
 
 def _check_vertices(named: Sequence[int], count: int, who: str, part: tuple[str, int]) -> None:
     for vertex in named:
         if not 0 <= vertex < count:
             raise InvariantError("vertex", f"{who} names vertex {vertex}", f"a vertex from 0 to {count - 1}", part)
-
-
-def _sides(face: Sequence[int]) -> list[Edge]:
-    return list(zip(face, (*face[1:], face[0]), strict=True))
-
-
-def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tuple[str, int]], _Notes]:
-    """Return the faces at each edge, and the assignment and index of each edge."""
-    notes = _Notes()
-    faces_at: dict[Edge, list[int]] = defaultdict(list)
-    for index, face in enumerate(sheet.faces):
-        for a, b in _sides(face):
-            faces_at[(a, b) if a < b else (b, a)].append(index)
-    assignment: dict[Edge, tuple[str, int]] = {}
-    for index, ((a, b), letter) in enumerate(zip(sheet.edges, sheet.assignments, strict=True)):
-        assignment.setdefault((a, b) if a < b else (b, a), (letter, index))
-    unlisted = cuts = 0
-    for edge, here in faces_at.items():
-        if len(here) > 2:
-            raise InvariantError("edge of faces", f"the edge {edge} belongs to {len(here)} faces", "two at most")
-        if edge not in assignment:
-            assignment[edge] = ("U" if len(here) == 2 else "B", len(sheet.edges) + unlisted)
-            unlisted += len(here) == 2
-        cuts += len(here) == 2 and assignment[edge][0] in "BC"
-    if unlisted:
-        notes.repairs.append(
-            f"{unlisted} side(s) between two faces not listed as edges: taken as unassigned creases"
-        )
-    if cuts:
-        notes.warnings.append(f"{cuts} border or cut edge(s) between two faces: taken as cuts")
-    return faces_at, assignment, notes
-
-
-def _merge_flat(
-    sheet: Sheet,
-    faces_at: Mapping[Edge, list[int]],
-    assignment: Mapping[Edge, tuple[str, int]],
-    hinges: str,
-) -> tuple[list[int], tuple[tuple[int, ...], ...]]:
-    """Merge faces across flat edges; return the panel of each face, and the faces of each panel."""
-    merged = nx.utils.UnionFind(range(len(sheet.faces)))
-    for edge, here in faces_at.items():
-        letter = assignment[edge][0]
-        if len(here) == 2 and letter in FLAT and letter not in hinges:
-            merged.union(*here)
-    members: dict[int, list[int]] = {}
-    for face in range(len(sheet.faces)):
-        members.setdefault(merged[face], []).append(face)
-    panel_of_face = [0] * len(sheet.faces)
-    for panel, faces in enumerate(members.values()):
-        for face in faces:
-            panel_of_face[face] = panel
-    return panel_of_face, tuple(tuple(faces) for faces in members.values())
-
-
-def _joints(
-    sheet: Sheet,
-    faces_at: Mapping[Edge, list[int]],
-    assignment: Mapping[Edge, tuple[str, int]],
-    hinges: str,
-    panel_of_face: Sequence[int],
-) -> tuple[dict[Edge, int | None], dict[int, tuple[int, int]], int]:
-    """Return the joint of each hinged edge (None for one inside a panel), the joints, and how many are idle."""
-    joint_of_edge: dict[Edge, int | None] = {}
-    between: dict[tuple[int, int], list[tuple[int, Edge]]] = defaultdict(list)
-    idle = 0
-    for edge, here in faces_at.items():
-        letter, index = assignment[edge]
-        if len(here) < 2 or letter not in hinges:
-            continue
-        a, b = sorted(panel_of_face[face] for face in here)
-        if a == b:
-            joint_of_edge[edge] = None
-            idle += 1
-        else:
-            between[a, b].append((index, edge))
-    joints: dict[int, tuple[int, int]] = {}
-    for pair, hinged in sorted(between.items(), key=lambda item: min(item[1])):
-        for group in _collinear_groups(sheet, hinged):
-            first = min(index for index, _ in group)
-            joints[first] = pair
-            for _, edge in group:
-                joint_of_edge[edge] = first
-    return joint_of_edge, joints, idle
-
-
-def _collinear_groups(sheet: Sheet, hinged: list[tuple[int, Edge]]) -> list[list[tuple[int, Edge]]]:
-    """Group the hinges between two panels by the line they lie on; without coordinates each is its own."""
-    if len(hinged) == 1 or sheet.coordinates is None:
-        return [[one] for one in sorted(hinged)]
-    groups: list[list[tuple[int, Edge]]] = []
-    for one in sorted(hinged):
-        for group in groups:
-            if _collinear([sheet.coordinates[v] for v in (*group[0][1], *one[1])]):
-                group.append(one)
-                break
-        else:
-            groups.append([one])
-    return groups
-
-
-def _collinear(points: Sequence[Sequence[float]]) -> bool:
-    spread = np.asarray(points, dtype=float) - np.mean(points, axis=0)
-    sizes = np.linalg.svd(spread, compute_uv=False)
-    return bool(sizes[1] <= COLLINEAR * sizes[0])
-
-
-def _vertex_cycles(
-    sheet: Sheet,
-    faces_at: Mapping[Edge, list[int]],
-    joint_of_edge: Mapping[Edge, int | None],
-    panel_of_face: Sequence[int],
-) -> list[tuple[int, ...]]:
-    """Return the cycles of joints round the interior vertices.
-
-    The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
-    vertex (its faces are merged elsewhere) the walk falls into several cycles with the same centre.
-    """
-    cycles = []
-    for fan in _closed_fans(sheet, faces_at):
-        walk: list[tuple[int, int]] = []  # (panel entered, joint crossed into it)
-        for edge, face in fan:
-            if edge in joint_of_edge:
-                joint = joint_of_edge[edge]
-                if joint is not None:
-                    walk.append((panel_of_face[face], joint))
-            elif len({panel_of_face[f] for f in faces_at[edge]}) > 1:
-                break  # a cut: the fan is open after all
-        else:
-            cycles += _simple_cycles(walk)
-    # Hinges that are one joint may meet another joint twice; the loop of the two is one loop.
-    return list({frozenset(cycle): cycle for cycle in reversed(cycles)}.values())[::-1]
-
-
-def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, list[int]]) -> list[list[tuple[Edge, int]]]:
-    """Return, for each vertex with faces all round, its edges and the faces entered across them, in order."""
-    at_vertex: dict[int, list[tuple[int, Edge, Edge]]] = defaultdict(list)
-    for index, around in enumerate(sheet.faces):
-        sides = [(a, b) if a < b else (b, a) for a, b in _sides(around)]
-        for i, vertex in enumerate(around):
-            at_vertex[vertex].append((index, sides[i - 1], sides[i]))
-    fans = []
-    for corners in at_vertex.values():
-        sides_of = {face: (one, two) for face, one, two in corners}
-        left = dict.fromkeys(sides_of)
-        while left:
-            start = next(iter(left))
-            fan: list[tuple[Edge, int]] = []
-            edge, face = sides_of[start][1], start
-            while True:
-                left.pop(face, None)
-                beyond = [f for f in faces_at[edge] if f != face]
-                if not beyond:
-                    _drop_fan(start, sides_of, faces_at, left)
-                    break
-                face = beyond[0]
-                fan.append((edge, face))
-                if face == start:
-                    fans.append(fan)
-                    break
-                one, two = sides_of[face]
-                edge = two if edge == one else one
-    return fans
-
-
-def _drop_fan(
-    start: int,
-    sides_of: Mapping[int, tuple[Edge, Edge]],
-    faces_at: Mapping[Edge, list[int]],
-    left: dict[int, None],
-) -> None:
-    """Take the other half of an open fan off the list."""
-    face, edge = start, sides_of[start][0]
-    while True:
-        beyond = [f for f in faces_at[edge] if f != face]
-        if not beyond:
-            return
-        face = beyond[0]
-        left.pop(face, None)
-        one, two = sides_of[face]
-        edge = two if edge == one else one
-
-
-def _simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
-    """Cut a closed walk of (panel entered, joint crossed) into cycles that visit each panel once."""
-    cycles: list[tuple[int, ...]] = []
-    path: list[tuple[int, int]] = []
-    if not walk:
-        return cycles
-    entered: dict[Hashable, int] = {walk[-1][0]: 0}  # the walk starts in the panel it ends in
-    for panel, joint in walk:
-        path.append((panel, joint))
-        if panel in entered:
-            start = entered[panel]
-            part = path[start:]
-            del path[start:]
-            for inner, _ in part:
-                if inner != panel:
-                    entered.pop(inner, None)
-            around = tuple(j for _, j in part)
-            if len(set(around)) == len(around) > 1:
-                cycles.append(around)
-        else:
-            entered[panel] = len(path)
-    return cycles
-
-
-def _is_flat(sheet: Sheet) -> bool:
-    """Whether all vertices lie in one plane, by coordinates and never by labels."""
-    if sheet.coordinates is None or len(sheet.coordinates) < 1:
-        return False
-    points = np.asarray(sheet.coordinates, dtype=float)
-    if points.shape[1] < 3:
-        return True
-    sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    return bool(len(sizes) < 3 or sizes[2] <= COLLINEAR * sizes[0])

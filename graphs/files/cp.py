@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from graphs.errors import FileError, InvariantError, UnsolvableError, shown
+from graphs.errors import FileError, InvariantError, shown
 from graphs.files.source import read_text
-from graphs.sheet import Sheet
+from graphs.sheet import Sheet, flat_places
 from graphs.tracing import MOST, Lines, trace_sheet
 
 __all__ = ["cp_text", "sheet_from_cp"]
@@ -60,11 +60,7 @@ def cp_text(sheet: Sheet) -> str:
     >>> cp_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
     '2 0.0 0.0 1.0 0.5\n'
     """
-    if sheet.coordinates is None:
-        raise UnsolvableError("a .cp file needs coordinates, and the sheet has none")
-    if len({place[2] for place in sheet.coordinates if len(place) > 2}) > 1:
-        raise UnsolvableError("a .cp file is flat, and the sheet is not")
-    at = [(repr(place[0]), repr(place[1])) for place in sheet.coordinates]
+    at = [(repr(x), repr(y)) for x, y in flat_places(sheet, "a .cp file")]
     return "".join(
         f"{_TYPES[letter]} {' '.join(at[a])} {' '.join(at[b])}\n"
         for (a, b), letter in zip(sheet.edges, sheet.assignments, strict=True)

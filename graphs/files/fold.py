@@ -1,4 +1,4 @@
-"""FOLD files in their plain form: one frame; faces that are not given are traced.
+"""FOLD files, 1.0 to 1.2: the frame that holds the pattern; faces that are not given are traced.
 
 Read as a :class:`graphs.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The format
 is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError
+from graphs.files.fold_frames import resolved_frame
 from graphs.files.source import MOST_NODES, Checker
 from graphs.sheet import FLAT, HINGES, Sheet
 
@@ -33,7 +34,7 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     Raises
     ------
     FileError
-        If the document is no FOLD file in plain form, with the place.
+        If the document is no FOLD file, with the place.
 
     Examples
     --------
@@ -44,6 +45,7 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     check = Checker(path)
     if not isinstance(value, dict):
         check.fail("", value, "a FOLD document (an object)")
+    value, notes = resolved_frame(value, check)
     faces = _indices(value.get("faces_vertices", []), "faces_vertices", check)
     edges = _indices(value.get("edges_vertices", []), "edges_vertices", check)
     for i, edge in enumerate(edges):
@@ -52,9 +54,6 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     coordinates = _coordinates(value.get("vertices_coords", []), check)
     vertices = len(coordinates) or 1 + max((v for row in (*faces, *edges) for v in row), default=-1)
     assignments, repairs = _assignments(value, len(edges), check)
-    more = value.get("file_frames", [])
-    if isinstance(more, list) and more:
-        repairs = (*repairs, f"{len(more)} more frame(s) not read")
     title = value.get("frame_title", value.get("file_title", ""))
     sheet = check.build(
         lambda: Sheet(
@@ -64,7 +63,8 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
             faces,
             coordinates or None,
             title if isinstance(title, str) else "",
-            repairs,
+            (*notes, *repairs),
+            _fold_angles(value, len(edges), check),
         ),
         lambda part: f"{part[0]}_vertices[{part[1]}]",
     )
@@ -112,6 +112,8 @@ def fold_text(sheet: Sheet) -> str:
         document["vertices_coords"] = [list(place) for place in sheet.coordinates]
     document["edges_vertices"] = [list(edge) for edge in sheet.edges]
     document["edges_assignment"] = list(sheet.assignments)
+    if sheet.fold_angles is not None:
+        document["edges_foldAngle"] = list(sheet.fold_angles)
     document["faces_vertices"] = [list(face) for face in sheet.faces]
     lines = []
     for key, value in document.items():
@@ -151,7 +153,16 @@ def _assignments(value: dict[str, Any], edges: int, check: Checker) -> tuple[str
         repairs = ("no edges_assignment: every side between two faces taken as a crease",) if edges else ()
         return "U" * edges, repairs
     letters = check.list(value["edges_assignment"], "edges_assignment", edges, f"a list of {edges}, one an edge")
+    missing = sum(letter is None for letter in letters)
+    letters = ["U" if letter is None else letter for letter in letters]
     for i, letter in enumerate(letters):
         if not isinstance(letter, str) or len(letter) != 1 or letter not in _ASSIGNMENTS:
             check.fail(f"edges_assignment[{i}]", letter, "one of " + " ".join(_ASSIGNMENTS))
-    return "".join(letters), ()
+    return "".join(letters), ((f"{missing} null assignment(s) read as unassigned",) if missing else ())
+
+
+def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[float | None, ...] | None:
+    if "edges_foldAngle" not in value:
+        return None
+    listed = check.list(value["edges_foldAngle"], "edges_foldAngle", edges, f"a list of {edges}, one an edge")
+    return tuple(None if x is None else check.number(x, f"edges_foldAngle[{i}]") for i, x in enumerate(listed))

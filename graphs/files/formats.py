@@ -195,6 +195,12 @@ def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     return cp_text(to_sheet(mechanism)), ("which lines bound which face",)
 
 
+def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    from graphs.files.svg import svg_text
+
+    return svg_text(to_sheet(mechanism)), ("which lines bound which face",)
+
+
 def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     return obj_text(to_sheet(mechanism)), ("mountains, valleys and cuts",)
 
@@ -202,6 +208,7 @@ def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
     ".json": _write_json,
     ".fold": _write_fold,
+    ".svg": _write_svg,
     ".cp": _write_cp,
     ".obj": _write_obj,
     ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), (*_NO_LOOPS, "names")),

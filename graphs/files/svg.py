@@ -11,15 +11,16 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import ParseError
+from xml.sax.saxutils import escape
 
 import numpy as np
 
 from graphs.errors import FileError, InvariantError, shown
 from graphs.files.source import read_text
-from graphs.sheet import Sheet
+from graphs.sheet import Sheet, flat_places
 from graphs.tracing import MOST, Lines, trace_sheet
 
-__all__ = ["letter_of_colour", "sheet_from_svg"]
+__all__ = ["letter_of_colour", "sheet_from_svg", "svg_text"]
 
 _COLOURS = {
     "M": (255, 0, 0),
@@ -95,6 +96,43 @@ def sheet_from_svg(path: Path) -> Sheet:
         if not other
         else replace(sheet, repairs=(*sheet.repairs, f"{other} shape(s) in other colours left out"))
     )
+
+
+def svg_text(sheet: Sheet) -> str:
+    """Return the SVG text of a flat sheet, a line for each edge; opacity tells the fold angle, full for 180.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates or is not flat.
+
+    Examples
+    --------
+    >>> print(svg_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (2.0, 1.0)))).splitlines()[-2])
+    <line x1="0.0" y1="1.0" x2="2.0" y2="0.0" stroke="#ff0000"/>
+    """
+    places = flat_places(sheet, "an SVG crease pattern")
+    left, low = (min((place[k] for place in places), default=0.0) for k in (0, 1))
+    right, high = (max((place[k] for place in places), default=0.0) for k in (0, 1))
+    width, height = right - left, high - low
+    rows = [
+        '<svg xmlns="http://www.w3.org/2000/svg" '
+        f'viewBox="0 0 {width!r} {height!r}" stroke-width="{max(width, height) / 400:.6g}">'
+    ]
+    if sheet.title:
+        rows.append(f"<title>{escape(sheet.title)}</title>")
+    angles = sheet.fold_angles or (None,) * len(sheet.edges)
+    for (a, b), letter, angle in zip(sheet.edges, sheet.assignments, angles, strict=True):
+        red, green, blue = _COLOURS["F" if letter == "J" else letter]
+        ends = [(places[v][0] - left, high - places[v][1]) for v in (a, b)]
+        opacity = ""
+        if angle is not None and letter in "MV" and abs(angle) < 180:
+            opacity = f' stroke-opacity="{abs(angle) / 180:.6g}"'
+        rows.append(
+            f'<line x1="{ends[0][0]!r}" y1="{ends[0][1]!r}" x2="{ends[1][0]!r}" y2="{ends[1][1]!r}" '
+            f'stroke="#{red:02x}{green:02x}{blue:02x}"{opacity}/>'
+        )
+    return "\n".join([*rows, "</svg>"]) + "\n"
 
 
 def _pieces(shape: Any) -> list[tuple[tuple[float, float], tuple[float, float]]]:

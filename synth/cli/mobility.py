@@ -59,10 +59,11 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | Non
 
 def _report(mechanism: Mechanism, exact: bool, pose: int | None) -> MobilityReport:
     from graphs.conversion import to_sc
+    from graphs.duality import mechanism_of_sheet
     from graphs.polyhedron import PolyhedronModel
     from graphs.report import mobility_report
     from graphs.sc import SCGraph
-    from graphs.sheet import Sheet, mechanism_of_sheet
+    from graphs.sheet import Sheet
 
     if isinstance(mechanism, Sheet):
         found = mechanism_of_sheet(mechanism)
