@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import combinations, permutations
 
 from graphs.errors import InvariantError, shown
 from graphs.loops import Centre, JointId, Loop
@@ -110,6 +110,11 @@ class _Merger:
         for root, joints in self.joints.items():
             for joint in joints:
                 at_joint[joint].append(root)
+        several = [here for here in at_joint.values() if len(here) > 1]
+        infinite = any(self._centre(root) is Centre.INFINITE for root in self.members)
+        pairs = {pair for here in several for pair in combinations(here, 2)}
+        if not infinite and len(pairs) == sum(len(here) * (len(here) - 1) // 2 for here in several):
+            return  # no two share more than one joint, as on most sheets
         shared: dict[int, dict[int, set[JointId]]] = defaultdict(lambda: defaultdict(set))
         for joint, here in at_joint.items():
             for a, b in permutations(here, 2):

@@ -163,14 +163,19 @@ def _joints(
         letter, index = assignment[edge]
         if len(here) < 2 or letter not in hinges:
             continue
-        a, b = sorted(panel_of_face[face] for face in here)
+        a, b = panel_of_face[here[0]], panel_of_face[here[1]]
         if a == b:
             joint_of_edge[edge] = None
             idle += 1
         else:
-            between[a, b].append((index, edge))
+            between[(a, b) if a < b else (b, a)].append((index, edge))
     joints: dict[int, tuple[int, int]] = {}
     for pair, hinged in sorted(between.items(), key=lambda item: min(item[1])):
+        if len(hinged) == 1:
+            ((first, edge),) = hinged
+            joints[first] = pair
+            joint_of_edge[edge] = first
+            continue
         for group in _collinear_groups(sheet, hinged):
             first = min(index for index, _ in group)
             joints[first] = pair
@@ -181,7 +186,7 @@ def _joints(
 
 def _collinear_groups(sheet: Sheet, hinged: list[tuple[int, Edge]]) -> list[list[tuple[int, Edge]]]:
     """Group the hinges between two panels by the line they lie on; without coordinates each is its own."""
-    if len(hinged) == 1 or sheet.coordinates is None:
+    if sheet.coordinates is None:
         return [[one] for one in sorted(hinged)]
     groups: list[list[tuple[int, Edge]]] = []
     for one in sorted(hinged):
@@ -244,11 +249,11 @@ def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, list[int]]) -> list[list[
             edge, face = sides_of[start][1], start
             while True:
                 left.pop(face, None)
-                beyond = [f for f in faces_at[edge] if f != face]
-                if not beyond:
+                here = faces_at[edge]
+                if len(here) < 2:
                     _drop_fan(start, sides_of, faces_at, left)
                     break
-                face = beyond[0]
+                face = here[0] if here[1] == face else here[1]
                 fan.append((edge, face))
                 if face == start:
                     fans.append(fan)
@@ -278,10 +283,11 @@ def _drop_fan(
 
 def _simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
     """Cut a closed walk of (panel entered, joint crossed) into cycles that visit each panel once."""
+    if len({panel for panel, _ in walk}) == len(walk):
+        around = tuple(joint for _, joint in walk)
+        return [around] if len(set(around)) == len(around) > 1 else []
     cycles: list[tuple[int, ...]] = []
     path: list[tuple[int, int]] = []
-    if not walk:
-        return cycles
     entered: dict[Hashable, int] = {walk[-1][0]: 0}  # the walk starts in the panel it ends in
     for panel, joint in walk:
         path.append((panel, joint))

@@ -123,6 +123,8 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     >>> cyclic_order(Loop(("a", "c", "b", "d")), square)
     ('a', 'b', 'c', 'd')
     """
+    if _is_cyclic(loop.joints, joints):
+        return loop.joints
     at_link: dict[LinkId, list[JointId]] = defaultdict(list)
     seen: set[JointId] = set()
     for joint in loop.joints:
@@ -146,6 +148,25 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
             "loop is a cycle", f"{loop.label} falls apart: {len(order)} of {len(seen)} joints hang together"
         )
     return order
+
+
+def _is_cyclic(around: Sequence[JointId], joints: Joints) -> bool:
+    """Whether joints are one cycle in the order given: the common case, told without a dictionary of links."""
+    if len(around) < 3 or any(joint not in joints for joint in around):
+        return False
+    a, b = joints[around[-1]]
+    start = b if b in joints[around[0]] else a
+    link, met = start, set()
+    for joint in around:
+        a, b = joints[joint]
+        if link == a:
+            link = b
+        elif link == b:
+            link = a
+        else:
+            return False
+        met.add(link)
+    return link == start and len(met) == len(around)
 
 
 def _walk(
@@ -314,23 +335,29 @@ def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[Joi
 
 
 def _peel(cycles: Sequence[Sequence[JointId]]) -> list[int]:
-    """Return the indices of the cycles left when those with a joint of their own are taken off, repeatedly."""
-    owners: dict[JointId, set[int]] = defaultdict(set)
+    """Return the indices of the cycles left when those with a joint of their own are taken off, repeatedly.
+
+    For each joint, how many cycles pass it and the exclusive or of their indices: where one is left, that is it.
+    """
+    number: dict[JointId, int] = {}
+    mixed: dict[JointId, int] = {}
     for index, cycle in enumerate(cycles):
         for joint in cycle:
-            owners[joint].add(index)
-    left = set(range(len(cycles)))
-    work = [next(iter(who)) for who in owners.values() if len(who) == 1]
+            number[joint] = number.get(joint, 0) + 1
+            mixed[joint] = mixed.get(joint, 0) ^ index
+    left = [True] * len(cycles)
+    work = [mixed[joint] for joint, count in number.items() if count == 1]
     while work:
         index = work.pop()
-        if index not in left:
+        if not left[index]:
             continue
-        left.remove(index)
+        left[index] = False
         for joint in cycles[index]:
-            owners[joint].discard(index)
-            if len(owners[joint]) == 1:
-                work.extend(owners[joint])
-    return sorted(left)
+            number[joint] -= 1
+            mixed[joint] ^= index
+            if number[joint] == 1:
+                work.append(mixed[joint])
+    return [index for index, there in enumerate(left) if there]
 
 
 def _bit_rows(cycles: Sequence[Collection[JointId]]) -> list[int]:

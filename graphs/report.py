@@ -141,16 +141,18 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
     kind = mechanism_class(mechanism)
     closed = mechanism.is_closed
     results = _equations(mechanism, kind)
+    mobility = results["closed_surface" if closed else "loop_form"].value
+    negative = "the count is negative: a general member cannot move, and what moves has special geometry"
     return MobilityReport(
         mechanism_class=kind,
         links=len(mechanism),
         joints=len(mechanism.joints),
         loops=mechanism.independent_loops,
         centres=len(mechanism.centre_classes()),
-        mobility=results["closed_surface" if closed else "loop_form"].value,
+        mobility=mobility,
         equations=results,
         counts=_counts(mechanism),
-        warnings=tuple(_warnings(mechanism)),
+        warnings=(*_warnings(mechanism), *([negative] if mobility is not None and mobility < 0 else [])),
     )
 
 
@@ -264,6 +266,7 @@ def _centres_of_closed_parts(sc: SCGraph) -> list[int]:
 def _counts(sc: SCGraph) -> dict[str, int]:
     counts = {
         "parts": sc.components,
+        "flaps": sum(degree == 1 for _, degree in sc.degree),
         "centred_loops": len(sc.centred_loops),
         "spatial_loops": sc.spatial_loops,
         "closing_loops": len(sc.closing),

@@ -9,7 +9,7 @@ from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NoReturn
 
 import networkx as nx
 
@@ -116,30 +116,32 @@ class SCGraph(nx.MultiGraph):
     def _add_joints(self, joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]]) -> None:
         pairs = joints.items() if isinstance(joints, Mapping) else enumerate(joints)
         texts: set[str] = set()
+        adjacency = self._adj  # filled as networkx would: one dict of keys for both directions
         for joint, (a, b) in pairs:
-            part = ("joints", joint)
-            for link in (a, b):
-                if link not in self:
-                    raise InvariantError(
-                        "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}", "a link", part
-                    )
-            if a == b:
-                raise InvariantError(
-                    "no self-joint",
-                    f"joint {shown(joint)} joins link {shown(a)} to itself",
-                    "two links",
-                    part,
-                )
-            if joint is None or str(joint) in texts:
-                raise InvariantError(
-                    "distinct joints",
-                    f"joint {shown(joint)} occurs twice, or has no id",
-                    "distinct ids",
-                    part,
-                )
+            if a not in adjacency or b not in adjacency or a == b or joint is None or str(joint) in texts:
+                self._refuse_joint(joint, a, b)
             texts.add(str(joint))
             self._joints[joint] = (a, b)
-        self.add_edges_from((a, b, joint) for joint, (a, b) in self._joints.items())
+            keys = adjacency[a].get(b)
+            if keys is None:
+                adjacency[a][b] = adjacency[b][a] = {joint: {}}
+            else:
+                keys[joint] = {}
+
+    def _refuse_joint(self, joint: JointId, a: LinkId, b: LinkId) -> NoReturn:
+        part = ("joints", joint)
+        for link in (a, b):
+            if link not in self:
+                raise InvariantError(
+                    "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}", "a link", part
+                )
+        if a == b:
+            raise InvariantError(
+                "no self-joint", f"joint {shown(joint)} joins link {shown(a)} to itself", "two links", part
+            )
+        raise InvariantError(
+            "distinct joints", f"joint {shown(joint)} occurs twice, or has no id", "distinct ids", part
+        )
 
     def _ordered(self, loops: Iterable[Loop], part: str) -> tuple[Loop, ...]:
         ordered = []
@@ -205,7 +207,7 @@ class SCGraph(nx.MultiGraph):
         """Number of independent loops, L = J - N + c."""
         return len(self._joints) - len(self) + self.components
 
-    @property
+    @cached_property
     def centred_loops(self) -> tuple[Loop, ...]:
         """The independent loops that have a centre (closing loops not counted)."""
         return tuple(loop for loop in self.loops if loop.has_centre)
@@ -233,6 +235,8 @@ class SCGraph(nx.MultiGraph):
 
     def parallel_joints(self) -> tuple[tuple[JointId, ...], ...]:
         """Return the groups of joints that join one pair of links; each is rigid unless collinear."""
+        if sum(map(len, self._adj.values())) == 2 * len(self._joints):
+            return ()
         groups: dict[frozenset[LinkId], list[JointId]] = {}
         for joint, ends in self._joints.items():
             groups.setdefault(frozenset(ends), []).append(joint)

@@ -19,6 +19,7 @@ from graphs.sheet import FLAT, HINGES, Sheet
 
 __all__ = ["fold_text", "sheet_from_fold"]
 
+_FAR = 1e300
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 
 
@@ -126,13 +127,12 @@ def fold_text(sheet: Sheet) -> str:
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
     rows = []
     for i, row in enumerate(check.list(value, key)):
-        place = f"{key}[{i}]"
-        rows.append(
-            tuple(
+        # Large files are read row by row at this speed; a row that fails is looked at closely.
+        if type(row) is not list or not all(type(v) is int and 0 <= v <= MOST_NODES for v in row):
+            place = f"{key}[{i}]"
+            for k, v in enumerate(check.list(row, place, what="a list of vertices")):
                 check.integer(v, f"{place}[{k}]", most=MOST_NODES)
-                for k, v in enumerate(check.list(row, place, what="a list of vertices"))
-            )
-        )
+        rows.append(tuple(row))
     return tuple(rows)
 
 
@@ -143,6 +143,9 @@ def _coordinates(value: Any, check: Checker) -> tuple[tuple[float, ...], ...]:
         listed = check.list(row, place, what="two or three numbers")
         if len(listed) not in (2, 3):
             raise FileError(check.path, place, f"{len(listed)} numbers", "two or three")
+        if all(type(x) in (float, int) and -_FAR < x < _FAR for x in listed):
+            places.append(tuple(map(float, listed)))
+            continue
         places.append(tuple(check.number(x, f"{place}[{k}]") for k, x in enumerate(listed)))
     width = max((len(place) for place in places), default=0)
     return tuple((*place, 0.0) if len(place) < width else place for place in places)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
     from graphs.conversion import Mechanism
     from graphs.report import MobilityReport
+    from graphs.sheet import Sheet
 
 __all__ = ["mobility"]
 
@@ -24,13 +26,14 @@ _LONGEST_PATH = 4096
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object a mechanism.")
 @click.option("--exact/--no-exact", default=True, help="Compute the exact generic rank too (on by default).")
+@click.option("--hinge-flat", is_flag=True, help="Make hinges of the flat (F) edges of a crease pattern too.")
 @click.option("--pose", type=click.IntRange(min=0), metavar="FRAME", help="Compute the freedoms at this frame.")
-def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | None) -> None:
+def mobility(files: tuple[str, ...], as_json: bool, exact: bool, hinge_flat: bool, pose: int | None) -> None:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
     FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
-    (.fold), or a bare link-joint graph (.g6, .s6, .graphml, .edges). One file gives the whole report, several
-    give a table.
+    (.fold, .svg, .cp, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges). One file gives the whole
+    report, several give a table.
 
     \b
     Example:
@@ -38,12 +41,13 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | Non
     """
     from graphs.errors import FileError
 
+    gc.disable()  # what is read stays until the end; to look through it again and again takes as long as the rest
     failures: list[str] = []
     reports: list[tuple[str, MobilityReport]] = []
     for entry in entries(files, failures):
         try:
             with about(entry.label):
-                reports.append((entry.label, _report(entry.mechanism, exact, pose)))
+                reports.append((entry.label, _report(entry.mechanism, exact, hinge_flat, pose)))
         except FileError as error:
             click.echo(str(error), err=True)
             failures.append(entry.label)
@@ -57,17 +61,15 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, pose: int | Non
         sys.exit(2)
 
 
-def _report(mechanism: Mechanism, exact: bool, pose: int | None) -> MobilityReport:
+def _report(mechanism: Mechanism, exact: bool, hinge_flat: bool, pose: int | None) -> MobilityReport:
     from graphs.conversion import to_sc
-    from graphs.duality import mechanism_of_sheet
     from graphs.polyhedron import PolyhedronModel
     from graphs.report import mobility_report
     from graphs.sc import SCGraph
     from graphs.sheet import Sheet
 
     if isinstance(mechanism, Sheet):
-        found = mechanism_of_sheet(mechanism)
-        report = mobility_report(found.sc).with_notes(found.repairs, found.warnings)
+        report = _report_of_sheet(mechanism, hinge_flat)
     elif isinstance(mechanism, SCGraph | PolyhedronModel):
         report = mobility_report(mechanism)
     else:
@@ -78,6 +80,27 @@ def _report(mechanism: Mechanism, exact: bool, pose: int | None) -> MobilityRepo
     if pose is not None:
         missing.append("the freedoms at a pose are not computed by this version")
     return report.with_notes(warnings=missing)
+
+
+def _report_of_sheet(sheet: Sheet, hinge_flat: bool) -> MobilityReport:
+    """Report a crease pattern; where flat edges matter, say what it is the other way round."""
+    from graphs.duality import mechanism_of_sheet
+    from graphs.report import mobility_report
+
+    found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
+    report = mobility_report(found.sc)
+    notes = [f"{found.interior_vertices} interior vertices"] if found.interior_vertices else []
+    if flaps := report.counts["flaps"]:
+        notes.append(f"{flaps} flap(s), panels with one hinge: a freedom each")
+    if "F" in sheet.assignments:
+        other = mechanism_of_sheet(sheet, hinge_flat=not hinge_flat)
+        if len(other.sc) != len(found.sc):
+            mobility = mobility_report(other.sc).mobility
+            way = "merged" if hinge_flat else "hinged"
+            notes.append(
+                f"with flat edges {way}: links {len(other.sc)}, joints {len(other.sc.joints)}, M {mobility}"
+            )
+    return report.with_notes(found.repairs, (*found.warnings, *notes))
 
 
 _TITLES = {
@@ -102,6 +125,7 @@ _COUNTS = {
     "external_edges": "external edges",
     "internal_edges": "internal edges",
     "spatial_loops": "spatial loops",
+    "flaps": "flaps",
     "remote": "sum of k over remote centres",
     "on_plane": "points on planes P",
     "on_line": "points on lines L",

@@ -78,6 +78,22 @@ def test_good_files_are_reported_and_bad_ones_named(data, tmp_path):
     assert "watt.json" in run("mobility", tmp_path / "bad.json", good, code=2).stdout
 
 
+def test_a_crease_pattern_tells_its_flaps_and_its_flat_edges(tmp_path):
+    path = tmp_path / "a.fold"
+    path.write_text(
+        '{"vertices_coords": [[0,0],[1,0],[1,1],[0,1],[2,0]], "faces_vertices": [[0,1,2],[0,2,3],[1,4,2]],'
+        ' "edges_vertices": [[0,2],[1,2]], "edges_assignment": ["F","M"]}',
+        encoding="utf-8",
+    )
+    out = run("mobility", path).stdout
+    assert "mobility M = 1" in out
+    assert "2 flap(s), panels with one hinge: a freedom each" in out
+    assert "with flat edges hinged: links 3, joints 2, M 2" in out
+    assert "with flat edges merged: links 2, joints 1, M 1" in run("mobility", "--hinge-flat", path).stdout
+    (report,) = json.loads(run("mobility", "--json", path).stdout)
+    assert report["counts"]["flaps"] == 2
+
+
 def test_a_file_of_many_graphs(tmp_path):
     (tmp_path / "two.g6").write_text("Cl\nC~\n", encoding="ascii")
     reports = json.loads(run("mobility", "--json", tmp_path / "two.g6").stdout)
