@@ -68,6 +68,8 @@ def sheet_from_svg(path: Path) -> Sheet:
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
+    if not isinstance(drawing, svgelements.SVG):
+        raise FileError(path, "", "the outermost element is not svg", "SVG")
     ends: list[Any] = []
     letters: list[str] = []
     other = 0
@@ -79,7 +81,8 @@ def sheet_from_svg(path: Path) -> Sheet:
             other += 1
             continue
         try:
-            pieces = _pieces(shape)
+            with np.errstate(all="ignore"):  # what is not finite is refused below
+                pieces = _pieces(shape)
         except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
             raise FileError(path, "", f"a shape cannot be drawn: {shown(str(error))}", "SVG shapes") from None
         ends += pieces
