@@ -107,8 +107,17 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
         for a, b in sides_of_face(face):
             faces_at[(a, b) if a < b else (b, a)].append(index)
     assignment: dict[Edge, tuple[str, int]] = {}
+    twice = 0
     for index, ((a, b), letter) in enumerate(zip(sheet.edges, sheet.assignments, strict=True)):
-        assignment.setdefault((a, b) if a < b else (b, a), (letter, index))
+        edge = (a, b) if a < b else (b, a)
+        if edge not in assignment:
+            assignment[edge] = (letter, index)
+            continue
+        twice += 1
+        if letter in HINGES and assignment[edge][0] not in HINGES:
+            assignment[edge] = (letter, assignment[edge][1])
+    if twice:
+        notes.repairs.append(f"{twice} edge(s) listed twice: a crease counts before a border or a flat edge")
     unlisted = cuts = 0
     for edge, here in faces_at.items():
         if len(here) > 2:

@@ -45,10 +45,13 @@ class Lines:
         Both ends of each line; any length unit.
     letters : str
         The assignment of each, as in FOLD.
+    angles : tuple of float or None, optional
+        The fold angle of each, in degrees as in files.
     """
 
     ends: Floats
     letters: str
+    angles: tuple[float | None, ...] | None = None
 
     def __post_init__(self) -> None:
         if self.ends.shape != (len(self.letters), 2, 2):
@@ -68,6 +71,7 @@ class _Network:
     points: Floats
     edges: dict[Edge, str]
     tolerance: float
+    angles: dict[Edge, float | None] = field(default_factory=dict)
     notes: Counter[str] = field(default_factory=Counter)
     dangling: int = 0
 
@@ -147,7 +151,9 @@ def _gap(network: _Network) -> float:
 def _network(lines: Lines, tolerance: float) -> _Network:
     """Weld ends, split lines where they cross and where an end lies on them, prune what ends nowhere."""
     long = np.linalg.norm(lines.ends[:, 1] - lines.ends[:, 0], axis=1) > tolerance
-    letters = [letter for letter, keep in zip(lines.letters, long, strict=True) if keep]
+    kept = [int(i) for i in np.flatnonzero(long)]
+    letters = [lines.letters[i] for i in kept]
+    angles = [None if lines.angles is None else lines.angles[i] for i in kept]
     notes = Counter({"line(s) of no length dropped": int((~long).sum())})
     ends = lines.ends[long]
     segments = shapely.linestrings(ends)
@@ -158,6 +164,7 @@ def _network(lines: Lines, tolerance: float) -> _Network:
     at = _points_on_lines(points, ends, tree, tolerance)
     ends_of = of_point[: 2 * len(ends)].reshape(-1, 2)
     edges: dict[Edge, str] = {}
+    angle_of: dict[Edge, float | None] = {}
     true_ends = set(map(int, ends_of.ravel()))
     for line, letter in enumerate(letters):
         a, b = map(int, ends_of[line])
@@ -174,7 +181,8 @@ def _network(lines: Lines, tolerance: float) -> _Network:
                 notes["line(s) drawn twice"] += 1
             if before is None or _RANK.index(letter) < _RANK.index(before):
                 edges[edge] = letter
-    network = _Network(points, edges, tolerance, notes)
+                angle_of[edge] = angles[line]
+    network = _Network(points, edges, tolerance, angle_of, notes)
     _prune(network)
     _straighten(network)
     return network
@@ -264,6 +272,7 @@ def _straighten(network: _Network) -> None:
         if off > network.tolerance or not 0 < along @ chord < chord @ chord:
             continue
         network.edges[_key(a, b)] = network.edges.pop(one)
+        network.angles[_key(a, b)] = network.angles[one]
         del network.edges[two]
         at[a] = at[a] - {vertex} | {b}
         at[b] = at[b] - {vertex} | {a}
@@ -322,4 +331,5 @@ def _sheet(network: _Network, faces: list[tuple[int, ...]], title: str, notes: t
         tuple((float(x), float(y)) for x, y in network.points[used]),
         title,
         notes,
+        None if not any(network.angles.values()) else tuple(network.angles[edge] for edge in network.edges),
     )

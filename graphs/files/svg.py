@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from math import isfinite
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import ParseError
@@ -72,6 +73,7 @@ def sheet_from_svg(path: Path) -> Sheet:
         raise FileError(path, "", "the outermost element is not svg", "SVG")
     ends: list[Any] = []
     letters: list[str] = []
+    angles: list[float | None] = []
     other = 0
     for shape in drawing.elements():
         if not isinstance(shape, svgelements.Shape) or shape.stroke is None or shape.stroke.value is None:
@@ -87,11 +89,12 @@ def sheet_from_svg(path: Path) -> Sheet:
             raise FileError(path, "", f"a shape cannot be drawn: {shown(str(error))}", "SVG shapes") from None
         ends += pieces
         letters += letter * len(pieces)
+        angles += [_fold_angle(letter, _opacity(shape))] * len(pieces)
     array = np.array(ends, dtype=float).reshape(-1, 2, 2) * (1, -1)  # y points down in SVG
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "a coordinate that is not finite, or too large", "coordinates")
     try:
-        sheet = trace_sheet(Lines(array, "".join(letters)))
+        sheet = trace_sheet(Lines(array, "".join(letters), tuple(angles)))
     except InvariantError as error:
         raise FileError(path, "", error.offender, error.expected or "lines in origami colours") from None
     return (
@@ -99,6 +102,24 @@ def sheet_from_svg(path: Path) -> Sheet:
         if not other
         else replace(sheet, repairs=(*sheet.repairs, f"{other} shape(s) in other colours left out"))
     )
+
+
+def _opacity(shape: Any) -> float:
+    """Return the opacity of a stroke as it is written; the colour holds it rounded to 255 steps."""
+    opacity = 1.0
+    for key in ("opacity", "stroke-opacity"):
+        try:
+            opacity *= float(shape.values.get(key, 1) or 0)
+        except ValueError:
+            return float(shape.stroke.opacity)
+    return opacity if isfinite(opacity) else 1.0
+
+
+def _fold_angle(letter: str, opacity: float) -> float | None:
+    """Return the fold angle in degrees that a stroke's opacity stands for: valleys up, mountains down."""
+    if letter not in "MV":
+        return None
+    return round((180 if letter == "V" else -180) * min(max(opacity, 0.0), 1.0), 6) + 0.0
 
 
 def svg_text(sheet: Sheet) -> str:

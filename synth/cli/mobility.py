@@ -49,14 +49,15 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, hinge_flat: boo
             with about(entry.label):
                 reports.append((entry.label, _report(entry.mechanism, exact, hinge_flat, pose)))
         except FileError as error:
-            click.echo(str(error), err=True)
-            failures.append(entry.label)
+            failures.append(str(error))
     if as_json:
         print_json([report.to_json(label) for label, report in reports])
     elif len(reports) == 1 and not failures:
         _print_report(console(), *reports[0])
     elif reports:
-        _print_table(console(), reports, len(failures))
+        _print_table(console(), sorted(reports, key=lambda item: item[0]), len(failures))
+    for line in failures:
+        click.echo(line, err=True)
     if failures:
         sys.exit(2)
 
@@ -154,7 +155,7 @@ def _print_report(out: Console, label: str, report: MobilityReport) -> None:
 
 
 def _print_table(out: Console, reports: list[tuple[str, MobilityReport]], failed: int) -> None:
-    """Print a line a mechanism in the order given, with totals; one file alone tells its notes in full."""
+    """Print a line a mechanism, with totals; one file alone tells its notes in full."""
     rows = table(
         "file", "class", "N", "J", "L", "centres", "M", "notes", numbers=["N", "J", "L", "centres", "M", "notes"]
     )

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from time import monotonic
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -20,6 +21,8 @@ __all__ = ["about", "console", "entries", "plain", "print_json", "table"]
 
 _WIDEST = 60
 _UNWRAPPED = 10_000
+_PATIENCE = 2.0
+"""Seconds before progress is shown."""
 
 
 def plain(value: object, widest: int = _WIDEST) -> str:
@@ -84,14 +87,22 @@ def table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) 
     return made
 
 
-def entries(files: Iterable[str], failures: list[str]) -> Iterator[Entry]:
-    """Yield the mechanisms of files; a file that cannot be read is told on standard error and listed."""
+def entries(files: Sequence[str], failures: list[str]) -> Iterator[Entry]:
+    """Yield the mechanisms of files; what is wrong with a file that cannot be read is added to the failures.
+
+    Where it takes long, a terminal shows how far it has come.
+    """
     from graphs.errors import FileError
     from graphs.files.formats import read_all
 
-    for file in files:
+    start, shown = monotonic(), False
+    for number, file in enumerate(files, start=1):
         try:
             yield from read_all(file)
         except FileError as error:
-            click.echo(str(error), err=True)
-            failures.append(file)
+            failures.append(str(error))
+        if sys.stderr.isatty() and monotonic() - start > _PATIENCE:
+            click.echo(f"\r{number} of {len(files)} files", nl=False, err=True)
+            shown = True
+    if shown:
+        click.echo("\r" + " " * 40 + "\r", nl=False, err=True)

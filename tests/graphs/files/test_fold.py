@@ -84,6 +84,7 @@ def test_svg_is_written_in_origami_colours(tmp_path):
     assert 'stroke="#ff0000" stroke-opacity="0.5"' in text
     back = read(tmp_path / "a.svg")
     assert sorted(back.assignments) == sorted(found.assignments)
+    assert [x for x in back.fold_angles if x is not None] == [-90]
     assert len(mechanism_of_sheet(back).sc.joints) == 1
 
 
@@ -101,3 +102,14 @@ def test_flat_formats_refuse_what_is_not_flat(suffix, tmp_path):
     with pytest.raises(UnsolvableError, match="needs coordinates, and the sheet has none"):
         write(Sheet(3, (), "", ((0, 1, 2),)), tmp_path / f"a{suffix}")
     assert not list(tmp_path.iterdir())
+
+
+def test_an_edge_listed_twice_is_a_crease_if_either_is(tmp_path):
+    twice = SQUARE | {
+        "edges_vertices": [*SQUARE["edges_vertices"], [2, 0], [0, 1]],
+        "edges_assignment": ["B", "B", "B", "B", "F", "V", "B"],
+    }
+    del twice["edges_foldAngle"]
+    mechanism = mechanism_of_sheet(sheet(twice, tmp_path))
+    assert len(mechanism.sc.joints) == 1
+    assert mechanism.repairs == ("2 edge(s) listed twice: a crease counts before a border or a flat edge",)
