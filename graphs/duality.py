@@ -20,6 +20,8 @@ from graphs.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
 
+ROUNDED = 1e-9
+"""Panels farther off their planes than this, in units of their extent, are told of."""
 COLLINEAR = 1e-6
 """Two hinges are collinear if their ends lie this close to one line, in units of their extent."""
 
@@ -90,6 +92,8 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
         notes.repairs.append(f"{split} collinear split hinge(s) joined")
     if _is_flat(sheet):
         notes.warnings.append("flat state: the sheet has more infinitesimal freedoms as drawn than when folded")
+    elif (off := _off_plane(sheet)) > ROUNDED:
+        notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of its size")
     return SheetMechanism(sc, panels, len(cycles), (*sheet.repairs, *notes.repairs), tuple(notes.warnings))
 
 
@@ -313,6 +317,20 @@ def _simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
         else:
             entered[panel] = len(path)
     return cycles
+
+
+def _off_plane(sheet: Sheet) -> float:
+    """Return how far the first four vertices of a panel are off a plane at most, in units of their extent."""
+    if sheet.coordinates is None:
+        return 0.0
+    quads = [face[:4] for face in sheet.faces if len(face) > 3]
+    if not quads:
+        return 0.0
+    corners = np.asarray(sheet.coordinates, dtype=float)[np.array(quads)]
+    arms = corners[:, 1:] - corners[:, :1]
+    sizes = np.linalg.norm(arms, axis=2).max(axis=1)
+    volumes = np.abs(np.linalg.det(arms))
+    return float(np.max(volumes / np.maximum(sizes, 1e-300) ** 3))
 
 
 def _is_flat(sheet: Sheet) -> bool:

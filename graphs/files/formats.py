@@ -202,7 +202,7 @@ def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 
 
 def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    return obj_text(to_sheet(mechanism)), ("mountains, valleys and cuts",)
+    return obj_text(to_sheet(mechanism)), ()
 
 
 WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {

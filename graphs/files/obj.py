@@ -1,7 +1,12 @@
-"""Wavefront OBJ: vertices and faces of a folded or flat sheet. Sides between two faces are taken for creases."""
+"""Wavefront OBJ: vertices and faces of a folded or flat sheet.
+
+Sides between two faces are creases. OBJ has no word for what kind; a comment ``#e a b M -90`` tells the assignment
+of the edge between two vertices (numbered from 1) and, if known, its fold angle in degrees.
+"""
 
 from __future__ import annotations
 
+import re
 from math import isfinite
 from pathlib import Path
 
@@ -9,21 +14,27 @@ from graphs.errors import FileError, InvariantError, UnsolvableError, shown
 from graphs.files.source import read_text
 from graphs.sheet import Sheet
 
+_CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +(-?\d{1,4}(?:\.\d{1,17})?))?")
+
 __all__ = ["obj_text", "sheet_from_obj"]
 
 
 def sheet_from_obj(path: Path) -> Sheet:
-    """Read the ``v`` and ``f`` lines of an OBJ file; all others are left alone.
+    """Read the ``v`` and ``f`` lines and the crease comments of an OBJ file; all others are left alone.
 
     Raises
     ------
     FileError
         With the line.
     """
+    edges: dict[tuple[int, int], tuple[str, float | None]] = {}
     places: list[tuple[float, ...]] = []
     faces: list[tuple[int, ...]] = []
     lines: list[int] = []
     for number, line in enumerate(read_text(path).splitlines(), start=1):
+        if crease := _CREASE.fullmatch(line.strip()):
+            a, b, letter, angle = crease.groups()
+            edges[int(a) - 1, int(b) - 1] = letter, None if angle is None else float(angle)
         words = line.split("#", 1)[0].split()
         if not words or words[0] not in ("v", "f"):
             continue
@@ -38,10 +49,24 @@ def sheet_from_obj(path: Path) -> Sheet:
             raise FileError(path, f"line {number}", shown(line.strip()), expected) from None
     if not faces:
         raise FileError(path, "", "no faces", "lines 'f a b c ...'")
+    known = {
+        pair: what
+        for pair, what in edges.items()
+        if pair[0] != pair[1] and min(pair) >= 0 and max(pair) < len(places)
+    }
+    letters = "".join(letter for letter, _ in known.values())
+    angles = tuple(angle for _, angle in known.values())
     try:
-        return Sheet(len(places), (), "", tuple(faces), tuple(places))
+        return Sheet(
+            len(places),
+            tuple(known),
+            letters,
+            tuple(faces),
+            tuple(places),
+            fold_angles=angles if any(angle is not None for angle in angles) else None,
+        )
     except InvariantError as error:
-        place = "" if error.part is None else f"line {lines[int(str(error.part[1]))]}"
+        place = f"line {lines[int(str(error.part[1]))]}" if error.part and error.part[0] == "faces" else ""
         raise FileError(path, place, error.offender, error.expected) from None
 
 
@@ -61,6 +86,9 @@ def obj_text(sheet: Sheet) -> str:
     if sheet.coordinates is None:
         raise UnsolvableError("an OBJ file needs coordinates, and the sheet has none")
     rows = ["v " + " ".join(repr(x) for x in (*place, 0.0)[:3]) for place in sheet.coordinates]
+    angles = sheet.fold_angles or (None,) * len(sheet.edges)
+    for (a, b), letter, angle in zip(sheet.edges, sheet.assignments, angles, strict=True):
+        rows.append(f"#e {a + 1} {b + 1} {letter}" + ("" if angle is None else f" {angle!r}"))
     rows += ["f " + " ".join(str(v + 1) for v in face) for face in sheet.faces]
     return "\n".join(rows) + "\n"
 

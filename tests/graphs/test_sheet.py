@@ -99,3 +99,12 @@ def test_fold_text_reads_back(tmp_path):
         Sheet(4, ((0, 2),), "U", ((0, 1, 2), (0, 2, 3))),
     ):
         assert sheet_from_fold(json.loads(fold_text(sheet)), tmp_path) == sheet
+
+
+def test_rounded_coordinates_are_told_of():
+    square = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1e-6), (0.0, 1.0, 0.0), (0.5, 0.5, 1.0))
+    faces = ((0, 1, 2, 3), (0, 1, 4))
+    rounded = mechanism_of_sheet(Sheet(5, (), "", faces, square)).warnings
+    assert rounded == ("rounded coordinates: a panel is off its plane by 4e-07 of its size",)
+    exact = tuple((x, y, 0.0 if z < 0.1 else z) for x, y, z in square)
+    assert mechanism_of_sheet(Sheet(5, (), "", faces, exact)).warnings == ()
