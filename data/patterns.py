@@ -51,7 +51,8 @@ def bird_base() -> Sheet:
         for corner in (1 + (k - 1) % 4, 1 + k):
             faces += [(0, tip, corner), (tip, middle, corner)]
             letters[frozenset((tip, corner))] = "V"
-            letters[frozenset((0, corner))] = "M"
+            # Mountains along one diagonal; the other is folded over and back, and left open here.
+            letters[frozenset((0, corner))] = "MU"[corner % 2]
         letters[frozenset((0, tip))] = "V"
         letters[frozenset((tip, middle))] = "M"
     return _sheet(points, faces, "Bird base", letters)
