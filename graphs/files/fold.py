@@ -7,14 +7,13 @@ demands.
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError
 from graphs.files.fold_frames import resolved_frame
-from graphs.files.source import MOST_NODES, Checker
+from graphs.files.source import MOST_NODES, Checker, json_text
 from graphs.sheet import FLAT, HINGES, Sheet
 
 __all__ = ["fold_text", "sheet_from_fold"]
@@ -95,6 +94,7 @@ def fold_text(sheet: Sheet) -> str:
 
     Examples
     --------
+    >>> import json
     >>> text = fold_text(Sheet(3, ((0, 1),), "B", ((0, 1, 2),)))
     >>> json.loads(text)["frame_attributes"]
     ['abstract']
@@ -116,12 +116,7 @@ def fold_text(sheet: Sheet) -> str:
     if sheet.fold_angles is not None:
         document["edges_foldAngle"] = list(sheet.fold_angles)
     document["faces_vertices"] = [list(face) for face in sheet.faces]
-    lines = []
-    for key, value in document.items():
-        wide = isinstance(value, list) and value and isinstance(value[0], list)
-        items = ",\n".join("    " + json.dumps(item, allow_nan=False) for item in value) if wide else ""
-        lines.append(f'  "{key}": [\n{items}\n  ]' if wide else f'  "{key}": {json.dumps(value, allow_nan=False)}')
-    return "{\n" + ",\n".join(lines) + "\n}\n"
+    return json_text(document)
 
 
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:

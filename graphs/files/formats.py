@@ -192,7 +192,9 @@ def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     from graphs.files.cp import cp_text
 
-    return cp_text(to_sheet(mechanism)), ("which lines bound which face",)
+    sheet = to_sheet(mechanism)
+    unknown = ("that creases are unassigned: they are written as valleys",) if "U" in sheet.assignments else ()
+    return cp_text(sheet), ("which lines bound which face", *unknown)
 
 
 def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:

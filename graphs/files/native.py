@@ -5,7 +5,6 @@ The formats are published as JSON Schemas in ``graphs/schema/``; DESIGN, section
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Hashable, Mapping
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ from graphs.errors import FileError, shown
 from graphs.files.names import VERSION, head, tuple_of, written
 from graphs.files.native_graphs import read_sc, read_scd, sc_document
 from graphs.files.native_models import polyhedron_document, read_polyhedron
-from graphs.files.source import Checker
+from graphs.files.source import Checker, json_text
 from graphs.polyhedron import PolyhedronModel
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
@@ -76,7 +75,7 @@ def document(thing: NativeObject) -> dict[str, Any]:
 
 
 def dumps(thing: NativeObject) -> str:
-    """Return the text of a native file: one item of a list a line.
+    """Return the text of a native file.
 
     Examples
     --------
@@ -91,21 +90,7 @@ def dumps(thing: NativeObject) -> str:
       "loops": []
     }
     """
-    lines = []
-    for key, value in document(thing).items():
-        if isinstance(value, list) and value:
-            items = ",\n".join("    " + _compact(item) for item in value)
-            lines.append(f"  {_compact(key)}: [\n{items}\n  ]")
-        elif isinstance(value, dict) and value and key == "rotation":
-            items = ",\n".join(f"    {_compact(k)}: {_compact(v)}" for k, v in value.items())
-            lines.append(f"  {_compact(key)}: {{\n{items}\n  }}")
-        else:
-            lines.append(f"  {_compact(key)}: {_compact(value)}")
-    return "{\n" + ",\n".join(lines) + "\n}\n"
-
-
-def _compact(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+    return json_text(document(thing))
 
 
 def _read_vertex_edge(value: Mapping[str, Any], check: Checker) -> VertexEdgeGraph:

@@ -16,7 +16,7 @@ from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, shown
 
-__all__ = ["MOST_NODES", "Checker", "load_json", "read_text", "write_chunks", "write_text"]
+__all__ = ["MOST_NODES", "Checker", "json_text", "load_json", "read_text", "write_chunks", "write_text"]
 
 MOST_NODES = 2_000_000
 """Most links or vertices that a bare number in a file may call for."""
@@ -118,6 +118,38 @@ def load_json(path: Path) -> Any:
         raise FileError(path, "", "the JSON is nested too deeply", "a mechanism") from None
     except ValueError as error:  # an integer of more digits than Python converts
         raise FileError(path, "", f"not JSON: {error}", "a JSON document") from None
+
+
+def json_text(document: Mapping[str, Any]) -> str:
+    r"""Return the text of a JSON document: a key a line, and a line for each item of lists of lists or objects.
+
+    Examples
+    --------
+    >>> print(json_text({"version": 1, "joints": [[0, 1], [1, 2]]}), end="")
+    {
+      "version": 1,
+      "joints": [
+        [0, 1],
+        [1, 2]
+      ]
+    }
+    """
+
+    def compact(value: Any) -> str:
+        return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+    rows = []
+    for key, value in document.items():
+        if isinstance(value, list) and value and isinstance(value[0], list | dict):
+            items, brackets = [compact(item) for item in value], "[]"
+        elif isinstance(value, dict) and value and isinstance(next(iter(value.values())), list):
+            items, brackets = [f"{compact(k)}: {compact(v)}" for k, v in value.items()], "{}"
+        else:
+            rows.append(f"  {compact(key)}: {compact(value)}")
+            continue
+        inner = ",\n".join("    " + item for item in items)
+        rows.append(f"  {compact(key)}: {brackets[0]}\n{inner}\n  {brackets[1]}")
+    return "{\n" + ",\n".join(rows) + "\n}\n"
 
 
 class Checker:

@@ -114,10 +114,10 @@ def test_cp_and_obj_round_trips(name, data, tmp_path):
     (tmp_path / "bare.obj").write_text("\n".join(bare), encoding="utf-8")
     assert len(mechanism_of_sheet(read(tmp_path / "bare.obj")).sc.joints) == joints
     if name.startswith("bird"):
-        write(sheet, tmp_path / "a.cp")
+        assert "that creases are unassigned: they are written as valleys" in write(sheet, tmp_path / "a.cp")
         again = sheet_from_cp(tmp_path / "a.cp")
         assert len(mechanism_of_sheet(again).sc.joints) == joints
-        assert Counter(again.assignments) == Counter(sheet.assignments)
+        assert Counter(again.assignments) == Counter(sheet.assignments.replace("U", "V"))
         assert cp_text(again).count("\n") == len(sheet.edges)
 
 
