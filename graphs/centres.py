@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations, permutations
+from itertools import permutations
 
 from graphs.errors import InvariantError, shown
 from graphs.loops import Centre, JointId, Loop
@@ -66,6 +66,12 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
     >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((2, 3, 4, 5, 6))]))
     1
     """
+    if _nothing_forced(loops):
+        return tuple(
+            CentreClass((i,), frozenset(loop.joints), loop.centre)
+            for i, loop in enumerate(loops)
+            if loop.has_centre
+        )
     merger = _Merger(loops)
     merger.merge_named()
     merger.close()
@@ -86,6 +92,25 @@ def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
     {1: 0}
     """
     return {loop: index for index, one in enumerate(classes) for loop in one.loops}
+
+
+def _nothing_forced(loops: Sequence[Loop]) -> bool:
+    """Whether no two loops share more than a joint, and none is planar or named: so it is on most sheets."""
+    through: dict[JointId, list[int]] = {}
+    pairs: set[tuple[int, int]] = set()
+    for i, loop in enumerate(loops):
+        if not loop.has_centre:
+            continue
+        if loop.at is not None or loop.centre is Centre.INFINITE:
+            return False
+        for joint in loop.joints:
+            others = through.setdefault(joint, [])
+            for other in others:
+                if (other, i) in pairs:
+                    return False
+                pairs.add((other, i))
+            others.append(i)
+    return True
 
 
 class _Merger:
@@ -110,11 +135,6 @@ class _Merger:
         for root, joints in self.joints.items():
             for joint in joints:
                 at_joint[joint].append(root)
-        several = [here for here in at_joint.values() if len(here) > 1]
-        infinite = any(self._centre(root) is Centre.INFINITE for root in self.members)
-        pairs = {pair for here in several for pair in combinations(here, 2)}
-        if not infinite and len(pairs) == sum(len(here) * (len(here) - 1) // 2 for here in several):
-            return  # no two share more than one joint, as on most sheets
         shared: dict[int, dict[int, set[JointId]]] = defaultdict(lambda: defaultdict(set))
         for joint, here in at_joint.items():
             for a, b in permutations(here, 2):

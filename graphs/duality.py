@@ -146,6 +146,8 @@ def _merge_flat(
     hinges: str,
 ) -> tuple[list[int], tuple[tuple[int, ...], ...]]:
     """Merge faces across flat edges; return the panel of each face, and the faces of each panel."""
+    if not any(letter in sheet.assignments for letter in FLAT if letter not in hinges):
+        return list(range(len(sheet.faces))), tuple((face,) for face in range(len(sheet.faces)))
     merged = nx.utils.UnionFind(range(len(sheet.faces)))
     for edge, here in faces_at.items():
         letter = assignment[edge][0]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import gc
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import click
@@ -41,15 +43,15 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, hinge_flat: boo
     """
     from graphs.errors import FileError
 
-    gc.disable()  # what is read stays until the end; to look through it again and again takes as long as the rest
     failures: list[str] = []
     reports: list[tuple[str, MobilityReport]] = []
-    for entry in entries(files, failures):
-        try:
-            with about(entry.label):
-                reports.append((entry.label, _report(entry.mechanism, exact, hinge_flat, pose)))
-        except FileError as error:
-            failures.append(str(error))
+    with _objects_stay():
+        for entry in entries(files, failures):
+            try:
+                with about(entry.label):
+                    reports.append((entry.label, _report(entry.mechanism, exact, hinge_flat, pose)))
+            except FileError as error:
+                failures.append(str(error))
     if as_json:
         print_json([report.to_json(label) for label, report in reports])
     elif len(reports) == 1 and not failures:
@@ -60,6 +62,16 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, hinge_flat: boo
         click.echo(line, err=True)
     if failures:
         sys.exit(2)
+
+
+@contextmanager
+def _objects_stay() -> Iterator[None]:
+    """Pause the garbage collector: to look through what was read again and again takes as long as the rest."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def _report(mechanism: Mechanism, exact: bool, hinge_flat: bool, pose: int | None) -> MobilityReport:
