@@ -6,6 +6,7 @@ import gc
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -102,7 +103,8 @@ def _report_of_sheet(sheet: Sheet, hinge_flat: bool) -> MobilityReport:
 
     found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     report = mobility_report(found.sc)
-    notes = [f"{found.interior_vertices} interior vertices"] if found.interior_vertices else []
+    report = replace(report, counts={**report.counts, "interior_vertices": found.interior_vertices})
+    notes = []
     if flaps := report.counts["flaps"]:
         notes.append(f"{flaps} flap(s), panels with one hinge: a freedom each")
     if "F" in sheet.assignments:
@@ -139,6 +141,8 @@ _COUNTS = {
     "internal_edges": "internal edges",
     "spatial_loops": "spatial loops",
     "flaps": "flaps",
+    "interior_vertices": "interior vertices",
+    "parts": "parts",
     "remote": "sum of k over remote centres",
     "on_plane": "points on planes P",
     "on_line": "points on lines L",

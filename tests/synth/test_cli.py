@@ -94,6 +94,43 @@ def test_a_crease_pattern_tells_its_flaps_and_its_flat_edges(tmp_path):
     assert report["counts"]["flaps"] == 2
 
 
+def test_the_report_of_a_crease_pattern_has_its_counts(data):
+    (report,) = json.loads(run("mobility", "--json", data / "patterns" / "bird-base.fold").stdout)
+    assert report["counts"]["interior_vertices"] == 5
+    assert report["counts"]["parts"] == 1
+    out = run("mobility", data / "patterns" / "bird-base.fold").stdout
+    assert "interior vertices 5" in out
+    assert "flat state" in out
+
+
+def test_a_table_is_sorted_with_totals_and_failures_at_the_end(data, tmp_path):
+    (tmp_path / "b.fold").write_text("{}", encoding="utf-8")
+    files = [data / "wiener" / "watt.json", tmp_path / "b.fold", data / "wiener" / "six-bar.json"]
+    result = run("mobility", "--no-exact", *files, code=2)
+    assert result.stdout.index("six-bar.json") < result.stdout.index("watt.json")
+    assert "2 mechanism(s) reported, 1 failed" in result.stdout
+    assert result.output.rstrip().splitlines()[-1].startswith(f"{tmp_path}/b.fold: faces_vertices: missing")
+
+
+def test_a_terminal_shows_progress_where_it_takes_long(data, monkeypatch, capsys):
+    import io
+
+    from synth.cli import output
+
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    screen = Terminal()
+    monkeypatch.setattr("sys.stderr", screen)
+    monkeypatch.setattr(output, "_PATIENCE", -1.0)
+    files = [str(data / "wiener" / name) for name in ("watt.json", "six-bar.json")]
+    assert len(list(output.entries(files, []))) == 2
+    assert "1 of 2 files" in screen.getvalue()
+    assert screen.getvalue().endswith("\r")
+    assert not capsys.readouterr().out
+
+
 def test_a_file_of_many_graphs(tmp_path):
     (tmp_path / "two.g6").write_text("Cl\nC~\n", encoding="ascii")
     reports = json.loads(run("mobility", "--json", tmp_path / "two.g6").stdout)
