@@ -6,6 +6,7 @@ One function a target; each says what stands in the way where there is no road. 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 
 from graphs.duality import mechanism_of_sheet
@@ -15,7 +16,7 @@ from graphs.polyhedron import PolyhedronModel
 from graphs.reconstruction import reconstruct
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
-from graphs.sheet import Sheet, sheet_from_model
+from graphs.sheet import Sheet, sheet_from_model, sides_of_face
 from graphs.vertexedge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
 
 __all__ = ["CONVERSIONS", "Mechanism", "to_polyhedron", "to_sc", "to_scd", "to_sheet", "to_vertex_edge"]
@@ -137,15 +138,7 @@ def _plain(sheet: Sheet) -> Sheet:
     mechanism = mechanism_of_sheet(sheet)
     if len(mechanism.panels) < len(sheet.faces):
         raise UnsolvableError("the sheet has flat edges: its links are more than one face each")
-    shared = sum(len(sheet_side) == 2 for sheet_side in _faces_at_sides(sheet).values())
-    if shared != len(mechanism.sc.joints):
+    faces_at = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
+    if sum(number == 2 for number in faces_at.values()) != len(mechanism.sc.joints):
         raise UnsolvableError("the sheet has cuts between faces or hinges in several pieces")
     return sheet
-
-
-def _faces_at_sides(sheet: Sheet) -> dict[frozenset[int], list[int]]:
-    at: dict[frozenset[int], list[int]] = {}
-    for index, face in enumerate(sheet.faces):
-        for side in zip(face, (*face[1:], face[0]), strict=True):
-            at.setdefault(frozenset(side), []).append(index)
-    return at

@@ -15,6 +15,7 @@ from graphs.errors import InvariantError, shown
 from graphs.loops import Centre, JointId, LinkId, Loop
 from graphs.rotation import face_cycles, trace_faces
 from graphs.scd import SCDGraph
+from graphs.sheet import sides_of_face
 
 __all__ = ["oriented_panels", "scd_from_panels"]
 
@@ -61,13 +62,13 @@ def scd_from_panels(
             joint_at[side] = len(joints)
             joints[len(joints)] = (links[0], links[1])
     rotation = {
-        link: tuple(joint_at.get(frozenset(side)) for side in _sides(vertices))
+        link: tuple(joint_at.get(frozenset(side)) for side in sides_of_face(vertices))
         for link, vertices in around.items()
     }
     open_side = {
         frozenset(side): (link, i)
         for link, vertices in around.items()
-        for i, side in enumerate(_sides(vertices))
+        for i, side in enumerate(sides_of_face(vertices))
         if rotation[link][i] is None
     }
     return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)))
@@ -95,25 +96,21 @@ def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
         queue = deque([start])
         while queue:
             link = queue.popleft()
-            for a, b in _sides(result[link]):
+            for a, b in sides_of_face(result[link]):
                 for other in at_side[frozenset((a, b))]:
                     if other == link:
                         continue
                     if other not in result:
-                        turned = (b, a) in set(_sides(panels[other]))
+                        turned = (b, a) in set(sides_of_face(panels[other]))
                         result[other] = panels[other] if turned else panels[other][::-1]
                         queue.append(other)
-                    elif (b, a) not in set(_sides(result[other])):
+                    elif (b, a) not in set(sides_of_face(result[other])):
                         raise InvariantError(
                             "orientable",
                             f"panels {shown(link)} and {shown(other)} cannot be turned the same way round",
                             "a surface with two sides",
                         )
     return {link: result[link] for link in panels}
-
-
-def _sides(panel: Panel) -> list[tuple[Hashable, Hashable]]:
-    return list(zip(panel, panel[1:] + panel[:1], strict=True))
 
 
 def _panels_at_side(panels: Mapping[LinkId, Panel]) -> dict[frozenset[Hashable], list[LinkId]]:
@@ -123,7 +120,7 @@ def _panels_at_side(panels: Mapping[LinkId, Panel]) -> dict[frozenset[Hashable],
             raise InvariantError("panel", f"panel {shown(link)} names a vertex twice", "different vertices")
         if len(vertices) < 3:
             raise InvariantError("panel", f"panel {shown(link)} has {len(vertices)} vertices", "three or more")
-        for side in _sides(vertices):
+        for side in sides_of_face(vertices):
             at_side.setdefault(frozenset(side), []).append(link)
     for edge, links in at_side.items():
         if len(links) > 2:

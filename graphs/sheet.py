@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.polyhedron import PolyhedronModel
@@ -18,6 +19,8 @@ HINGES = "MVU"
 """Edge assignments that are hinges: mountain, valley, unassigned."""
 FLAT = "FJ"
 """Edge assignments that hinge nothing: flat, and joins between parts of one panel."""
+
+V = TypeVar("V")
 
 Edge = tuple[int, int]
 
@@ -125,8 +128,14 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     return [(place[0], place[1]) for place in sheet.coordinates]
 
 
-def sides_of_face(face: Sequence[int]) -> list[Edge]:
-    """Return the sides of a face, each from a vertex to the next."""
+def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
+    """Return the sides of a face, each from a vertex to the next.
+
+    Examples
+    --------
+    >>> sides_of_face("abc")
+    [('a', 'b'), ('b', 'c'), ('c', 'a')]
+    """
     return list(zip(face, (*face[1:], face[0]), strict=True))
 
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 import shapely
 
 from graphs.errors import InvariantError
-from graphs.sheet import Sheet
+from graphs.sheet import Edge, Sheet, sides_of_face
 
 __all__ = ["MOST", "TOLERANCES", "Lines", "trace_sheet"]
 
@@ -32,7 +32,6 @@ _RANK = "MVUFJBC"
 """Of two lines in one place the one whose letter comes first here counts."""
 
 Floats = npt.NDArray[np.float64]
-Edge = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -310,7 +309,7 @@ def _faces(network: _Network) -> list[tuple[int, ...]]:
 
 def _without_holes(faces: list[tuple[int, ...]], edges: dict[Edge, str]) -> tuple[list[tuple[int, ...]], int]:
     """Drop faces whose every side is a border with another face beyond it."""
-    sides = [[_key(a, b) for a, b in zip(face, (*face[1:], face[0]), strict=True)] for face in faces]
+    sides = [[_key(a, b) for a, b in sides_of_face(face)] for face in faces]
     beside = Counter(side for row in sides for side in row)
     kept = [
         face

@@ -14,11 +14,20 @@ from xml.etree.ElementTree import ParseError
 
 import networkx as nx
 
-from graphs.errors import FileError, InvariantError, UnsolvableError, shown
-from graphs.files.source import MOST_NODES, read_text
+from graphs.embedding import sc_from_link_joint_graph
+from graphs.errors import FileError, UnsolvableError, shown
+from graphs.files.source import MOST_NODES, Checker, read_text
 from graphs.sc import SCGraph
 
-__all__ = ["edge_list_text", "graph6_text", "graphml_text", "read_edge_list", "read_graph6", "read_graphml"]
+__all__ = [
+    "as_sc",
+    "edge_list_text",
+    "graph6_text",
+    "graphml_text",
+    "read_edge_list",
+    "read_graph6",
+    "read_graphml",
+]
 
 _GRAPH6_OFFSET = 63
 _LARGEST_SHORT = 62
@@ -175,18 +184,13 @@ def edge_list_text(sc: SCGraph) -> str:
     return "".join(f"{a} {b} {joint}\n" for joint, (a, b) in sc.joints.items())
 
 
-def loopless(graph: nx.Graph, path: Path, place: str) -> nx.Graph:
-    """Refuse a graph with a self-joint, naming the place."""
-    for a in nx.nodes_with_selfloops(graph):
-        raise FileError(path, place, f"a joint joins link {shown(a)} to itself", "two links")
-    return graph
-
-
 def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:
-    """Give a graph read from a file its loops."""
-    from graphs.embedding import sc_from_link_joint_graph
+    """Give a graph read from a file its loops; refuse a self-joint, naming the place.
 
-    try:
-        return sc_from_link_joint_graph(loopless(graph, path, place))
-    except InvariantError as error:
-        raise FileError(path, place, error.offender, error.expected) from None
+    Raises
+    ------
+    FileError
+    """
+    for link in nx.nodes_with_selfloops(graph):
+        raise FileError(path, place, f"a joint joins link {shown(link)} to itself", "two links")
+    return Checker(path).build(lambda: sc_from_link_joint_graph(graph), lambda _: place, place)

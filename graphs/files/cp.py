@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from graphs.errors import FileError, InvariantError, shown
-from graphs.files.source import read_text
+from graphs.errors import FileError, shown
+from graphs.files.source import Checker, read_text
 from graphs.sheet import Sheet, flat_places
 from graphs.tracing import MOST, Lines, trace_sheet
 
@@ -41,10 +41,8 @@ def sheet_from_cp(path: Path) -> Sheet:
             raise FileError(path, place, "a number that is not finite, or too large", "coordinates")
         ends.append(((x1, y1), (x2, y2)))
         letters.append(_LETTERS[words[0]])
-    try:
-        return trace_sheet(Lines(np.array(ends, dtype=float).reshape(-1, 2, 2), "".join(letters)))
-    except InvariantError as error:
-        raise FileError(path, "", error.offender, error.expected) from None
+    lines = np.array(ends, dtype=float).reshape(-1, 2, 2)
+    return Checker(path).build(lambda: trace_sheet(Lines(lines, "".join(letters))))
 
 
 def cp_text(sheet: Sheet) -> str:

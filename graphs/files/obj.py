@@ -10,8 +10,8 @@ import re
 from math import isfinite
 from pathlib import Path
 
-from graphs.errors import FileError, InvariantError, UnsolvableError, shown
-from graphs.files.source import read_text
+from graphs.errors import FileError, UnsolvableError, shown
+from graphs.files.source import Checker, read_text
 from graphs.sheet import Sheet
 
 _CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +(-?\d{1,4}(?:\.\d{1,17})?))?")
@@ -56,18 +56,17 @@ def sheet_from_obj(path: Path) -> Sheet:
     }
     letters = "".join(letter for letter, _ in known.values())
     angles = tuple(angle for _, angle in known.values())
-    try:
-        return Sheet(
+    return Checker(path).build(
+        lambda: Sheet(
             len(places),
             tuple(known),
             letters,
             tuple(faces),
             tuple(places),
             fold_angles=angles if any(angle is not None for angle in angles) else None,
-        )
-    except InvariantError as error:
-        place = f"line {lines[int(str(error.part[1]))]}" if error.part and error.part[0] == "faces" else ""
-        raise FileError(path, place, error.offender, error.expected) from None
+        ),
+        lambda part: f"line {lines[int(str(part[1]))]}" if part[0] == "faces" else "",
+    )
 
 
 def obj_text(sheet: Sheet) -> str:

@@ -80,11 +80,9 @@ def write_chunks(path: Path, chunks: Iterable[str]) -> None:
         beside.chmod(mode)
         beside.replace(path)
     except OSError as error:
-        beside.unlink(missing_ok=True)
         raise FileError(path, "", f"cannot be written: {_reason(error)}") from None
-    except BaseException:
-        beside.unlink(missing_ok=True)
-        raise
+    finally:
+        beside.unlink(missing_ok=True)  # there no longer, unless something went wrong
 
 
 def load_json(path: Path) -> Any:
@@ -235,7 +233,12 @@ class Checker:
             raise FileError(self.path, place, "half of a surrogate pair", "text")
         return value
 
-    def build(self, make: Callable[[], T], place_of: Callable[[tuple[str, object]], str], place: str = "") -> T:
+    def build(
+        self,
+        make: Callable[[], T],
+        place_of: Callable[[tuple[str, object]], str] = lambda _: "",
+        place: str = "",
+    ) -> T:
         """Build an object; turn a breach of its invariants into an error with a place in the file.
 
         ``place_of`` gives the place of a part of the object, ``place`` that of the whole.

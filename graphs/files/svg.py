@@ -6,6 +6,7 @@ Simulator. Shapes, transforms and styles are read by svgelements; curves become 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 from math import isfinite
@@ -16,8 +17,8 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from graphs.errors import FileError, InvariantError, shown
-from graphs.files.source import read_text
+from graphs.errors import FileError, shown
+from graphs.files.source import Checker, read_text
 from graphs.sheet import Sheet, flat_places
 from graphs.tracing import MOST, Lines, trace_sheet
 
@@ -59,25 +60,11 @@ def sheet_from_svg(path: Path) -> Sheet:
     ------
     FileError
     """
-    import svgelements
-
-    read_text(path)  # the plain errors: missing, a directory, empty, not text
-    try:
-        drawing = svgelements.SVG.parse(str(path), reify=True)
-    except ParseError as error:
-        line, column = error.position
-        raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
-        raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
-    if not isinstance(drawing, svgelements.SVG):
-        raise FileError(path, "", "the outermost element is not svg", "SVG")
     ends: list[Any] = []
     letters: list[str] = []
     angles: list[float | None] = []
     other = 0
-    for shape in drawing.elements():
-        if not isinstance(shape, svgelements.Shape) or shape.stroke is None or shape.stroke.value is None:
-            continue
+    for shape in _stroked_shapes(path):
         letter = letter_of_colour(shape.stroke.red, shape.stroke.green, shape.stroke.blue)
         if letter is None:
             other += 1
@@ -93,15 +80,28 @@ def sheet_from_svg(path: Path) -> Sheet:
     array = np.array(ends, dtype=float).reshape(-1, 2, 2) * (1, -1)  # y points down in SVG
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "a coordinate that is not finite, or too large", "coordinates")
+    sheet = Checker(path).build(lambda: trace_sheet(Lines(array, "".join(letters), tuple(angles))))
+    left_out = (f"{other} shape(s) in other colours left out",) if other else ()
+    return replace(sheet, repairs=(*sheet.repairs, *left_out))
+
+
+def _stroked_shapes(path: Path) -> Iterator[Any]:
+    """Yield the shapes of an SVG file that have a stroke, transforms applied."""
+    import svgelements
+
+    read_text(path)  # the plain errors: missing, a directory, empty, not text
     try:
-        sheet = trace_sheet(Lines(array, "".join(letters), tuple(angles)))
-    except InvariantError as error:
-        raise FileError(path, "", error.offender, error.expected or "lines in origami colours") from None
-    return (
-        sheet
-        if not other
-        else replace(sheet, repairs=(*sheet.repairs, f"{other} shape(s) in other colours left out"))
-    )
+        drawing = svgelements.SVG.parse(str(path), reify=True)
+    except ParseError as error:
+        line, column = error.position
+        raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
+    if not isinstance(drawing, svgelements.SVG):
+        raise FileError(path, "", "the outermost element is not svg", "SVG")
+    for shape in drawing.elements():
+        if isinstance(shape, svgelements.Shape) and shape.stroke is not None and shape.stroke.value is not None:
+            yield shape
 
 
 def _opacity(shape: Any) -> float:

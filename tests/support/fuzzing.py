@@ -112,7 +112,7 @@ def fuzz(suffix: str, number: int, seed: int, data: Path) -> tuple[int, int]:
             signal.alarm(SECONDS)
             try:
                 line = answer(path)
-            except BaseException:
+            except Exception:
                 sys.stderr.write(f"file {i} of {suffix}, seed {seed}: {raw[:2000]!r}\n")
                 raise
             finally:
