@@ -11,6 +11,17 @@ from hypothesis import HealthCheck, settings
 
 ROOT = Path(__file__).resolve().parent.parent
 
+
+def _renew_compiled_code() -> None:
+    """Remove machine code kept by numba that is older than a source file: it may call an old function in another."""
+    folder = ROOT / "enumerate"
+    newest = max(source.stat().st_mtime for source in folder.glob("*.py"))
+    for kept in (folder / "__pycache__").glob("*.nbi"):
+        if kept.stat().st_mtime < newest:
+            kept.unlink(missing_ok=True)
+
+
+_renew_compiled_code()
 settings.register_profile(
     "synthedra", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )

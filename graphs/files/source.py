@@ -9,14 +9,15 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, shown
 
-__all__ = ["MOST_NODES", "Checker", "json_text", "load_json", "read_text", "write_chunks", "write_text"]
+__all__ = ["MOST_NODES", "Beside", "Checker", "json_text", "load_json", "read_text", "write_chunks", "write_text"]
 
 MOST_NODES = 2_000_000
 """Most links or vertices that a bare number in a file may call for."""
@@ -66,23 +67,70 @@ def write_text(path: Path, text: str) -> None:
 
 def write_chunks(path: Path, chunks: Iterable[str]) -> None:
     """Write text that comes piece by piece, as :func:`write_text` writes one piece."""
-    if path.is_dir():
-        raise FileError(path, "", "a directory", "a file to write")
+    beside = Beside(path)
     try:
-        mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
-        handle, name = tempfile.mkstemp(prefix=f".{path.name[:32]}.", dir=path.parent)
-    except (OSError, ValueError) as error:
-        raise FileError(path, "", f"cannot be written: {_reason(error)}", "a writable folder") from None
-    beside = Path(name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="") as stream:
-            stream.writelines(chunks)
-        beside.chmod(mode)
-        beside.replace(path)
-    except OSError as error:
-        raise FileError(path, "", f"cannot be written: {_reason(error)}") from None
+        for chunk in chunks:
+            beside.write(chunk.encode("utf-8"))
+        beside.commit()
     finally:
-        beside.unlink(missing_ok=True)  # there no longer, unless something went wrong
+        beside.discard()
+
+
+class Beside:
+    """A file that is written beside its place and moved there when it is whole.
+
+    Parameters
+    ----------
+    path : Path
+        Its place; a file that is there is kept until :meth:`commit`.
+
+    Raises
+    ------
+    FileError
+        If the folder cannot be written to.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if path.is_dir():
+            raise FileError(path, "", "a directory", "a file to write")
+        try:
+            self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
+            handle, name = tempfile.mkstemp(prefix=f".{path.name[:32]}.", dir=path.parent)
+        except (OSError, ValueError) as error:
+            raise FileError(path, "", f"cannot be written: {_reason(error)}", "a writable folder") from None
+        self._path, self._beside = path, Path(name)
+        self.stream = os.fdopen(handle, "wb")
+
+    def write(self, data: bytes) -> None:
+        """Append bytes.
+
+        Raises
+        ------
+        FileError
+            If the disk is full, or otherwise broken.
+        """
+        with self._named():
+            self.stream.write(data)
+
+    def commit(self) -> None:
+        """Move the file to its place."""
+        with self._named():
+            self.stream.close()
+            self._beside.chmod(self._mode)
+            self._beside.replace(self._path)
+
+    def discard(self) -> None:
+        """Remove the file, unless it was committed."""
+        with suppress(OSError):  # closing writes what is left, to a disk that may be full
+            self.stream.close()
+        self._beside.unlink(missing_ok=True)
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise FileError(self._path, "", f"cannot be written: {_reason(error)}") from None
 
 
 def load_json(path: Path) -> Any:

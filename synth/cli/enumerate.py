@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from synth.cli.chains import chains
 from synth.cli.output import console, plain, print_json, table
 
 __all__ = ["enumerate_group"]
@@ -23,7 +24,11 @@ def enumerate_group() -> None:
     \b
     Example:
       synth enumerate strings --max-dof 6
+      synth enumerate chains --links 8 --dof 1
     """
+
+
+enumerate_group.add_command(chains)
 
 
 def _limit(context: click.Context, parameter: click.Parameter, value: str) -> int | None:

@@ -1,0 +1,318 @@
+"""The jobs of chain enumeration: how listing and counting are split into units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from enumerate.chain_query import ChainQuery
+from enumerate.chain_rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
+from enumerate.compiled import Bytes, Ints
+from enumerate.contracted import contracted_graphs
+from enumerate.counting import count_by_burnside, count_by_orbits, count_of_graph
+from enumerate.cycle_index import count_connected
+from enumerate.fractionated import Block, block_choices, glued, shapes
+from enumerate.run import Row, Unit
+from graphs.errors import UnsolvableError
+from graphs.identity import chain_from_id
+
+__all__ = ["ChainJob", "CountJob", "count_job"]
+
+_ROWS = 20_000
+"""Rows of a unit, about; a contracted graph with more is split."""
+
+_GRAPHS = 256
+"""Contracted graphs of a unit of counting."""
+
+_CHOICES = 64
+"""Choices of blocks of a unit of fractionated chains."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Graphs:
+    """Chains of some contracted graphs."""
+
+    n: int
+    codes: Bytes
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """Chains of one contracted graph that begin in one way."""
+
+    n: int
+    code: Bytes
+    only: int
+    prefix: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class _Ring:
+    """The chain of one loop."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Glued:
+    """Chains put together from blocks."""
+
+    choices: tuple[tuple[Block, ...], ...]
+
+
+Payload = _Graphs | _Part | _Ring | _Glued
+
+
+def _graphs(query: ChainQuery) -> Iterator[tuple[int, Bytes]]:
+    """Yield the contracted graphs whose chains can be among those asked for, most links first."""
+    if not query.possible or query.loops < 2:
+        return
+    for n, codes in contracted_graphs(query.loops):
+        if n > query.links:
+            continue
+        if query.assortment is None and query.planar is None:
+            yield n, codes
+        else:
+            kept = [query.admits_graph(code, n) for code in codes]
+            yield n, codes[np.array(kept, bool)]
+
+
+@dataclass(frozen=True)
+class ChainJob:
+    """All chains that a query asks for, as rows.
+
+    Attributes
+    ----------
+    query : ChainQuery
+    bare : bool
+        Ids alone, without attributes.
+    """
+
+    query: ChainQuery
+    bare: bool = False
+
+    @cached_property
+    def columns(self) -> dict[str, type]:
+        """Names and types of the values of a row."""
+        return columns_of(self.query, self.bare)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"enumerate": "chains", **self.query.key}
+
+    def units(self) -> list[Unit]:
+        """Units of some thousands of rows each: chains that nothing cuts, then fractionated ones."""
+        found: list[Unit] = []
+        if not self.query.possible:
+            return found
+        if self.query.loops == 1:
+            found.append(Unit(_Ring()))
+        for n, codes in _graphs(self.query):
+            found += self._units_of_level(n, codes)
+        if self.query.fractionated:
+            found += self._fractionated_units()
+        return found
+
+    def _units_of_level(self, n: int, codes: Bytes) -> Iterator[Unit]:
+        """Split the contracted graphs of n links by the numbers of their chains."""
+        query = self.query
+        start = weight = 0
+        for i, code in zip(range(len(codes)), codes, strict=True):
+            count = count_of_graph(code, n, query.links, query.most, -1, np.zeros(0, np.int64))
+            if weight and weight + count > _ROWS:
+                yield Unit(_Graphs(n, codes[start:i]), weight)
+                start, weight = i, 0
+            if count > 2 * _ROWS:
+                yield from self._parts(n, code)
+                start = i + 1
+            else:
+                weight += count
+        if weight:
+            yield Unit(_Graphs(n, codes[start:]), weight)
+
+    def _parts(self, n: int, code: Bytes) -> Iterator[Unit]:
+        """Split the placements on one contracted graph by where their first units lie."""
+        query = self.query
+
+        def split(only: int, prefix: tuple[int, ...]) -> Iterator[Unit]:
+            array = np.array(prefix, np.int64)
+            count = count_of_graph(code, n, query.links, query.most, only, array)
+            if count > _ROWS:
+                for slot in range(prefix[-1] if prefix else 0, len(code)):
+                    yield from split(only, (*prefix, slot))
+            elif count:
+                yield Unit(_Part(n, code, only, array), count)
+
+        for only in range(query.links - n + 1):
+            yield from split(only, ())
+
+    def _fractionated_units(self) -> Iterator[Unit]:
+        for shape in shapes(self.query.links, self.query.dof):
+            choices = block_choices(shape, _blocks)
+            while batch := tuple(islice(choices, _CHOICES)):
+                yield Unit(_Glued(batch), len(batch))
+
+    def work(self, payload: Payload) -> list[Row]:
+        """Return the rows of a unit."""
+        query = self.query
+        if isinstance(payload, _Part):
+            part = GraphChains.of(query, payload.code, payload.n, payload.only, payload.prefix)
+            return rows_of_graph(query, part, self.bare)
+        if isinstance(payload, _Graphs):
+            rows = []
+            for code in payload.codes:
+                chains = GraphChains.of(query, code, payload.n, -1, np.zeros(0, np.int64))
+                rows += rows_of_graph(query, chains, self.bare)
+            return rows
+        if isinstance(payload, _Ring):
+            ring = [(i, (i + 1) % query.links) for i in range(query.links)]
+            return rows_of_joints(query, ring, self.bare)
+        return [
+            row
+            for blocks in payload.choices
+            for joints in glued(blocks)
+            for row in rows_of_joints(query, joints, self.bare)
+        ]
+
+
+def _blocks(links: int, dof: int) -> Iterator[Block]:
+    """Yield all chains that nothing cuts as blocks."""
+    job = ChainJob(ChainQuery(links, dof), bare=True)
+    for unit in job.units():
+        for (code,) in job.work(unit.payload):
+            yield links, tuple(sorted(chain_from_id(code).edges()))
+
+
+@dataclass(frozen=True)
+class CountJob:
+    """The number of chains that a query asks for; each row is a number to be added.
+
+    Attributes
+    ----------
+    query : ChainQuery
+    method : {"orbits", "burnside"}
+    """
+
+    query: ChainQuery
+    method: str = "orbits"
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "chains", "method": self.method, **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """Units of some hundreds of contracted graphs each."""
+        return [
+            Unit(_Graphs(n, codes[i : i + _GRAPHS]), len(codes[i : i + _GRAPHS]))
+            for n, codes in _graphs(self.query)
+            for i in range(0, len(codes), _GRAPHS)
+        ]
+
+    def work(self, payload: _Graphs) -> list[Row]:
+        """Return the number of chains of a unit."""
+        query, low = self.query, self.query.longest_string[0]
+        total = self._number(payload, query.most)
+        return [(total - self._number(payload, low - 1) if low > 0 else total,)]
+
+    def _number(self, payload: _Graphs, most: int) -> int:
+        if self.method == "burnside":
+            return count_by_burnside(payload.codes, payload.n, self.query.links, most, self.query.inversions)
+        return count_by_orbits(payload.codes, payload.n, self.query.links, most)
+
+
+@dataclass(frozen=True)
+class _RowCountJob:
+    """The number of rows of a job, where they have to be made to be counted."""
+
+    rows: ChainJob
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "chains", **self.rows.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """Return those of the job."""
+        return self.rows.units()
+
+    def work(self, payload: Payload) -> list[Row]:
+        """Return the number of rows of a unit; labels are not worked out where nothing asks for them."""
+        query = self.rows.query
+        if not isinstance(payload, _Graphs | _Part) or query.inputs:
+            return [(len(self.rows.work(payload)),)]
+        codes = payload.codes if isinstance(payload, _Graphs) else payload.code[None]
+        only, prefix = (
+            (-1, np.zeros(0, np.int64)) if isinstance(payload, _Graphs) else (payload.only, payload.prefix)
+        )
+        total = 0
+        for code in codes:
+            chains = GraphChains.of(query, code, payload.n, only, prefix)
+            if query.inversions:
+                total += int((chains.inversions(query.links) == np.arange(query.links)).sum())
+            else:
+                total += len(chains.x)
+        return [(total,)]
+
+
+@dataclass(frozen=True)
+class _ConnectedCountJob:
+    """The number of chains, fractionated ones too, from cycle indices: one unit."""
+
+    query: ChainQuery
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "chains", "method": "burnside", **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """One unit."""
+        return [Unit(None)] if self.query.possible else []
+
+    def work(self, payload: None) -> list[Row]:
+        """Return the number."""
+        return [(count_connected(self.query.links, self.query.dof),)]
+
+
+def count_job(query: ChainQuery, method: str) -> CountJob | _RowCountJob | _ConnectedCountJob:
+    """Return the job that counts what a query asks for.
+
+    Raises
+    ------
+    UnsolvableError
+        If Burnside's lemma is asked for what it does not count here.
+    """
+    plain = query.symmetry == (1, None) and not query.inputs
+    if method == "burnside":
+        filtered = query.assortment is not None or query.planar is not None or query.longest_string != (0, None)
+        if not plain or (query.fractionated and (filtered or query.inversions)):
+            raise UnsolvableError(
+                "Burnside's lemma counts chains and inversions, by assortment, planarity and longest string, "
+                "or all fractionated chains; not input joints, symmetries, or parts of the fractionated ones"
+            )
+        if query.loops == 1 and not query.fractionated:
+            return _RowCountJob(ChainJob(query))
+        return _ConnectedCountJob(query) if query.fractionated else CountJob(query, method)
+    if plain and not (query.inversions or query.fractionated) and query.loops > 1:
+        return CountJob(query, method)
+    return _RowCountJob(ChainJob(query))

@@ -1,0 +1,144 @@
+"""Which chains are asked for: numbers of links and freedoms, kinds, and limits on what they look like."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import networkx as nx
+import numpy as np
+
+from enumerate.compiled import Bytes
+from enumerate.contracted import MOST_LOOPS, decode
+from graphs.errors import InvariantError
+
+__all__ = ["ChainQuery", "Range"]
+
+Range = tuple[int, int | None]
+"""Least and greatest value allowed; no limit above with None."""
+
+
+@dataclass(frozen=True, slots=True)
+class ChainQuery:
+    """The kinematic chains with N links and M degrees of freedom, no sub-chain rigid.
+
+    Attributes
+    ----------
+    links, dof : int
+        N >= 4 and M >= 1.
+    fractionated : bool
+        Also chains with links or joints that cut them in two.
+    inversions : bool
+        One result for each link that can be the ground link, up to isomorphism.
+    inputs : bool
+        One result for each choice of ground link and M input joints that leave no freedom when they are locked.
+    assortment : tuple of int, optional
+        Numbers of binary, ternary, ... links; missing ones are 0.
+    planar : bool, optional
+        Whether the chain can be drawn in the plane without crossings.
+    longest_string : (int, int or None)
+        Limits of the number of binary links in the longest row of them; a ring of N links counts N.
+    symmetry : (int, int or None)
+        Limits of the number of automorphisms.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> ChainQuery(8, 1).loops
+    3
+    """
+
+    links: int
+    dof: int
+    fractionated: bool = False
+    inversions: bool = False
+    inputs: bool = False
+    assortment: tuple[int, ...] | None = None
+    planar: bool | None = None
+    longest_string: Range = (0, None)
+    symmetry: Range = (1, None)
+
+    def __post_init__(self) -> None:
+        if self.links < 4:
+            raise InvariantError("links", f"{self.links} links", "4 or more: a closed chain has no fewer")
+        if self.dof < 1:
+            raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
+        if self.loops > MOST_LOOPS:
+            raise InvariantError(
+                "loops", f"{self.links} links with M = {self.dof} have {self.loops} loops", f"{MOST_LOOPS} at most"
+            )
+        for name, (low, high) in {"longest string": self.longest_string, "symmetry": self.symmetry}.items():
+            if high is not None and high < low:
+                raise InvariantError(name, f"the range {low} to {high}", "the smaller number first")
+        if self.assortment is not None and any(count < 0 for count in self.assortment):
+            raise InvariantError("assortment", f"the assortment {self.assortment}", "numbers of links")
+
+    @property
+    def possible(self) -> bool:
+        """Whether N - 1 and M are both even or both odd, as J = (3 (N - 1) - M) / 2 needs, and there is a loop."""
+        return (self.links - 1 - self.dof) % 2 == 0 and self.loops >= 1
+
+    @property
+    def loops(self) -> int:
+        """Independent loops L = (N - 1 - M) / 2."""
+        return (self.links - 1 - self.dof) // 2
+
+    @property
+    def joints(self) -> int:
+        """Joints J = N - 1 + L."""
+        return self.links - 1 + self.loops
+
+    @property
+    def most(self) -> int:
+        """The longest string that can occur: M + 1 binary links; more would hold more freedoms than there are."""
+        high = self.longest_string[1]
+        return self.dof + 1 if high is None else min(high, self.dof + 1)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The query in JSON values."""
+        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
+
+    def admits_assortment(self, degrees: dict[int, int]) -> bool:
+        """Tell whether a chain with these numbers of links (degree to number) has the assortment asked for."""
+        if self.assortment is None:
+            return True
+        wanted = {degree: count for degree, count in zip(range(2, 1000), self.assortment, strict=False) if count}
+        return wanted == {degree: count for degree, count in degrees.items() if count}
+
+    def admits_graph(self, code: Bytes, n: int) -> bool:
+        """Tell whether chains of a contracted graph can be among those asked for."""
+        if self.assortment is not None:
+            degrees = np.bincount(decode(code, n).sum(axis=1))
+            counts = {degree: int(count) for degree, count in zip(range(len(degrees)), degrees, strict=True)}
+            if not self.admits_assortment({2: self.links - n, **{d: c for d, c in counts.items() if c}}):
+                return False
+        return self.planar is None or is_planar(decode(code, n)) == self.planar
+
+    def admits(self, longest: int, symmetry: int) -> bool:
+        """Tell whether longest string and number of automorphisms are within the limits."""
+        return _within(longest, self.longest_string) and _within(symmetry, self.symmetry)
+
+
+def is_planar(adjacency: Bytes) -> bool:
+    """Tell whether a multigraph, given by its matrix, is planar.
+
+    Examples
+    --------
+    >>> is_planar(1 - np.eye(5, dtype=np.uint8))
+    False
+    """
+    simple = np.triu(adjacency, 1) > 0
+    if len(adjacency) < 5 or simple.sum() < 9:  # K5 has five nodes, K33 nine edges
+        return True
+    planar: bool = nx.check_planarity(nx.Graph(np.argwhere(simple).tolist()))[0]
+    return planar
+
+
+def _within(value: int, limits: Range) -> bool:
+    low, high = limits
+    return value >= low and (high is None or value <= high)

@@ -1,0 +1,205 @@
+"""Rows of chains: ids and attributes of the chains of contracted graphs.
+
+What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled, but
+for the canonical labels, which are bliss's.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+import numpy as np
+
+from enumerate.chain_query import ChainQuery, is_planar
+from enumerate.compiled import Bytes, Ints
+from enumerate.contracted import decode
+from enumerate.inputs import input_choices
+from enumerate.listing import (
+    frame_of,
+    graph6_rows,
+    joints_of_all,
+    orbits_of,
+    orbits_of_all,
+    placements_of,
+    symmetries_of,
+)
+from enumerate.run import Row
+from graphs.identity import automorphisms_of, canonical_order
+
+__all__ = [
+    "COLUMNS",
+    "GROUND_COLUMNS",
+    "INPUT_COLUMNS",
+    "GraphChains",
+    "columns_of",
+    "rows_of_graph",
+    "rows_of_joints",
+]
+
+COLUMNS: dict[str, type] = {
+    "code": str,
+    "links": int,
+    "joints": int,
+    "dof": int,
+    "loops": int,
+    "assortment": str,
+    "longest_string": int,
+    "symmetry": int,
+    "inversions": int,
+    "planar": bool,
+    "fractionated": bool,
+}
+GROUND_COLUMNS: dict[str, type] = {"ground": int}
+INPUT_COLUMNS: dict[str, type] = {"inputs": str}
+
+
+def columns_of(query: ChainQuery, bare: bool) -> dict[str, type]:
+    """Return names and types of the values of a row; ``bare`` rows have the id alone."""
+    if bare:
+        return {"code": str}
+    ground = GROUND_COLUMNS if query.inversions or query.inputs else {}
+    return {**COLUMNS, **ground, **(INPUT_COLUMNS if query.inputs else {})}
+
+
+@dataclass(frozen=True, slots=True)
+class GraphChains:
+    """The chains of one contracted graph that a query asks for.
+
+    Attributes
+    ----------
+    x : uint8[r, m]
+        Binary links on each joint.
+    order : int64[r]
+        Automorphisms of each chain.
+    """
+
+    code: Bytes
+    n: int
+    x: Bytes
+    order: Ints
+
+    @classmethod
+    def of(cls, query: ChainQuery, code: Bytes, n: int, only: int, prefix: Ints) -> GraphChains:
+        """List them, or those that begin in one way (`enumerate.counting.count_of_graph`)."""
+        x, order = placements_of(code, n, query.links, query.most, only, prefix)
+        kept = np.ones(len(x), bool)
+        if query.longest_string[0] > 0:
+            kept &= x.max(axis=1, initial=0) >= query.longest_string[0]
+        low, high = query.symmetry
+        if low > 1 or high is not None:
+            kept &= (order >= low) & (order <= (np.iinfo(np.int64).max if high is None else high))
+        return cls(code, n, x[kept], order[kept])
+
+    def inversions(self, links: int) -> Ints:
+        """Return the orbits of links of each chain: int64[r, links], the least link of the orbit of each."""
+        ends, first, moved, automorphisms = frame_of(self.code, self.n)
+        return orbits_of_all(ends, first, moved, automorphisms, links, self.x)
+
+
+def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Row]:
+    """Return the rows of the chains of a contracted graph."""
+    if not len(chains.x):
+        return []
+    ends, first, moved, automorphisms = frame_of(chains.code, chains.n)
+    joints = joints_of_all(ends, chains.n, chains.x)
+    labels = np.array([canonical_order(query.links, pairs) for pairs in joints.tolist()], np.int64)
+    text = graph6_rows(joints, labels).tobytes().decode("ascii")
+    width = len(text) // len(labels)
+    codes = [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)]
+    if bare:
+        return [(code,) for code in codes]
+    orbits = chains.inversions(query.links)
+    degrees = Counter(decode(chains.code, chains.n).sum(axis=1).tolist())
+    assortment = _assortment({**degrees, 2: query.links - chains.n})
+    planar = is_planar(decode(chains.code, chains.n))
+    counts = (orbits == np.arange(query.links)).sum(axis=1).tolist()
+    common = query.links, query.joints, query.dof, query.loops, assortment
+    rows: list[Row] = [
+        (code, *common, longest, symmetry, inversions, planar, False)
+        for code, longest, symmetry, inversions in zip(
+            codes, chains.x.max(axis=1).tolist(), chains.order.tolist(), counts, strict=True
+        )
+    ]
+    if not (query.inversions or query.inputs):
+        return rows
+    found: list[Row] = []
+    for i, row in enumerate(rows):
+        generators = symmetries_of(ends, first, moved, automorphisms, query.links, chains.x[i])
+        order = labels[i].tolist()
+        renamed = np.empty_like(generators)
+        renamed[:, order] = labels[i][generators]
+        pairs = [(order[a], order[b]) for a, b in joints[i].tolist()]
+        found += [(*row, *choice) for choice in _choices(query, pairs, renamed)]
+    return found
+
+
+def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints) -> Iterator[Row]:
+    """Yield the ground links of a chain, with input joints where asked for, one of each orbit.
+
+    Parameters
+    ----------
+    query : ChainQuery
+    joints : list of (int, int)
+    generators : int64[g, links]
+        Permutations of links that generate the automorphisms.
+    """
+    if query.inputs:
+        for ground, inputs in input_choices(query.links, joints, generators.tolist(), query.dof):
+            yield ground, " ".join(f"{a}-{b}" for a, b in inputs)
+    else:
+        yield from ((int(link),) for link in np.flatnonzero(orbits_of(generators) == np.arange(query.links)))
+
+
+def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: bool) -> list[Row]:
+    """Return the rows of a chain given by its joints; none if the query does not ask for such a chain.
+
+    The general way, for rings and for chains that are not 2-connected; links are 0 to N - 1.
+    """
+    graph = nx.Graph(joints)
+    order, generators, symmetry = automorphisms_of(query.links, joints)
+    degrees = Counter(degree for _, degree in graph.degree())
+    longest = _longest_string(graph)
+    planar: bool = nx.check_planarity(graph)[0]
+    if not (
+        query.admits_assortment(degrees)
+        and query.admits(longest, symmetry)
+        and (query.planar is None or planar == query.planar)
+    ):
+        return []
+    pairs = [(order[a], order[b]) for a, b in joints]
+    line = graph6_rows(np.array([joints], np.int64), np.array([order], np.int64)).tobytes().decode("ascii")
+    if bare:
+        return [(f"k1:{line}",)]
+    moves = np.array([range(query.links), *generators], np.int64)
+    renamed = np.empty_like(moves)
+    renamed[:, order] = np.array(order)[moves]
+    row = (
+        f"k1:{line}",
+        query.links,
+        query.joints,
+        query.dof,
+        query.loops,
+        _assortment(degrees),
+        longest,
+        symmetry,
+        int((orbits_of(renamed) == np.arange(query.links)).sum()),
+        planar,
+        not nx.is_biconnected(graph),
+    )
+    if not (query.inversions or query.inputs):
+        return [row]
+    return [(*row, *choice) for choice in _choices(query, pairs, renamed)]
+
+
+def _assortment(degrees: Mapping[int, int]) -> str:
+    """Return the numbers of binary, ternary, ... links."""
+    return ",".join(str(degrees.get(degree, 0)) for degree in range(2, max(degrees) + 1))
+
+
+def _longest_string(graph: nx.Graph) -> int:
+    """Return the number of links of the longest row of binary links."""
+    binary = graph.subgraph(link for link, degree in graph.degree() if degree == 2)
+    return max(map(len, nx.connected_components(binary)), default=0)

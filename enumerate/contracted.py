@@ -1,0 +1,312 @@
+"""Contracted graphs: what is left of a kinematic chain when its binary links are taken out.
+
+A chain with L >= 2 independent loops becomes a 2-connected multigraph without self-joints in which every link has
+three joints or more, still with L loops; n <= 2 (L - 1) links and n + L - 1 joints. The graphs with the most
+links are cubic, and every other one comes from a graph with one link more by contracting a joint:
+any split of the joints of a link into two sets of two or more gives such a graph. So a graph with n links is
+looked for only where it is cheap: joints are contracted that end at a ternary link and whose contraction makes a
+link of the one degree, chosen by the degrees of the result, that can be split in the fewest ways.
+
+A graph is held as its *code*: the places of its joints in the lower triangle of the canonical matrix, in order, a
+byte each. Theory: docs/theory/chains.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from enumerate.compiled import Bytes, Ints, compiled, doubled
+from enumerate.labelling import canonical_labels
+from graphs.errors import InvariantError
+
+__all__ = ["MOST_LOOPS", "contracted_graphs", "cubic_graphs", "decode"]
+
+MOST_LOOPS = 11
+"""20 links at most, so that a place in the matrix fits a byte, and the conditions on placements their counters."""
+
+
+def contracted_graphs(loops: int) -> Iterator[tuple[int, Bytes]]:
+    """Yield all contracted graphs with a number of loops, those of equally many links together, most links first.
+
+    Parameters
+    ----------
+    loops : int
+        Independent loops L, 2 to 11.
+
+    Yields
+    ------
+    links : int
+        n, from 2 (L - 1) down to 2.
+    codes : uint8[k, n + L - 1]
+        One row a graph, no two isomorphic; `decode` gives the matrices.
+
+    Raises
+    ------
+    InvariantError
+        If there are too few or too many loops.
+
+    Examples
+    --------
+    >>> {links: len(codes) for links, codes in contracted_graphs(4)}
+    {6: 5, 5: 4, 4: 5, 3: 2, 2: 1}
+    """
+    codes = cubic_graphs(loops)
+    links = 2 * (loops - 1)
+    yield links, codes
+    while links > 2:
+        links -= 1
+        codes = _contract_all(codes, links + 1)
+        yield links, codes
+
+
+def cubic_graphs(loops: int) -> Bytes:
+    """Return the codes of all 2-connected cubic multigraphs with 2 (L - 1) links, one row each.
+
+    Each comes from one with two links less by subdividing two joints, or one joint twice, and joining the new
+    links: the last ear of an ear decomposition of a cubic graph is a single joint.
+
+    Raises
+    ------
+    InvariantError
+        If there are too few or too many loops.
+
+    Examples
+    --------
+    >>> [len(cubic_graphs(loops)) for loops in (2, 3, 4, 5)]
+    [1, 2, 5, 16]
+    """
+    if not 2 <= loops <= MOST_LOOPS:
+        raise InvariantError("loops", f"{loops} loops", f"2 to {MOST_LOOPS}")
+    codes = np.zeros((1, 3), np.uint8)  # two links, three joints
+    for links in range(2, 2 * (loops - 1), 2):
+        codes = _extend_all(codes, links)
+    return codes
+
+
+@compiled
+def decode(code: Bytes, n: int) -> Bytes:
+    """Return the matrix of a code: uint8[n, n], the numbers of joints between links.
+
+    Examples
+    --------
+    >>> decode(np.array([0, 0, 0], np.uint8), 2).tolist()
+    [[0, 3], [3, 0]]
+    """
+    adjacency = np.zeros((n, n), np.uint8)
+    for place in code:
+        u, v = _ends(place)
+        adjacency[u, v] += 1
+        adjacency[v, u] += 1
+    return adjacency
+
+
+@compiled
+def _ends(place: int) -> tuple[int, int]:
+    """Return row and column of a place in the lower triangle."""
+    row, first = 1, 0
+    while place >= first + row:
+        first += row
+        row += 1
+    return row, place - first
+
+
+@compiled
+def _encode(adjacency: Bytes, order: Bytes, code: Bytes) -> None:
+    """Write the code of a matrix whose links are taken in the order given."""
+    k = 0
+    for i in range(1, len(order)):
+        for j in range(i):
+            for _ in range(adjacency[order[i], order[j]]):
+                code[k] = i * (i - 1) // 2 + j
+                k += 1
+
+
+@compiled
+def _slot(table: Ints, rows: Bytes, row: Bytes) -> np.int64:
+    """Return where a row is in a hash table of rows, or the free slot where it belongs."""
+    word = np.uint64(0)
+    for byte in row:
+        word = (word ^ np.uint64(byte)) * np.uint64(0x9E3779B97F4A7C15)
+        word ^= word >> np.uint64(32)
+    slot = np.int64(word & np.uint64(len(table) - 1))
+    while table[slot] >= 0:
+        other = rows[table[slot]]
+        k = 0
+        while k < len(row) and other[k] == row[k]:
+            k += 1
+        if k == len(row):
+            return slot
+        slot = (slot + 1) & np.int64(len(table) - 1)
+    return slot
+
+
+@compiled
+def _insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes, int]:
+    """Add a row to a set of rows, which may grow; return table, rows and their number."""
+    slot = _slot(table, rows, row)
+    if table[slot] >= 0:
+        return table, rows, used
+    table[slot] = used
+    for k in range(len(row)):
+        rows[used, k] = row[k]
+    used += 1
+    if used == len(rows):
+        rows = doubled(rows)
+        table = np.full(8 * used, -1, np.int64)
+        for i in range(used):
+            table[_slot(table, rows, rows[i])] = i
+    return table, rows, used
+
+
+@compiled
+def _contract_all(parents: Bytes, n: int) -> Bytes:
+    """Return the codes of the graphs that contracting a joint of a graph with n links gives, one row each."""
+    size = 64
+    rows = np.empty((size, parents.shape[1] - 1), np.uint8)
+    table = np.full(4 * size, -1, np.int64)
+    used = 0
+    code = np.empty(parents.shape[1] - 1, np.uint8)
+    for parent in range(len(parents)):
+        adjacency = decode(parents[parent], n)
+        _, automorphisms = canonical_labels(adjacency, n)
+        degree = np.zeros(n, np.int64)
+        for place in parents[parent]:
+            u, v = _ends(place)
+            degree[u] += 1
+            degree[v] += 1
+        for u in range(n):
+            for v in range(u):
+                if adjacency[u, v] != 1 or (degree[u] != 3 and degree[v] != 3):
+                    continue
+                if degree[u] + degree[v] - 2 != _cheapest_degree(degree, u, v):
+                    continue
+                if not _is_first(u, v, automorphisms) or not _stays_connected(adjacency, n, u, v):
+                    continue
+                child = _contract(adjacency, n, u, v)
+                order, _ = canonical_labels(child, n - 1)
+                _encode(child, order, code)
+                table, rows, used = _insert(table, rows, used, code)
+    return rows[:used].copy()
+
+
+@compiled
+def _cheapest_degree(degree: Ints, u: int, v: int) -> int:
+    """Return the degree, above 3, whose links can be split in the fewest ways once u and v are one link."""
+    count = np.zeros(64, np.int64)
+    for w in range(len(degree)):
+        if w not in (u, v):
+            count[degree[w]] += 1
+    count[degree[u] + degree[v] - 2] += 1
+    best, fewest = 0, 0
+    for d in range(4, 64):
+        ways = count[d] * (3 if d == 4 else d * (d - 1) // 2)
+        if ways and (best == 0 or ways < fewest):
+            best, fewest = d, ways
+    return best
+
+
+@compiled
+def _is_first(u: int, v: int, automorphisms: Bytes) -> bool:
+    """Tell whether no automorphism takes the pair u > v to one that comes earlier in the matrix."""
+    place = u * (u - 1) // 2 + v
+    for a in range(1, len(automorphisms)):
+        i, j = np.int64(automorphisms[a, u]), np.int64(automorphisms[a, v])
+        if i < j:
+            i, j = j, i
+        if i * (i - 1) // 2 + j < place:
+            return False
+    return True
+
+
+@compiled
+def _stays_connected(adjacency: Bytes, n: int, u: int, v: int) -> bool:
+    """Tell whether the graph without the links u and v is connected."""
+    seen = np.zeros(n, np.bool_)
+    seen[u] = seen[v] = True
+    stack = np.empty(n, np.int64)
+    first = 0
+    while first in (u, v):
+        first += 1
+    stack[0], top, left = first, 1, n - 3
+    seen[first] = True
+    while top:
+        top -= 1
+        w = stack[top]
+        for x in range(n):
+            if adjacency[w, x] and not seen[x]:
+                seen[x] = True
+                stack[top] = x
+                top += 1
+                left -= 1
+    return left == 0
+
+
+@compiled
+def _contract(adjacency: Bytes, n: int, u: int, v: int) -> Bytes:
+    """Return the matrix with u > v made one link, the joint between them gone."""
+    child = np.zeros((n - 1, n - 1), np.uint8)
+    for i in range(n):
+        for j in range(i):
+            if i == u and j == v:
+                continue
+            a, b = v if i == u else i - (i > u), v if j == u else j - (j > u)
+            child[a, b] += adjacency[i, j]
+            child[b, a] += adjacency[i, j]
+    return child
+
+
+@compiled
+def _extend_all(parents: Bytes, n: int) -> Bytes:
+    """Return the codes of the cubic graphs with two links more than these with n links."""
+    size = 64
+    rows = np.empty((size, parents.shape[1] + 3), np.uint8)
+    table = np.full(4 * size, -1, np.int64)
+    used = 0
+    code = np.empty(parents.shape[1] + 3, np.uint8)
+    for parent in range(len(parents)):
+        adjacency = decode(parents[parent], n + 2)
+        for place in parents[parent]:
+            for other in parents[parent]:
+                if other > place:
+                    break
+                for twice in range(2 if place == other else 1):
+                    child = _bridge(adjacency, n, place, other, twice == 1)
+                    if len(child):
+                        order, _ = canonical_labels(child, n + 2)
+                        _encode(child, order, code)
+                        table, rows, used = _insert(table, rows, used, code)
+    return rows[:used].copy()
+
+
+@compiled
+def _bridge(adjacency: Bytes, n: int, place: int, other: int, twice: bool) -> Bytes:
+    """Return the matrix with links n and n + 1 put on two joints and joined; an empty one where that cannot be.
+
+    With equal places: on two parallel joints, or, if ``twice``, both on one joint.
+    """
+    a, b = _ends(place)
+    c, d = _ends(other)
+    child = adjacency.copy()
+    if place == other and not twice and adjacency[a, b] < 2:
+        return child[:0]
+    s, t = n, n + 1
+    _add(child, a, b, -1)
+    _add(child, a, s, 1)
+    _add(child, t, d, 1)
+    _add(child, s, t, 1)
+    if twice:
+        _add(child, s, t, 1)
+    else:
+        _add(child, s, b, 1)
+        _add(child, c, d, -1)
+        _add(child, c, t, 1)
+    return child
+
+
+@compiled
+def _add(adjacency: Bytes, u: int, v: int, joints: int) -> None:
+    """Add joints between two links."""
+    adjacency[u, v] += joints
+    adjacency[v, u] += joints

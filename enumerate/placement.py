@@ -1,0 +1,364 @@
+"""Placing binary links on a contracted graph so that no sub-chain becomes rigid, compiled.
+
+A placement gives each joint e of the contracted graph the number x_e of binary links that take its place. A
+sub-chain S (links of the contracted graph, with the joints between them) has more than zero freedoms exactly if
+
+    sum over the joints of S of min(x_e, 2)  >=  need(S) = 2 |E(S)| - 3 |S| + 4.
+
+With w = min(x, 2) and W the sum of all w this says that at most W - need(S) of the W units lie *outside* S. In
+that form a partial placement that breaks a condition is seen at once: the units are placed one after another, in
+the order of the joints, and every condition is a counter of eight bits, eight counters a machine word, that must
+not fall below zero. What is still to be placed must fit, too: what cannot go inside S any more goes outside. With
+both looks, about every second step of the search is a result. Units beyond the second on a joint (x - w) are free:
+they cost no condition.
+
+One placement of each orbit under the automorphisms is kept: with parallel joints in falling order, the
+lexicographically largest. Theory: docs/theory/chains.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from enumerate.compiled import Bytes, Ints, Words, compiled, doubled
+
+__all__ = ["conditions", "no_prefix", "permutations", "place", "rigid_sets", "slots"]
+
+_GUARD = np.uint64(0x8080808080808080)
+_ONES = np.uint64(0x0101010101010101)
+_LOW = np.uint64(0x7F7F7F7F7F7F7F7F)
+_BYTE = np.uint64(0xFF)
+
+
+@compiled
+def slots(adjacency: Bytes, n: int) -> tuple[Bytes, Ints]:
+    """Return the joints in the order in which they are filled, parallel ones together.
+
+    Returns
+    -------
+    ends : uint8[m, 2]
+        The links a > b at the ends of each joint.
+    first : int64[m]
+        Of each joint, the first of the joints parallel to it.
+    """
+    m = 0
+    for a in range(n):
+        for b in range(a):
+            m += adjacency[a, b]
+    ends = np.zeros((m, 2), np.uint8)
+    first = np.zeros(m, np.int64)
+    k = 0
+    for a in range(n):
+        for b in range(a):
+            start = k
+            for _ in range(adjacency[a, b]):
+                ends[k, 0], ends[k, 1], first[k] = a, b, start
+                k += 1
+    return ends, first
+
+
+@compiled
+def permutations(ends: Bytes, first: Ints, automorphisms: Bytes) -> Bytes:
+    """Return what automorphisms do to the joints, keeping the order of parallel ones: uint8[a, m]."""
+    n = automorphisms.shape[1]
+    m = len(ends)
+    start = np.zeros((n, n), np.int64)
+    for e in range(m):
+        start[ends[e, 0], ends[e, 1]] = start[ends[e, 1], ends[e, 0]] = first[e]
+    moved = np.zeros((len(automorphisms), m), np.uint8)
+    for a in range(len(automorphisms)):
+        for e in range(m):
+            u, v = automorphisms[a, ends[e, 0]], automorphisms[a, ends[e, 1]]
+            moved[a, e] = start[u, v] + e - first[e]
+    return moved
+
+
+@compiled
+def rigid_sets(adjacency: Bytes, n: int) -> tuple[Ints, Ints]:
+    """Return the sets of links that could become rigid, and what each needs; the whole set last.
+
+    Only sets that say something: proper sets that need more than nothing, are 2-connected (the conditions of its
+    blocks imply that of any other), and hold no smaller set that needs as much.
+
+    Returns
+    -------
+    sets : int64[k]
+        Bit v is set where link v belongs to the set.
+    needs : int64[k]
+        2 |E(S)| - 3 |S| + 4.
+    """
+    score = np.zeros(1 << n, np.int16)  # 2 |E(S)| - 3 |S|
+    found = np.zeros((64, 2), np.int64)
+    ends = np.zeros(n, np.int64)
+    count = 0
+    whole = (1 << n) - 1
+    for top in range(n):  # sets whose highest link is `top`
+        below = 0
+        for v in range(top):
+            if adjacency[top, v]:
+                ends[below] = v
+                below += 1
+        for s in range(1 << top, 2 << top):
+            degree = 0
+            for k in range(below):
+                if (s >> ends[k]) & 1:
+                    degree += adjacency[top, ends[k]]
+            score[s] = score[s - (1 << top)] + 2 * degree - 3
+            need = np.int64(score[s]) + 4
+            if s == whole or (need > 0 and degree > 1 and _says_more(adjacency, n, s, int(need), found[:count])):
+                if count == len(found):
+                    found = doubled(found)
+                found[count, 0], found[count, 1] = s, need
+                count += 1
+    return found[:count, 0].copy(), found[:count, 1].copy()
+
+
+@compiled
+def _says_more(adjacency: Bytes, n: int, s: int, need: int, found: Ints) -> bool:
+    """Tell whether the condition of a set is not implied by those found before: no subset needs as much."""
+    for i in range(len(found)):
+        if found[i, 1] >= need and found[i, 0] & s == found[i, 0]:
+            return False
+    for v in range(n):
+        if (s >> v) & 1:
+            degree = 0
+            for u in range(n):
+                if (s >> u) & 1:
+                    degree += adjacency[u, v]
+            if degree < 2 or not _connected(adjacency, n, s & ~(1 << v)):
+                return False
+    return True
+
+
+@compiled
+def _connected(adjacency: Bytes, n: int, s: int) -> bool:
+    """Tell whether a set of links is connected."""
+    reached = s & -s
+    last = 0
+    while reached != last:
+        new = reached & ~last
+        last = reached
+        for v in range(n):
+            if (new >> v) & 1:
+                for u in range(n):
+                    if adjacency[u, v]:
+                        reached |= (1 << u) & s
+    return reached == s
+
+
+@compiled
+def conditions(ends: Bytes, sets: Ints, needs: Ints, total: int) -> tuple[Words, Words]:
+    """Return the conditions on placements of W units as counters, eight a word.
+
+    Returns
+    -------
+    room : uint64[k]
+        How many units may lie outside each set, with the guard bit of each counter set.
+    weight : uint64[m, k]
+        What one unit on a joint takes from the counters.
+    """
+    m = len(ends)
+    room = np.zeros((len(sets) + 7) // 8, np.uint64)
+    weight = np.zeros((m, len(room)), np.uint64)
+    outside = np.zeros(m, np.bool_)
+    k = 0
+    for i in range(len(sets) - 1):
+        free = 0
+        for e in range(m):
+            outside[e] = not ((sets[i] >> ends[e, 0]) & 1 and (sets[i] >> ends[e, 1]) & 1)
+            free += outside[e]
+        if total - needs[i] < min(2 * free, total):
+            word, shift = k // 8, np.uint64(8 * (k % 8))
+            room[word] |= np.uint64(0x80 + max(total - needs[i], 0)) << shift
+            for e in range(m):
+                weight[e, word] |= np.uint64(outside[e]) << shift
+            k += 1
+    words = (k + 7) // 8
+    for j in range(k, 8 * words):  # counters that nothing takes from
+        room[j // 8] |= np.uint64(0x80 + total) << np.uint64(8 * (j % 8))
+    return room[:words], weight[:, :words].copy()
+
+
+@compiled
+def no_prefix() -> Ints:
+    """Return the empty prefix of a placement."""
+    return np.zeros(0, np.int64)
+
+
+@compiled
+def _inside(weight: Words, cost: Ints, total: int) -> Words:
+    """Return for each slot how many units the slots from it on can take inside each set, ``total`` at most."""
+    m, words = weight.shape
+    inside = np.zeros((m + 1, words), np.uint64)
+    for v in range(m - 1, -1, -1):
+        for k in range(words):
+            for j in range(8):
+                shift = np.uint64(8 * j)
+                here = np.uint64(cost[v]) - ((weight[v, k] >> shift) & _BYTE)
+                most = ((inside[v + 1, k] >> shift) & _BYTE) + np.uint64(2) * here
+                inside[v, k] |= min(most, np.uint64(total)) << shift
+    return inside
+
+
+@compiled
+def place(
+    room: Words,
+    weight: Words,
+    cost: Ints,
+    first: Ints,
+    bound: int,
+    free: int,
+    most: int,
+    symmetries: Bytes,
+    prefix: Ints,
+    out: Bytes,
+    fixing: Ints,
+) -> int:
+    """Count placements, or list them.
+
+    Parameters
+    ----------
+    room, weight : uint64[k], uint64[m, k]
+        The conditions; ``weight`` of one unit on each slot.
+    cost, first : int64[m], int64[m]
+        Units that one unit on a slot stands for; the first slot of its group, whose values must not rise.
+    bound, free : int
+        W, and the number of units beyond the second on a slot.
+    most : int
+        No slot may hold more.
+    symmetries : uint8[a, m]
+        Permutations of the slots, the identity first; a placement is kept if none of them makes it larger. With
+        one alone every placement is kept.
+    prefix : int64[p]
+        Slots of the first units: only placements that begin so.
+    out : uint8[r, m]
+        Where to write placements; with r = 0 they are only counted.
+    fixing : int64[r]
+        Where to write by how many of the permutations each placement is left as it is.
+
+    Returns
+    -------
+    int
+        The number of placements. Where it is more than r > 0, only the first r are written.
+    """
+    m = len(cost)
+    inside = _inside(weight, cost, bound)
+    left = np.zeros((bound + free + 2, len(room)), np.uint64)
+    for k in range(len(room)):
+        left[0, k] = room[k]
+    at = np.zeros(bound + free + 2, np.int64)
+    x = np.zeros(m, np.int64)
+    found = depth = start = 0
+    quick = len(out) == 0 and len(symmetries) <= 1 and free == 0
+    if bound + free == 0:
+        return _note(x, len(symmetries), out, fixing, 0)
+    while True:
+        v, stop = start, m
+        if depth < len(prefix):
+            v, stop = max(start, prefix[depth]), prefix[depth] + 1
+        elif quick and bound == 1:
+            found += _count_last(left[depth], weight, cost, first, x, start, most)
+            stop = 0
+        v = _next(left, depth, inside, weight, cost, first, x, v, stop, most, bound, free)
+        if v < stop:
+            free -= cost[v] * (x[v] >= 2)
+            bound -= cost[v] * (x[v] < 2)
+            x[v] += 1
+            at[depth] = v
+            depth += 1
+            start = v
+            if bound + free > 0:
+                continue
+            fixed = _fixing(x, symmetries)
+            if fixed and depth >= len(prefix):
+                found = _note(x, fixed, out, fixing, found)
+        if depth == 0:
+            return found
+        depth -= 1  # take the last unit back and look for the next place for it
+        v = at[depth]
+        x[v] -= 1
+        free += cost[v] * (x[v] >= 2)
+        bound += cost[v] * (x[v] < 2)
+        start = v + 1
+
+
+@compiled
+def _next(
+    left: Words,
+    depth: int,
+    inside: Words,
+    weight: Words,
+    cost: Ints,
+    first: Ints,
+    x: Ints,
+    v: int,
+    stop: int,
+    most: int,
+    bound: int,
+    free: int,
+) -> int:
+    """Return the first slot from v on that can take the next unit, ``stop`` if none can; write what it leaves."""
+    words = left.shape[1]
+    due = np.uint64(bound) * _ONES
+    while v < stop:
+        broken = np.uint64(0)
+        for k in range(words):
+            broken |= ~(left[depth, k] + inside[v, k] - due)
+        if broken & _GUARD:  # what is due does not fit inside some set any more, nor outside
+            return stop
+        if x[v] < most and (first[v] == v or x[v] < x[v - 1]):
+            if x[v] >= 2 and cost[v] <= free:
+                for k in range(words):
+                    left[depth + 1, k] = left[depth, k]
+                return v
+            if x[v] < 2 and cost[v] <= bound:
+                broken = np.uint64(0)
+                for k in range(words):
+                    left[depth + 1, k] = left[depth, k] - weight[v, k]
+                    broken |= ~left[depth + 1, k]
+                if broken & _GUARD == 0:
+                    return v
+        v += 1
+    return stop
+
+
+@compiled
+def _note(x: Ints, fixed: int, out: Bytes, fixing: Ints, found: int) -> int:
+    """Write a placement where there is room, and count it."""
+    if found < len(out):
+        for e in range(len(x)):
+            out[found, e] = x[e]
+        fixing[found] = fixed
+    return found + 1
+
+
+@compiled
+def _count_last(left: Words, weight: Words, cost: Ints, first: Ints, x: Ints, start: int, most: int) -> int:
+    """Count the slots from ``start`` on that can take the last unit."""
+    tight = np.empty_like(left)  # one in each counter that is at zero
+    for k in range(len(left)):
+        tight[k] = (~((left[k] & _LOW) + _LOW) & _GUARD) >> np.uint64(7)
+    found = 0
+    for v in range(start, len(cost)):
+        if x[v] < min(most, 2) and cost[v] == 1 and (first[v] == v or x[v] < x[v - 1]):
+            blocked = np.uint64(0)
+            for k in range(len(left)):
+                blocked |= weight[v, k] & tight[k]
+            found += blocked == 0
+    return found
+
+
+@compiled
+def _fixing(x: Ints, symmetries: Bytes) -> int:
+    """Return 0 if a permutation makes a placement larger, else how many leave it as it is."""
+    m = len(x)
+    fixed = 0
+    for a in range(len(symmetries)):
+        e = 0
+        while e < m and x[symmetries[a, e]] == x[e]:
+            e += 1
+        if e == m:
+            fixed += 1
+        elif x[symmetries[a, e]] > x[e]:
+            return 0
+    return fixed

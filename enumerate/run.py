@@ -1,0 +1,316 @@
+"""The runner of every enumerator: units of work, worker processes, and rows that arrive in order.
+
+A *job* says what is enumerated and splits it into units; a *unit* is enumerated by one worker and gives some
+thousands of rows; a *sink* takes the rows of unit after unit. Units are worked on in any order and handed to the
+sink in theirs, so that two runs give equal files and a store holds exactly the units 0 to k - 1 whatever killed
+the run. Only a fixed number of units is in the air at any time: memory does not grow with the number of rows.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from graphs.errors import StoreError
+
+__all__ = ["Interrupted", "Job", "Progress", "Row", "Sink", "Unit", "run"]
+
+Row = tuple[Any, ...]
+
+_AHEAD = 4
+"""Units in the air for each worker."""
+
+_SMALL = 5_000
+"""Weight that is not worth starting processes for."""
+
+_PATIENCE = 3
+"""How often workers may die on one unit before the run gives up."""
+
+
+class Interrupted(Exception):
+    """The user stopped the run; all units handed to the sink are safe."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A piece of work.
+
+    Attributes
+    ----------
+    payload : object
+        What a worker needs to know; small, and picklable.
+    weight : int
+        Expected work, in rows or whatever the job counts; progress is measured by it.
+    """
+
+    payload: Any
+    weight: int = 1
+
+
+class Job(Protocol):
+    """What an enumerator hands to the runner. A job is pickled to the workers: keep it small."""
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """Names of the values of a row, and their types: int, str or bool."""
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values: equal keys give equal rows."""
+
+    def units(self) -> Sequence[Unit]:
+        """All units, in order, always the same."""
+
+    def work(self, payload: Any) -> list[Row]:
+        """Return the rows of a unit, always the same."""
+
+
+class Sink(Protocol):
+    """Where rows go."""
+
+    def start(self, job: Job) -> int:
+        """Prepare for a job; return how many of its units are there already."""
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Keep the rows of a unit, all or none of them."""
+
+    def finish(self) -> None:
+        """All units were taken."""
+
+    def abort(self) -> None:
+        """There will be no more units, though some are missing."""
+
+
+@dataclass(slots=True)
+class Progress:
+    """How far a run has come."""
+
+    units: int
+    done: int = 0
+    weight: int = 0
+    total_weight: int = 0
+    rows: int = 0
+    seconds: float = 0.0
+    skipped_weight: int = 0
+
+    @property
+    def rate(self) -> float:
+        """Rows a second."""
+        return self.rows / self.seconds if self.seconds else 0.0
+
+    @property
+    def seconds_left(self) -> float:
+        """What is left, if the rest goes as fast as what is done."""
+        done = self.weight - self.skipped_weight
+        return self.seconds * (self.total_weight - self.weight) / done if done else float("inf")
+
+
+def run(
+    job: Job,
+    sink: Sink,
+    *,
+    workers: int = 1,
+    scheduler: str | None = None,
+    report: Callable[[Progress], None] | None = None,
+) -> Progress:
+    """Run all units of a job that the sink does not hold yet.
+
+    Parameters
+    ----------
+    job : Job
+    sink : Sink
+    workers : int
+        Local processes; 1 works in this one.
+    scheduler : str, optional
+        Address of a Dask scheduler, such as ``tcp://host:8786``, whose workers do the work instead. They need
+        synthedra installed.
+    report : callable, optional
+        Called with the progress after each unit.
+
+    Raises
+    ------
+    Interrupted
+        If the user pressed Ctrl-C: what was handed to the sink stays there.
+    StoreError
+        If the sink cannot take the rows, workers die again and again, or the cluster is not reached.
+    """
+    stored = sink.start(job)
+    try:
+        with _interruptible() as stopped:
+            units = job.units()
+            weights = sum(unit.weight for unit in units[:stored])
+            progress = Progress(
+                len(units), stored, weights, sum(unit.weight for unit in units), skipped_weight=weights
+            )
+            begin = time.monotonic()
+            for number, rows, seconds in _results(job, units, stored, workers, scheduler, stopped):
+                sink.take(number, rows, seconds)
+                progress.done += 1
+                progress.rows += len(rows)
+                progress.weight += units[number].weight
+                progress.seconds = time.monotonic() - begin
+                if report is not None:
+                    report(progress)
+        sink.finish()
+    except BaseException:
+        sink.abort()
+        raise
+    return progress
+
+
+@contextmanager
+def _interruptible() -> Iterator[Callable[[], None]]:
+    """Turn the first Ctrl-C into `Interrupted`, raised between units; a second one interrupts at once."""
+    asked = threading.Event()
+
+    def check() -> None:
+        if asked.is_set():
+            raise Interrupted
+
+    def ask(number: int, frame: object) -> None:
+        if asked.is_set():
+            raise KeyboardInterrupt
+        asked.set()
+
+    if threading.current_thread() is not threading.main_thread():
+        yield check
+        return
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield check
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _results(
+    job: Job,
+    units: Sequence[Unit],
+    stored: int,
+    workers: int,
+    scheduler: str | None,
+    check: Callable[[], None],
+) -> Iterator[tuple[int, list[Row], float]]:
+    """Yield number, rows and seconds of each unit, in order."""
+    left = units[stored:]
+    small = len(left) <= 1 or sum(unit.weight for unit in left) < _SMALL
+    if scheduler is None and (workers <= 1 or small):
+        for number in range(stored, len(units)):
+            check()
+            yield number, *_timed(job, units[number].payload)
+        return
+    with closing(_Pool(workers) if scheduler is None else _Cluster(scheduler)) as pool:
+        waiting: deque[tuple[int, Any]] = deque()
+        following, deaths = stored, 0
+        while following < len(units) or waiting:
+            check()
+            try:
+                while following < len(units) and len(waiting) < _AHEAD * pool.workers:
+                    waiting.append((following, pool.submit(job, units[following].payload)))
+                    following += 1
+                number, future = waiting[0]
+                rows, seconds = _wait(future, check)
+            except pool.deaths:
+                deaths += 1
+                if deaths >= _PATIENCE:
+                    raise StoreError(
+                        f"worker processes died {deaths} times at unit {stored}; is there enough memory?"
+                    ) from None
+                pool.restart()
+                following = stored
+                waiting.clear()
+                continue
+            waiting.popleft()
+            stored, deaths = number + 1, 0
+            yield number, rows, seconds
+
+
+def _wait(future: Any, check: Callable[[], None]) -> Any:
+    """Return a future's result; look up now and then whether the user wants to stop."""
+    while True:
+        check()
+        try:
+            return future.result(timeout=0.2)
+        except TimeoutError:
+            if future.done():
+                raise
+
+
+def _timed(job: Job, payload: Any) -> tuple[list[Row], float]:
+    begin = time.perf_counter()
+    rows = job.work(payload)
+    return rows, time.perf_counter() - begin
+
+
+class _Pool:
+    """Local worker processes; dead ones can be replaced."""
+
+    deaths: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+
+    def __init__(self, workers: int) -> None:
+        self.workers = workers
+        self._executor = self._make()
+
+    def _make(self) -> ProcessPoolExecutor:
+        return ProcessPoolExecutor(self.workers, initializer=_become_worker, initargs=(os.getpid(),))
+
+    def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
+        return self._executor.submit(_timed, job, payload)
+
+    def restart(self) -> None:
+        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor = self._make()
+
+    def close(self) -> None:
+        self._executor.shutdown(cancel_futures=True)
+
+
+class _Cluster:
+    """The workers of a Dask cluster, which replaces dead ones, or gives their units to others, by itself."""
+
+    def __init__(self, scheduler: str) -> None:
+        try:
+            from distributed import Client, KilledWorker
+        except ImportError:
+            raise StoreError("--scheduler needs Dask: pip install 'synthedra[dask]'") from None
+        make: Any = Client
+        try:  # a client that finds no scheduler takes its time and prints a traceback
+            host, _, port = scheduler.removeprefix("tcp://").rpartition(":")
+            socket.create_connection((host, int(port)), timeout=10).close()
+            self._client = make(scheduler, timeout="10s", set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise StoreError(
+                f"no Dask scheduler at {scheduler!r}: {error}; expected an address such as tcp://127.0.0.1:8786"
+            ) from None
+        self.deaths: tuple[type[BaseException], ...] = (KilledWorker,)
+        self.workers = max(len(self._client.scheduler_info(n_workers=-1)["workers"]), 1)
+
+    def submit(self, job: Job, payload: Any) -> Any:
+        return self._client.submit(_timed, job, payload, pure=False)
+
+    def restart(self) -> None:
+        """Nothing is to be done: the cluster's workers are not ours."""
+
+    def close(self) -> None:
+        self._client.close()
+
+
+def _become_worker(parent: int) -> None:
+    """Leave Ctrl-C to the parent, and do not outlive it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

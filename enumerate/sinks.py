@@ -1,0 +1,255 @@
+"""Where the rows of an enumeration go: files, a folder of mechanisms, a store, or a callback.
+
+Files are written beside their place and moved there when the run is complete. To add a format, write a sink and
+enter it in ``SINKS``.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from enumerate.run import Job, Row, Sink
+from enumerate.store import SqliteSink
+from graphs.embedding import sc_from_link_joint_graph
+from graphs.errors import FileError, StoreError
+from graphs.files.native import dumps
+from graphs.files.source import Beside
+from graphs.identity import chain_from_id
+from graphs.sc import SCGraph
+
+__all__ = ["SINKS", "CountSink", "RowSink", "sink_for"]
+
+
+class RowSink:
+    """A sink that calls a function with the columns and the rows of each unit."""
+
+    def __init__(self, function: Callable[[tuple[str, ...], list[Row]], None]) -> None:
+        self._function = function
+        self._columns: tuple[str, ...] = ()
+
+    def start(self, job: Job) -> int:
+        """Note the columns."""
+        self._columns = tuple(job.columns)
+        return 0
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Call the function."""
+        self._function(self._columns, rows)
+
+    def finish(self) -> None:
+        """Nothing is left to do."""
+
+    def abort(self) -> None:
+        """Nothing is left to do."""
+
+
+class CountSink:
+    """A sink that adds up the first value of every row."""
+
+    def __init__(self) -> None:
+        self.total = 0
+
+    def start(self, job: Job) -> int:
+        """Begin at zero."""
+        self.total = 0
+        return 0
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Add."""
+        self.total += sum(row[0] for row in rows)
+
+    def finish(self) -> None:
+        """Nothing is left to do."""
+
+    def abort(self) -> None:
+        """Nothing is left to do."""
+
+
+class _FileSink:
+    """A sink that is one file; what a unit becomes is the subclass's affair."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._columns: tuple[str, ...] = ()
+        self._file: Beside | None = None
+
+    def start(self, job: Job) -> int:
+        """Open the file."""
+        self._columns = tuple(job.columns)
+        self._file = Beside(self._path)
+        return 0
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write the rows."""
+        assert self._file is not None
+        self._file.write("".join(map(self._line, rows)).encode("utf-8"))
+
+    def _line(self, row: Row) -> str:
+        raise NotImplementedError
+
+    def finish(self) -> None:
+        """Move the file to its place."""
+        assert self._file is not None
+        self._file.commit()
+
+    def abort(self) -> None:
+        """Remove what was written."""
+        if self._file is not None:
+            self._file.discard()
+
+
+class Graph6Sink(_FileSink):
+    """graph6: one canonical form a line, and nothing else."""
+
+    def start(self, job: Job) -> int:
+        """Open the file."""
+        if "ground" in job.columns:
+            raise StoreError(
+                f"{self._path}: graph6 has no place for the ground link; name a .jsonl or .sqlite file"
+            )
+        return super().start(job)
+
+    def _line(self, row: Row) -> str:
+        return str(row[0])[3:] + "\n"
+
+
+class JsonLinesSink(_FileSink):
+    """JSON lines: one object a row."""
+
+    def _line(self, row: Row) -> str:
+        return json.dumps(dict(zip(self._columns, row, strict=True))) + "\n"
+
+
+class ParquetSink(_FileSink):
+    """Parquet, one row group a unit; needs pyarrow."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self._writer: Any = None
+
+    def start(self, job: Job) -> int:
+        """Open the file.
+
+        Raises
+        ------
+        StoreError
+            If pyarrow is not installed.
+        """
+        try:
+            import pyarrow as arrow
+            from pyarrow import parquet
+        except ImportError:
+            raise StoreError(f"{self._path}: Parquet needs pyarrow: pip install 'synthedra[parquet]'") from None
+        super().start(job)
+        assert self._file is not None
+        types = {int: arrow.int64(), str: arrow.string(), bool: arrow.bool_()}
+        self._schema = arrow.schema([(column, types[kind]) for column, kind in job.columns.items()])
+        self._writer = parquet.ParquetWriter(self._file.stream, self._schema)
+        return 0
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write the rows."""
+        import pyarrow as arrow
+
+        if not rows:
+            return
+        values = [list(column) for column in zip(*rows, strict=True)]
+        table = arrow.Table.from_arrays(
+            [arrow.array(v, field.type) for v, field in zip(values, self._schema, strict=True)],
+            schema=self._schema,
+        )
+        try:
+            self._writer.write_table(table)
+        except OSError as error:
+            raise FileError(self._path, "", f"cannot be written: {error.strerror or error}") from None
+
+    def finish(self) -> None:
+        """Write the footer, and move the file to its place."""
+        self._writer.close()
+        super().finish()
+
+
+class FolderSink:
+    """A folder with a native file for each row, named by its number; the loops are the faces of an embedding."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._beside: Path | None = None
+        self._number = 0
+
+    def start(self, job: Job) -> int:
+        """Make a folder beside the place of this one.
+
+        Raises
+        ------
+        FileError
+            If there is something at its place, or it cannot be made.
+        """
+        if self._path.exists():
+            raise FileError(self._path, "", "exists already", "a new folder")
+        self._columns = tuple(job.columns)
+        try:
+            self._beside = Path(tempfile.mkdtemp(prefix=f".{self._path.name[:32]}.", dir=self._path.parent))
+        except OSError as error:
+            raise FileError(self._path, "", f"cannot be made: {error.strerror}", "a writable folder") from None
+        return 0
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write a file a row."""
+        assert self._beside is not None
+        for row in rows:
+            self._number += 1
+            values = dict(zip(self._columns, row, strict=True))
+            sc = sc_from_link_joint_graph(chain_from_id(values["code"]))
+            sc = SCGraph(sc.nodes, sc.joints, sc.loops, ground=values.get("ground"))
+            try:
+                (self._beside / f"{self._number:07d}.json").write_text(dumps(sc), encoding="utf-8")
+            except OSError as error:
+                raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
+
+    def finish(self) -> None:
+        """Move the folder to its place."""
+        assert self._beside is not None
+        self._beside.chmod(0o755)
+        self._beside.rename(self._path)
+
+    def abort(self) -> None:
+        """Remove what was written."""
+        if self._beside is not None:
+            shutil.rmtree(self._beside, ignore_errors=True)
+
+
+SINKS: dict[str, Callable[[Path], Sink]] = {
+    ".g6": Graph6Sink,
+    ".jsonl": JsonLinesSink,
+    ".parquet": ParquetSink,
+    "": FolderSink,
+}
+"""Extension to the sink; a name without an extension is a folder."""
+
+
+def sink_for(path: str | Path, *, resume: bool = False) -> Sink:
+    """Return the sink that a name calls for.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known.
+    StoreError
+        If what it names cannot be resumed.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix == ".sqlite":
+        return SqliteSink(path, resume=resume)
+    if suffix not in SINKS:
+        known = " ".join(sorted(filter(None, [*SINKS, ".sqlite"])))
+        raise FileError(path, "", f"files ending in {suffix!r} are not known", f"one of {known}, or a folder")
+    if resume:
+        raise StoreError(f"{path}: only a .sqlite store can be resumed")
+    return SINKS[suffix](path)

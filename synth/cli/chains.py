@@ -1,0 +1,80 @@
+"""``synth enumerate chains``: kinematic chains."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from synth.cli.output import plain
+from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+
+__all__ = ["chains"]
+
+
+def _assortment(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[int, ...] | None:
+    """Read numbers of binary, ternary, ... links."""
+    del context, parameter
+    if value is None:
+        return None
+    parts = value.split(",")
+    if not all(part.isascii() and part.isdigit() and len(part) < 6 for part in parts):
+        raise click.BadParameter(f"{plain(value)!r} is no list of numbers such as 4,2: binary, ternary, ... links")
+    return tuple(map(int, parts))
+
+
+@click.command(short_help="Kinematic chains without rigid sub-chains.")
+@click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
+@click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
+@click.option("--fractionated", is_flag=True, help="Also chains that one link or one joint cuts in two.")
+@click.option("--inversions", is_flag=True, help="Each choice of a ground link apart.")
+@click.option("--inputs", is_flag=True, help="Each choice of a ground link and M input joints apart.")
+@click.option("--assortment", callback=_assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
+@click.option("--planar/--nonplanar", default=None, help="Only chains that can (not) be drawn without crossings.")
+@click.option("--longest-string", type=Limits(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
+@click.option("--symmetry", type=Limits(), metavar="K", help="Number of automorphisms: 1, 2.., 2..8")
+@click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
+@click.option(
+    "--method", type=click.Choice(["orbits", "burnside"]), help="How --count counts: two ways that must agree."
+)
+@runner_options
+def chains(
+    links: int,
+    dof: int,
+    only_count: bool,
+    method: str | None,
+    longest_string: tuple[int, int | None] | None,
+    symmetry: tuple[int, int | None] | None,
+    **rest: Any,
+) -> None:
+    """List or count all kinematic chains of N links and M degrees of freedom.
+
+    Chains are link-joint graphs with single joints, each pair of isomorphic ones once, in which no part is rigid.
+    Each has an id that does not depend on who found it.
+
+    \b
+    Examples:
+      synth enumerate chains --links 8 --dof 1
+      synth enumerate chains --links 14 --dof 1 --count
+      synth enumerate chains --links 10 --dof 1 --planar --symmetry 2.. -o symmetric.jsonl
+      synth enumerate chains --links 16 --dof 1 -o chains.sqlite
+      synth enumerate chains --links 16 --dof 1 -o chains.sqlite --resume
+    """
+    options = RunOptions(
+        *(rest.pop(name) for name in ("output", "workers", "scheduler", "resume", "quiet", "as_json"))
+    )
+    if method is not None and not only_count:
+        raise click.UsageError("--method says how --count counts; add --count")
+    from enumerate.chain_jobs import ChainJob, count_job
+    from enumerate.chain_query import ChainQuery
+
+    query = ChainQuery(
+        links, dof, **rest, longest_string=longest_string or (0, None), symmetry=symmetry or (1, None)
+    )
+    if (links - 1 - dof) % 2:
+        click.echo(f"{links} links with M = {dof}: none; N - 1 and M must be both even or both odd", err=True)
+    if only_count:
+        run_count(count_job(query, method or "orbits"), options)
+    else:
+        bare = options.output is not None and options.output.lower().endswith(".g6")
+        run_rows(ChainJob(query, bare), options)

@@ -1,0 +1,209 @@
+"""What all enumerating subcommands share: the options of the runner, progress, and where rows go."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from time import monotonic
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from synth.cli.output import console, plain, print_json, table
+
+if TYPE_CHECKING:
+    from enumerate.run import Job, Progress, Row, Sink
+
+__all__ = ["Limits", "RunOptions", "run_count", "run_rows", "runner_options"]
+
+_MOST_IN_TABLE = 1000
+_PATIENCE = 1.0
+"""Seconds before progress is shown, and between two lines of it."""
+_INTERRUPTED = 130
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class Limits(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+    """A number or a range: ``2``, ``2..4``, ``2..``, ``..4``."""
+
+    name = "limits"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return (least, greatest or None)."""
+        if isinstance(value, tuple):
+            return value
+        low, dots, high = str(value).partition("..")
+        if not dots:
+            high = low
+        numbers = [part for part in (low, high) if part]
+        if not numbers or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in numbers):
+            self.fail(f"{plain(value)!r} is neither a number nor a range such as 2..4, 2.. or ..4", param, ctx)
+        return int(low or 0), int(high) if high else None
+
+
+class RunOptions:
+    """How a job is to be run: the values of the options that `runner_options` adds."""
+
+    def __init__(
+        self,
+        output: str | None,
+        workers: int | None,
+        scheduler: str | None,
+        resume: bool,
+        quiet: bool,
+        as_json: bool,
+    ) -> None:
+        if resume and output is None:
+            raise click.UsageError("--resume needs the store to go on with: -o FILE.sqlite")
+        if output is not None and as_json:
+            raise click.UsageError("give -o or --json, not both")
+        self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
+        self.workers = (
+            workers or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else workers or 1
+        )
+        self.scheduler = scheduler
+
+
+def runner_options(function: F) -> F:
+    """Add the options of the runner to a subcommand."""
+    for option in (
+        click.option("--json", "as_json", is_flag=True, help="Print one JSON document."),
+        click.option("--quiet", is_flag=True, help="Show no progress."),
+        click.option("--resume", is_flag=True, help="Go on with a .sqlite store that a stopped run left."),
+        click.option("--scheduler", metavar="ADDRESS", help="Work on a Dask cluster, such as tcp://host:8786."),
+        click.option(
+            "--workers", type=click.IntRange(min=1), metavar="N", help="Processes; one a core by default."
+        ),
+        click.option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Write .g6, .jsonl, .sqlite, .parquet, or a folder of mechanisms.",
+        ),
+    ):
+        function = option(function)
+    return function
+
+
+def run_count(job: Job, options: RunOptions) -> None:
+    """Run a job that counts, and print the number."""
+    from enumerate.sinks import CountSink
+
+    if options.output is not None:
+        raise click.UsageError("--count stores nothing; leave out -o, or --count")
+    sink = CountSink()
+    _run(job, sink, options)
+    if options.as_json:
+        print_json({"count": sink.total})
+    else:
+        click.echo(sink.total)
+
+
+def run_rows(job: Job, options: RunOptions) -> None:
+    """Run a job and send its rows where the options say: a file, a JSON list, or a table."""
+    from enumerate.sinks import RowSink, sink_for
+
+    if options.output is not None:
+        progress = _run(job, sink_for(options.output, resume=options.resume), options)
+        if not options.quiet and sys.stderr.isatty():
+            click.echo(f"{progress.rows} rows in {progress.seconds:.1f} s: {plain(options.output)}", err=True)
+        return
+    if options.as_json:
+        found: list[dict[str, Any]] = []
+        _run(
+            job,
+            RowSink(lambda names, rows: found.extend(dict(zip(names, row, strict=True)) for row in rows)),
+            options,
+        )
+        print_json(found)
+        return
+    printer = _Printer()
+    _run(job, RowSink(printer.take), options)
+    printer.finish(tuple(job.columns))
+
+
+def _run(job: Job, sink: Sink, options: RunOptions) -> Progress:
+    from enumerate.run import Interrupted, run
+
+    meter = _Meter(options.quiet or not sys.stderr.isatty())
+    try:
+        return run(job, sink, workers=options.workers, scheduler=options.scheduler, report=meter.show)
+    except Interrupted:
+        meter.clear()
+        stored = options.output is not None and options.output.lower().endswith(".sqlite")
+        click.echo("stopped; go on with --resume" if stored else "stopped; nothing was written", err=True)
+        sys.exit(_INTERRUPTED)
+    finally:
+        meter.clear()
+
+
+class _Meter:
+    """Progress on a terminal, about once a second, on one line."""
+
+    def __init__(self, silent: bool) -> None:
+        self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
+
+    def show(self, progress: Progress) -> None:
+        """Show how far it has come, how fast it goes and how long it takes."""
+        if self._silent or monotonic() < self._next:
+            return
+        self._next = monotonic() + _PATIENCE
+        part = progress.weight / progress.total_weight if progress.total_weight else 1.0
+        left = _time(progress.seconds_left)
+        text = f"{part:4.0%}  {progress.rows:,} rows, {progress.rate:,.0f} a second, {left} left"
+        click.echo("\r" + text.ljust(self._width), nl=False, err=True)
+        self._width = len(text)
+
+    def clear(self) -> None:
+        """Wipe the line."""
+        if self._width:
+            click.echo("\r" + " " * self._width + "\r", nl=False, err=True)
+            self._width = 0
+
+
+def _time(seconds: float) -> str:
+    if seconds == float("inf"):
+        return "?"
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s" if minutes else f"{rest} s"
+
+
+class _Printer:
+    """Prints a table, or lines parted by tabs where there are too many rows for one."""
+
+    def __init__(self) -> None:
+        self._kept: list[Row] = []
+        self._streaming = False
+
+    def take(self, columns: tuple[str, ...], rows: list[Row]) -> None:
+        """Keep rows for the table, or print them."""
+        self._kept += rows
+        if len(self._kept) > _MOST_IN_TABLE or self._streaming:
+            if not self._streaming:
+                click.echo("\t".join(columns))
+            self._streaming = True
+            click.echo("\n".join("\t".join(map(_cell, row)) for row in self._kept))
+            self._kept = []
+
+    def finish(self, columns: tuple[str, ...]) -> None:
+        """Print the table, if there is one to print."""
+        if self._streaming:
+            return
+        numbers = (
+            [name for name, value in zip(columns, self._kept[0], strict=True) if type(value) is int]
+            if self._kept
+            else []
+        )
+        made = table(
+            *(column.replace("_", " ") for column in columns), numbers=[n.replace("_", " ") for n in numbers]
+        )
+        for row in self._kept:
+            made.add_row(*map(_cell, row))
+        console().print(made)
+
+
+def _cell(value: object) -> str:
+    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
