@@ -41,6 +41,14 @@ test: $(STAMP)
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest
 
+# What some tests compare with; they skip with a message where it is missing.
+.PHONY: peers
+peers:
+	@command -v nauty-geng >/dev/null || command -v geng >/dev/null || \
+	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	    apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq nauty; \
+	  else echo "nauty is not installed; some tests will skip (sudo apt-get install nauty)" >&2; fi
+
 check: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .

@@ -241,8 +241,8 @@ def _wait(future: Any, check: Callable[[], None]) -> Any:
         try:
             return future.result(timeout=0.2)
         except TimeoutError:
-            if future.done():
-                raise
+            if future.done():  # it ended just now, or the unit itself raised this
+                return future.result()
 
 
 def _timed(job: Job, payload: Any) -> tuple[list[Row], float]:

@@ -76,5 +76,5 @@ def chains(
     if only_count:
         run_count(count_job(query, method or "orbits"), options)
     else:
-        bare = options.output is not None and options.output.lower().endswith(".g6")
-        run_rows(ChainJob(query, bare), options)
+        graph6 = options.output is not None and options.output.lower().endswith(".g6")
+        run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), options)
