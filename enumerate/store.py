@@ -1,8 +1,8 @@
 """The store of an enumeration: one SQLite file, every unit with its rows in one transaction.
 
 Tables: ``meta(key, value)`` says what was enumerated; ``unit(id, state, rows, seconds)`` which units are there;
-``type`` holds the rows, each with the unit it came from. The file is in WAL mode: it can be read while a run
-writes, and survives the death of the run at any moment.
+``type`` holds the rows, each with the unit it came from. During a run the file is in WAL mode: it can be read
+meanwhile, and survives the death of the run at any moment. A complete store is one plain file.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ class SqliteSink:
                 raise StoreError(f"{self.path}: holds {rows} rows, its units say {promised}")
             with self._transaction() as cursor:
                 cursor.execute("UPDATE meta SET value = 'true' WHERE key = 'complete'")
-            self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+            self._connection.execute("PRAGMA journal_mode=DELETE")
             self._connection.close()
 
     def abort(self) -> None:
