@@ -87,8 +87,11 @@ def pylinkage(links: int) -> float | None:
         ]
         if subprocess.run(install, check=False, capture_output=True).returncode:
             return None
-        code = f"from pylinkage.topology.enumeration import enumerate_topologies as e; assert len(e({links})) ==
-        {CHAINS[links]}" return times([sys.executable, "-c", code], 1, PYTHONPATH=folder)
+        code = (
+            "from pylinkage.topology.enumeration import enumerate_topologies as e; "
+            f"assert len(e({links})) == {CHAINS[links]}"
+        )
+        return times([sys.executable, "-c", code], 1, PYTHONPATH=folder)
 
 
 def main() -> None:
