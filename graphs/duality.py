@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import dist
 
 import networkx as nx
 import numpy as np
@@ -38,12 +39,18 @@ class SheetMechanism:
         The faces that make up each link.
     interior_vertices : int
         Vertices with a loop of hinges round them.
+    hinges : mapping of joint id to (vertex, vertex)
+        The ends of each joint; of a split hinge, those of its longest piece.
+    loop_vertices : tuple of int
+        The vertex that is the centre of each loop of ``sc.loops``.
     repairs, warnings : tuple of str
     """
 
     sc: SCGraph
     panels: tuple[tuple[int, ...], ...]
     interior_vertices: int
+    hinges: Mapping[int, Edge]
+    loop_vertices: tuple[int, ...]
     repairs: tuple[str, ...] = ()
     warnings: tuple[str, ...] = field(default=())
 
@@ -79,7 +86,8 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     joint_of_edge, joints, idle = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
     if idle:
         notes.warnings.append(f"{idle} crease(s) end inside a panel and fold nothing")
-    cycles = _vertex_cycles(sheet, faces_at, joint_of_edge, panel_of_face)
+    centre_of = _vertex_cycles(sheet, faces_at, joint_of_edge, panel_of_face)
+    cycles = list(centre_of)
     kept, closing = split_dependent(cycles)
     sc = SCGraph(
         len(panels),
@@ -94,7 +102,27 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
         notes.warnings.append("flat state: the sheet has more infinitesimal freedoms as drawn than when folded")
     elif (off := _off_plane(sheet)) > ROUNDED:
         notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of its size")
-    return SheetMechanism(sc, panels, len(cycles), (*sheet.repairs, *notes.repairs), tuple(notes.warnings))
+    return SheetMechanism(
+        sc,
+        panels,
+        len(cycles),
+        _hinge_ends(sheet, joint_of_edge),
+        tuple(centre_of[cycles[i]] for i in kept),
+        (*sheet.repairs, *notes.repairs),
+        tuple(notes.warnings),
+    )
+
+
+def _hinge_ends(sheet: Sheet, joint_of_edge: Mapping[Edge, int | None]) -> dict[int, Edge]:
+    """Return the ends of each joint; of a split hinge, those of its longest piece."""
+    ends: dict[int, tuple[float, Edge]] = {}
+    for (a, b), joint in joint_of_edge.items():
+        if joint is None:
+            continue
+        length = 0.0 if sheet.coordinates is None else dist(sheet.coordinates[a], sheet.coordinates[b])
+        if joint not in ends or length > ends[joint][0]:
+            ends[joint] = length, (a, b)
+    return {joint: edge for joint, (_, edge) in ends.items()}
 
 
 @dataclass
@@ -225,14 +253,14 @@ def _vertex_cycles(
     faces_at: Mapping[Edge, list[int]],
     joint_of_edge: Mapping[Edge, int | None],
     panel_of_face: Sequence[int],
-) -> list[tuple[int, ...]]:
-    """Return the cycles of joints round the interior vertices.
+) -> dict[tuple[int, ...], int]:
+    """Return the cycles of joints round the interior vertices, and the vertex of each.
 
     The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
     vertex (its faces are merged elsewhere) the walk falls into several cycles with the same centre.
     """
-    cycles = []
-    for fan in _closed_fans(sheet, faces_at):
+    cycles: list[tuple[tuple[int, ...], int]] = []
+    for vertex, fan in _closed_fans(sheet, faces_at):
         walk: list[tuple[int, int]] = []  # (panel entered, joint crossed into it)
         for edge, face in fan:
             if edge in joint_of_edge:
@@ -242,20 +270,21 @@ def _vertex_cycles(
             elif len({panel_of_face[f] for f in faces_at[edge]}) > 1:
                 break  # a cut: the fan is open after all
         else:
-            cycles += _simple_cycles(walk)
+            cycles += [(cycle, vertex) for cycle in _simple_cycles(walk)]
     # Hinges that are one joint may meet another joint twice; the loop of the two is one loop.
-    return list({frozenset(cycle): cycle for cycle in reversed(cycles)}.values())[::-1]
+    distinct = {frozenset(cycle): (cycle, vertex) for cycle, vertex in reversed(cycles)}
+    return dict(list(distinct.values())[::-1])
 
 
-def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, list[int]]) -> list[list[tuple[Edge, int]]]:
-    """Return, for each vertex with faces all round, its edges and the faces entered across them, in order."""
+def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, list[int]]) -> list[tuple[int, list[tuple[Edge, int]]]]:
+    """Return each vertex with faces all round, with its edges and the faces entered across them, in order."""
     at_vertex: dict[int, list[tuple[int, Edge, Edge]]] = defaultdict(list)
     for index, around in enumerate(sheet.faces):
         sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
         for i, vertex in enumerate(around):
             at_vertex[vertex].append((index, sides[i - 1], sides[i]))
     fans = []
-    for corners in at_vertex.values():
+    for centre, corners in at_vertex.items():
         sides_of = {face: (one, two) for face, one, two in corners}
         left = dict.fromkeys(sides_of)
         while left:
@@ -271,7 +300,7 @@ def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, list[int]]) -> list[list[
                 face = here[0] if here[1] == face else here[1]
                 fan.append((edge, face))
                 if face == start:
-                    fans.append(fan)
+                    fans.append((centre, fan))
                     break
                 one, two = sides_of[face]
                 edge = two if edge == one else one

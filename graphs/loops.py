@@ -17,6 +17,7 @@ from graphs.errors import InvariantError, shown
 __all__ = [
     "Centre",
     "Loop",
+    "added_independent",
     "check_independent",
     "cyclic_order",
     "dependent_loop",
@@ -258,6 +259,27 @@ def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], lis
     while (index := dependent_loop([cycles[i] for i in kept])) is not None:
         dependent.append(kept.pop(index))
     return kept, sorted(dependent)
+
+
+def added_independent(
+    given: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]
+) -> list[int]:
+    """Return the indices of the candidates that are no GF(2) sum of given cycles and earlier candidates.
+
+    Examples
+    --------
+    >>> added_independent([(0, 1, 2)], [(0, 1, 2), (2, 3, 4), (0, 1, 3, 4)])
+    [1]
+    """
+    basis: dict[int, int] = {}
+    added = []
+    for index, row in enumerate(_bit_rows([*given, *candidates])):
+        left = _reduce(row, basis)
+        if left:
+            basis[left.bit_length()] = left
+            if index >= len(given):
+                added.append(index - len(given))
+    return added
 
 
 def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:

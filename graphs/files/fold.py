@@ -22,7 +22,7 @@ _FAR = 1e300
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 
 
-def sheet_from_fold(value: Any, path: Path) -> Sheet:
+def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
     """Build a sheet from a parsed FOLD document.
 
     Parameters
@@ -30,6 +30,8 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     value : parsed JSON
     path : Path
         Where it comes from, for messages.
+    frame : int, optional
+        Number of the frame; the first that holds a pattern if left out.
 
     Raises
     ------
@@ -45,7 +47,7 @@ def sheet_from_fold(value: Any, path: Path) -> Sheet:
     check = Checker(path)
     if not isinstance(value, dict):
         check.fail("", value, "a FOLD document (an object)")
-    value, notes = resolved_frame(value, check)
+    value, notes = resolved_frame(value, check, frame)
     faces = _indices(value.get("faces_vertices", []), "faces_vertices", check)
     edges = _indices(value.get("edges_vertices", []), "edges_vertices", check)
     for i, edge in enumerate(edges):

@@ -22,35 +22,43 @@ _OLD_NAMES = {
 """Names of FOLD 1.0 and of early Origami Simulator to those of today."""
 
 
-def resolved_frame(document: Mapping[str, Any], check: Checker) -> tuple[dict[str, Any], list[str]]:
+def resolved_frame(
+    document: Mapping[str, Any], check: Checker, frame: int | None = None
+) -> tuple[dict[str, Any], list[str]]:
     """Return the frame that holds the pattern, and notes on how it was found.
 
-    It is the key frame if that has edges or faces, else the first frame that does.
+    It is the key frame if that has edges or faces, else the first frame that does; or the frame asked for.
 
     Parameters
     ----------
     document : mapping
         The parsed file.
     check : Checker
+    frame : int, optional
+        Number of the frame to return: 0 is the key frame.
 
     Raises
     ------
     FileError
-        If frames are not as FOLD has them, or inherit in a circle.
+        If there is no such frame, or frames are not as FOLD has them, or inherit in a circle.
     """
     frames = [document]
     if document.get("file_frames") is not None:
         listed = check.list(document["file_frames"], "file_frames", what="a list of frames")
-        for i, frame in enumerate(listed):
-            if not isinstance(frame, dict):
-                check.fail(f"file_frames[{i}]", frame, "a frame (an object)")
+        for i, one in enumerate(listed):
+            if not isinstance(one, dict):
+                check.fail(f"file_frames[{i}]", one, "a frame (an object)")
         frames += listed
     notes: list[str] = []
+    if frame is not None:
+        if frame >= len(frames):
+            raise FileError(check.path, "", f"no frame {frame}", f"a frame from 0 to {len(frames) - 1}")
+        return _inherited(frames, frame, check, notes), list(dict.fromkeys(notes))
     chosen, which = _named_today(document, notes), 0
     for index in range(len(frames)):
-        frame = _inherited(frames, index, check, notes)
-        if frame.get("faces_vertices") or frame.get("edges_vertices"):
-            chosen, which = frame, index
+        found = _inherited(frames, index, check, notes)
+        if found.get("faces_vertices") or found.get("edges_vertices"):
+            chosen, which = found, index
             break
     if which:
         notes.append(f"the key frame is empty; frame {which} of {len(frames) - 1} was read")

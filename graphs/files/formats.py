@@ -26,7 +26,7 @@ from graphs.files.obj import obj_text, sheet_from_obj
 from graphs.files.source import load_json, write_text
 from graphs.sheet import Sheet
 
-__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "write"]
+__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_frame", "write"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +77,44 @@ def read(path: str | Path) -> Mechanism:
     if len(entries) != 1:
         raise FileError(path, "", f"{len(entries)} mechanisms", "one")
     return entries[0].mechanism
+
+
+def read_frame(path: str | Path, frame: int | None = None) -> Sheet:
+    """Return one frame of a FOLD file.
+
+    Parameters
+    ----------
+    path : str or Path
+    frame : int, optional
+        Its number; if left out, the first that has a pattern and coordinates.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read or has no such frame.
+
+    Examples
+    --------
+    >>> read_frame("no such file.fold", 1)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: no such file.fold: no such file; expected a file
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".fold":
+        raise FileError(path, "", "has no frames", "a .fold file")
+    document = load_json(path)
+    if frame is not None:
+        return sheet_from_fold(document, path, frame)
+    first = sheet_from_fold(document, path)
+    further = document.get("file_frames") or []
+    for number in range(1, len(further) + 1):
+        if first.coordinates is not None:
+            break
+        frame_here = {**document, **further[number - 1]}
+        if frame_here.get("vertices_coords"):
+            first = sheet_from_fold(document, path, number)
+    return first
 
 
 def write(mechanism: Mechanism, path: str | Path) -> tuple[str, ...]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import gc
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -28,15 +28,26 @@ _LONGEST_PATH = 4096
 @click.command(short_help="Say how many freedoms a mechanism has, and which formula tells.")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object a mechanism.")
-@click.option("--exact/--no-exact", default=True, help="Compute the exact generic rank too (on by default).")
+@click.option(
+    "--exact/--no-exact",
+    default=None,
+    help="Compute the exact generic rank (by default, of what is not too large).",
+)
 @click.option("--hinge-flat", is_flag=True, help="Make hinges of the flat (F) edges of a crease pattern too.")
-@click.option("--pose", type=click.IntRange(min=0), metavar="FRAME", help="Compute the freedoms at this frame.")
-def mobility(files: tuple[str, ...], as_json: bool, exact: bool, hinge_flat: bool, pose: int | None) -> None:
+@click.option(
+    "--pose", type=click.IntRange(min=0), metavar="FRAME", help="Freedoms as this frame of a FOLD file lies."
+)
+def mobility(
+    files: tuple[str, ...], as_json: bool, exact: bool | None, hinge_flat: bool, pose: int | None
+) -> None:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
     FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
     (.fold, .svg, .cp, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges). One file gives the whole
     report, several give a table.
+
+    Counts are formulas. Beside them stand the exact generic mobility, and the freedoms of a crease pattern as it
+    lies, by --pose in another frame (0 is the key frame).
 
     \b
     Example:
@@ -50,7 +61,7 @@ def mobility(files: tuple[str, ...], as_json: bool, exact: bool, hinge_flat: boo
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
-                    reports.append((entry.label, _report(entry.mechanism, exact, hinge_flat, pose)))
+                    reports.append((entry.label, _report(entry.label, entry.mechanism, exact, hinge_flat, pose)))
             except FileError as error:
                 failures.append(str(error))
     if as_json:
@@ -75,7 +86,10 @@ def _objects_stay() -> Iterator[None]:
         gc.enable()
 
 
-def _report(mechanism: Mechanism, exact: bool, hinge_flat: bool, pose: int | None) -> MobilityReport:
+def _report(
+    label: str, mechanism: Mechanism, exact: bool | None, hinge_flat: bool, pose: int | None
+) -> MobilityReport:
+    from graphs.arbiter import with_exact
     from graphs.conversion import to_sc
     from graphs.polyhedron import PolyhedronModel
     from graphs.report import mobility_report
@@ -83,22 +97,23 @@ def _report(mechanism: Mechanism, exact: bool, hinge_flat: bool, pose: int | Non
     from graphs.sheet import Sheet
 
     if isinstance(mechanism, Sheet):
-        report = _report_of_sheet(mechanism, hinge_flat)
-    elif isinstance(mechanism, SCGraph | PolyhedronModel):
-        report = mobility_report(mechanism)
-    else:
-        report = mobility_report(to_sc(mechanism))
-    missing = []
-    if exact:
-        missing.append("the exact generic rank is not computed by this version; counts are formulas")
-    if pose is not None:
-        missing.append("the freedoms at a pose are not computed by this version")
-    return report.with_notes(warnings=missing)
+        return _report_of_sheet(label, mechanism, exact, hinge_flat, pose)
+    notes = [] if pose is None else ["no freedoms at a pose: they are computed for crease patterns"]
+    if isinstance(mechanism, PolyhedronModel):
+        notes += ["no exact rank: a polyhedron model is counted only"] if exact else []
+        return mobility_report(mechanism).with_notes(warnings=notes)
+    sc = mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism)
+    report = mobility_report(sc).with_notes(warnings=notes)
+    return report if exact is False else with_exact(report, sc, demanded=bool(exact))
 
 
-def _report_of_sheet(sheet: Sheet, hinge_flat: bool) -> MobilityReport:
+def _report_of_sheet(
+    label: str, sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | None
+) -> MobilityReport:
     """Report a crease pattern; where flat edges matter, say what it is the other way round."""
+    from graphs.arbiter import with_exact, with_pose
     from graphs.duality import mechanism_of_sheet
+    from graphs.files.formats import read_frame
     from graphs.report import mobility_report
 
     found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
@@ -115,7 +130,13 @@ def _report_of_sheet(sheet: Sheet, hinge_flat: bool) -> MobilityReport:
             notes.append(
                 f"with flat edges {way}: links {len(other.sc)}, joints {len(other.sc.joints)}, M {mobility}"
             )
-    return report.with_notes(found.repairs, (*found.warnings, *notes))
+    report = report.with_notes(found.repairs, (*found.warnings, *notes))
+    if exact is not False:
+        report = with_exact(report, found.sc, demanded=bool(exact))
+    lying = sheet
+    if pose is not None or (sheet.coordinates is None and label.lower().endswith(".fold")):
+        lying = read_frame(label, pose)
+    return with_pose(report, lying, hinge_flat=hinge_flat, demanded=pose is not None)
 
 
 _TITLES = {
@@ -153,6 +174,12 @@ _COUNTS = {
 def _print_report(out: Console, label: str, report: MobilityReport) -> None:
     out.print(plain(label, _LONGEST_PATH), style="bold")
     out.print(f"mobility M = {plain(report.mobility)}   ({report.mechanism_class})")
+    if report.exact is not None:
+        out.print(
+            f"exact generic mobility {report.exact['mobility']}   (rank {report.exact['rank']} modulo two primes)"
+        )
+    if report.pose is not None:
+        out.print(_pose_line(report.pose))
     known = [
         ("links N", report.links),
         ("joints J", report.joints),
@@ -170,10 +197,20 @@ def _print_report(out: Console, label: str, report: MobilityReport) -> None:
             out.print(f"{kind}: {note}")
 
 
+def _pose_line(pose: Mapping[str, Any]) -> str:
+    """Say in a line how a crease pattern can move as it lies."""
+    if pose["dof"] is None:
+        return "as it lies: indeterminate"
+    gap = "no zero singular value" if pose["gap"] is None else f"gap {pose['gap']:.0e}"
+    state = "flat state: more infinitesimal freedoms than when folded; " if pose["flat"] else ""
+    over = "" if pose["h"] is None else f"h = {pose['h']}, "
+    return f"as it lies: {pose['dof']} infinitesimal freedom(s)   ({state}{over}{gap})"
+
+
 def _print_table(out: Console, reports: list[tuple[str, MobilityReport]], failed: int) -> None:
     """Print a line a mechanism, with totals; one file alone tells its notes in full."""
     rows = table(
-        "file", "class", "N", "J", "L", "centres", "M", "notes", numbers=["N", "J", "L", "centres", "M", "notes"]
+        "file", "class", *(numbers := ("N", "J", "L", "centres", "M", "exact", "pose", "notes")), numbers=numbers
     )
     common = set.intersection(*(set(report.warnings) for _, report in reports))
     for label, report in reports:
@@ -181,7 +218,10 @@ def _print_table(out: Console, reports: list[tuple[str, MobilityReport]], failed
         rows.add_row(
             plain(label, _LONGEST_PATH),
             report.mechanism_class,
-            *map(plain, (report.links, report.joints, report.loops, report.centres, report.mobility, notes or "")),
+            *map(plain, (report.links, report.joints, report.loops, report.centres, report.mobility)),
+            plain(None if report.exact is None else report.exact["mobility"]),
+            plain(None if report.pose is None else report.pose["dof"]),
+            plain(notes or ""),
         )
     out.print(rows)
     out.print(f"{len(reports)} mechanism(s) reported, {failed} failed")

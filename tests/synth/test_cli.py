@@ -39,7 +39,7 @@ def test_mobility_of_one_file(data):
     out = run("mobility", data / "wiener" / "hybrid-ten-bar.json").stdout
     assert "mobility M = 2   (hybrid)" in out
     assert re.search(r"spherical system \(Wiener Eq. 3\) +5 +no", out)
-    assert "exact generic rank is not computed" in out
+    assert "exact generic mobility 2   (rank 9 modulo two primes)" in out
     assert "exact" not in run("mobility", "--no-exact", data / "wiener" / "hybrid-ten-bar.json").stdout
 
 
@@ -55,9 +55,16 @@ def test_mobility_json_has_the_promised_keys(data):
     assert [report["file"] for report in reports] == list(map(str, files))
     for report in reports:
         assert report.keys() >= KEYS
-        assert report["exact"] is None
-        assert report["pose"] is None
-        assert any("exact generic rank" in note for note in report["warnings"])
+        if report["class"] == "polyhedron model":
+            assert report["exact"] is None
+        else:
+            assert report["exact"]["primes"] == [2**61 - 1, 2**61 - 31]
+            assert report["exact"]["mobility"] >= report["mobility"]
+        if report["file"].endswith(".fold"):
+            assert report["pose"].keys() >= {"dof", "gap", "h"}
+            assert report["pose"]["h"] == report["pose"]["dof"] - report["mobility"]
+        else:
+            assert report["pose"] is None
         for one in report["equations"].values():
             assert one.keys() == {"value", "applies", "why"}
             assert isinstance(one["applies"], bool)
@@ -322,6 +329,35 @@ def test_reconstruct_needs_the_sides_of_the_links(data):
 def test_usage_errors_keep_clicks_format(words):
     result = run(*words, code=2)
     assert "Usage:" in result.output
+
+
+def test_frames_of_a_fold_file(tmp_path):
+    square = {"vertices_coords": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]],
+              "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]}  # fmt: skip
+    folded = {"frame_inherit": True, "frame_parent": 0,
+              "vertices_coords": [[0, 0, 0], [1, 0, 0.1], [0, 1, 0.4], [-1, 0, 0.2], [0, -1, 0.3]]}  # fmt: skip
+    file = tmp_path / "two-frames.fold"
+    file.write_text(json.dumps({**square, "file_frames": [folded]}))
+    dofs = [json.loads(run("mobility", "--json", "--pose", n, file).stdout)[0]["pose"]["dof"] for n in (0, 1)]
+    assert dofs == [2, 1]
+    assert "flat state: more infinitesimal freedoms" in run("mobility", file).stdout
+    assert "no frame 2; expected a frame from 0 to 1" in run("mobility", "--pose", 2, file, code=2).stderr
+    bare = {key: value for key, value in square.items() if key != "vertices_coords"}
+    file.write_text(json.dumps({**bare, "file_frames": [folded]}))
+    assert json.loads(run("mobility", "--json", file).stdout)[0]["pose"]["dof"] == 1
+    assert "need coordinates" in run("mobility", "--pose", 0, file, code=2).stderr
+
+
+def test_a_pose_of_what_has_none(data):
+    assert "no freedoms at a pose" in run("mobility", "--pose", 0, data / "wiener" / "watt.json").stdout
+
+
+def test_overconstraint_is_located(data):
+    out = run("mobility", data / "wiener" / "mesh-4x4-edge-creases.json").stdout
+    assert re.search(
+        r"exact generic mobility is 2, the count says 1: 1 closure equation\(s\) idle, among joints", out
+    )
+    assert "17 joint(s) cannot move" in out
 
 
 def test_enumerate_chains(tmp_path):

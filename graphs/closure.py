@@ -1,0 +1,126 @@
+"""Loop closure: the linear equations between the rates of the joints of a mechanism.
+
+Round every independent loop the twists of the joints add up to nothing. A loop whose axes all pass through one
+point says that with three equations (no other point of space has to close), any other loop with six. M = J - rank.
+Source: DESIGN, section 6. Theory: docs/theory/exact-mobility.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import networkx as nx
+
+from graphs.fields import Field
+from graphs.loops import Centre, JointId, Loop, added_independent
+from graphs.realisation import Line, Point
+from graphs.sc import SCGraph
+
+__all__ = ["Closure", "closure_of", "independent_cycles", "signed_cycle"]
+
+
+@dataclass(frozen=True, slots=True)
+class Closure:
+    """The closure equations, row by row.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+        The unknowns: columns.
+    rows : tuple of dict
+        Column to coefficient; zeros are left out.
+    loops : tuple of tuple of joint ids
+        The loop of each row.
+    """
+
+    joints: tuple[JointId, ...]
+    rows: tuple[dict[int, Any], ...]
+    loops: tuple[tuple[JointId, ...], ...]
+
+
+def signed_cycle(cycle: Sequence[JointId], sc: SCGraph) -> Iterator[tuple[JointId, int]]:
+    """Yield the joints of a cycle with 1 where it passes from a joint's first link to the second, else -1.
+
+    Examples
+    --------
+    >>> list(signed_cycle((0, 1, 2), SCGraph(3, [(0, 1), (2, 1), (2, 0)])))
+    [(0, 1), (1, -1), (2, 1)]
+    """
+    a, b = sc.joints[cycle[0]]
+    link = a if b in sc.joints[cycle[1]] else b
+    for joint in cycle:
+        first, second = sc.joints[joint]
+        yield joint, 1 if link == first else -1
+        link = second if link == first else first
+
+
+def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
+    """Return the loops of a mechanism, with cycles that complete them to a basis; these have no centre.
+
+    Examples
+    --------
+    >>> [loop.centre.value for loop in independent_cycles(SCGraph(3, [(0, 1), (1, 2), (2, 0)]))]
+    ['none']
+    """
+    missing = sc.independent_loops - len(sc.loops)
+    if not missing:
+        return sc.loops
+    forest = nx.Graph()
+    forest.add_nodes_from(sc.nodes)
+    tree: dict[frozenset[Any], JointId] = {}
+    left = []
+    parts = nx.utils.UnionFind(sc.nodes)
+    for joint, (a, b) in sc.joints.items():
+        if parts[a] == parts[b]:
+            left.append(joint)
+        else:
+            parts.union(a, b)
+            forest.add_edge(a, b)
+            tree[frozenset((a, b))] = joint
+    candidates = []
+    for joint in left:
+        a, b = sc.joints[joint]
+        path = nx.bidirectional_shortest_path(forest, b, a)
+        steps = pairwise(path)
+        candidates.append((joint, *(tree[frozenset(step)] for step in steps)))
+    chosen = added_independent([loop.joints for loop in sc.loops], candidates)
+    return (*sc.loops, *(Loop(candidates[i], Centre.NONE) for i in chosen))
+
+
+def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, Point], field: Field) -> Closure:
+    """Return the closure equations of a placed mechanism.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    axes : mapping of joint id to (u, m)
+    centres : mapping of loop index to (x, y, z, w)
+        The centre of each loop that has one.
+    field : Field
+    """
+    column = {joint: i for i, joint in enumerate(sc.joints)}
+    rows: list[dict[int, Any]] = []
+    loops: list[tuple[JointId, ...]] = []
+    for index, loop in enumerate(independent_cycles(sc)):
+        signed = [(column[joint], sign, axes[joint]) for joint, sign in signed_cycle(loop.joints, sc)]
+        for part, k in _equations(centres.get(index), field):
+            rows.append({j: field.reduce(sign * axis[part][k]) for j, sign, axis in signed if axis[part][k]})
+            loops.append(loop.joints)
+    return Closure(tuple(sc.joints), tuple(rows), tuple(loops))
+
+
+def _equations(centre: Point | None, field: Field) -> list[tuple[int, int]]:
+    """Return which coordinates of the twists must close: (0, k) of the directions, (1, k) of the moments.
+
+    About a finite centre the moments are determined by the directions. For parallel axes one coordinate of
+    the direction tells all three, and the moments are perpendicular to it.
+    """
+    if centre is None:
+        return [(part, k) for part in (0, 1) for k in range(3)]
+    if not field.is_zero(centre[3]):
+        return [(0, k) for k in range(3)]
+    largest = max(range(3), key=lambda k: abs(centre[k]))
+    return [(0, largest), *((1, k) for k in range(3) if k != largest)]

@@ -1,0 +1,225 @@
+"""A general member of a type: centres and joint axes placed at random, as general as the type allows.
+
+A joint axis passes through the centres of the classes of its loops: the join of two of them, of one and a random
+point, or of two random points. Three centres on one axis are in line, so later ones are placed on the lines that
+earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre at infinity; axes are Pluecker lines (u,
+p x u). An SCD graph has more points on its axes than centres, its vertices, and is placed with these: its *forced
+geometry*.
+
+Source: DESIGN, section 6. Theory: docs/theory/exact-mobility.md.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from graphs.errors import UnsolvableError
+from graphs.fields import Field, null_vectors
+from graphs.loops import Centre, JointId
+from graphs.sc import SCGraph
+from graphs.scd import SCDGraph
+from graphs.scd_rules import points_of_joints
+
+__all__ = ["Incidence", "Realisation", "incidence_of", "realise", "realise_points"]
+
+Point = tuple[Any, Any, Any, Any]
+Line = tuple[tuple[Any, Any, Any], tuple[Any, Any, Any]]
+
+_ATTEMPTS = 24
+
+
+@dataclass(frozen=True, slots=True)
+class Incidence:
+    """Points, and the joints whose axes pass through each.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+        All joints.
+    points : tuple of (frozenset of joint ids, bool)
+        The joints through each point, and whether it lies at infinity.
+    """
+
+    joints: tuple[JointId, ...]
+    points: tuple[tuple[frozenset[JointId], bool], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Realisation:
+    """Placed points and axes.
+
+    Attributes
+    ----------
+    points : tuple of (x, y, z, w)
+        In the order of the incidence.
+    axes : mapping of joint id to (u, m)
+        Direction u and moment p x u.
+    """
+
+    points: tuple[Point, ...]
+    axes: Mapping[JointId, Line]
+
+
+def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
+    """Return which points lie on which axes: the centres, and for an SCD graph its vertices.
+
+    The points come in the order of ``mechanism.centre_classes()``, then the vertices that are no centres.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+    forced : bool, optional
+        Whether the vertices of an SCD graph count; without them it is placed as its SC graph.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> [len(joints) for joints, _ in incidence_of(watt).points]
+    [4, 4]
+    """
+    classes = mechanism.centre_classes()
+    points = [(one.joints, one.centre is Centre.INFINITE) for one in classes]
+    if forced and isinstance(mechanism, SCDGraph):
+        through: dict[int, set[JointId]] = defaultdict(set)
+        for joint, here in points_of_joints(mechanism).items():
+            for point in here:
+                through[point].add(joint)
+        known = {joints for joints, _ in points}
+        # A vertex on a single axis is free on it, and a centre is there already.
+        points += [
+            (frozenset(joints), False)
+            for joints in through.values()
+            if len(joints) > 1 and frozenset(joints) not in known
+        ]
+    return Incidence(tuple(mechanism.joints), tuple(points))
+
+
+def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisation:
+    """Place a general member of the type of an SC or SCD graph.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+    field : Field
+    forced : bool, optional
+        As for `incidence_of`.
+
+    Raises
+    ------
+    UnsolvableError
+        If centres that must lie in line could not be placed: the type is not realised.
+    """
+    return realise_points(incidence_of(mechanism, forced=forced), field)
+
+
+def realise_points(incidence: Incidence, field: Field) -> Realisation:
+    """Place points and axes.
+
+    Raises
+    ------
+    UnsolvableError
+        If points that must lie in line could not be placed.
+
+    Examples
+    --------
+    Two axes through one point, in a field of seven numbers:
+
+    >>> from graphs.fields import PrimeField
+    >>> placed = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(7))
+    >>> len(placed.points), len(placed.axes)
+    (1, 2)
+    """
+    order = list(range(len(incidence.points)))
+    for attempt in range(_ATTEMPTS):
+        points = _place(incidence, order, field)
+        if points is not None:
+            return Realisation(points, _axes(incidence, points, field))
+        if attempt == 0:
+            busy = _on_axis(incidence)
+            order.sort(key=lambda i: -sum(len(busy[joint]) > 2 for joint in incidence.points[i][0]))
+        else:
+            order = order[1:] + order[:1]
+    raise UnsolvableError(
+        "not realised: centres that one axis passes through must lie in line, and could not be placed so"
+    )
+
+
+def _on_axis(incidence: Incidence) -> dict[JointId, list[int]]:
+    found: dict[JointId, list[int]] = defaultdict(list)
+    for index, (joints, _) in enumerate(incidence.points):
+        for joint in joints:
+            found[joint].append(index)
+    return found
+
+
+def _place(incidence: Incidence, order: Sequence[int], field: Field) -> tuple[Point, ...] | None:
+    """Place points in an order, each on the axes that two earlier ones fix; None if one has no place."""
+    placed: dict[int, Point] = {}
+    on_axis: dict[JointId, list[int]] = defaultdict(list)
+    for index in order:
+        joints, infinite = incidence.points[index]
+        lines = {tuple(on_axis[joint][:2]) for joint in joints if len(on_axis[joint]) >= 2}
+        point = _on_lines([(placed[a], placed[b]) for a, b in sorted(lines)], infinite, field)
+        if point is None:
+            return None
+        placed[index] = point
+        for joint in joints:
+            on_axis[joint].append(index)
+    return tuple(placed[i] for i in range(len(incidence.points)))
+
+
+def _on_lines(lines: Sequence[tuple[Point, Point]], infinite: bool, field: Field) -> Point | None:
+    """Return a random point on all of some lines, each given by two points; None if there is none."""
+    if not lines:
+        x, y, z = (field.random() for _ in range(3))
+        return (x, y, z, 0 if infinite else 1)
+    p, q = lines[0]
+    # a p + b q, to lie on each further line, and at infinity where it should
+    conditions = [[p[3], q[3]]] if infinite else []
+    for r, s in lines[1:]:
+        columns = [[p[k], q[k], r[k], s[k]] for k in range(4)]
+        meeting = [vector[:2] for vector in null_vectors(columns, field)]
+        if not meeting:
+            return None
+        if len(meeting) == 1:
+            a, b = meeting[0]
+            conditions.append([field.reduce(-b), a])
+    choices = null_vectors(conditions, field) if conditions else [[1, 0], [0, 1]]
+    if not choices:
+        return None
+    weights = [field.random() for _ in choices]
+    a, b = (field.reduce(sum(w * choice[k] for w, choice in zip(weights, choices, strict=True))) for k in (0, 1))
+    point = tuple(field.reduce(a * p[k] + b * q[k]) for k in range(4))
+    if all(field.is_zero(value) for value in point) or (field.is_zero(point[3]) and not infinite):
+        return None
+    return (point[0], point[1], point[2], point[3])
+
+
+def _axes(incidence: Incidence, points: Sequence[Point], field: Field) -> dict[JointId, Line]:
+    through = _on_axis(incidence)
+    axes = {}
+    for joint in incidence.joints:
+        ends = [points[i] for i in through[joint][:2]]
+        while len(ends) < 2:
+            ends.append((field.random(), field.random(), field.random(), 1))
+        axes[joint] = join(ends[0], ends[1], field)
+    return axes
+
+
+def join(p: Sequence[Any], q: Sequence[Any], field: Field) -> Line:
+    """Return the Pluecker line of two homogeneous points: direction u, and moment of a point on it.
+
+    Examples
+    --------
+    >>> from graphs.fields import Reals
+    >>> join((0, 0, 0, 1), (1, 0, 0, 1), Reals())
+    ((1, 0, 0), (0, 0, 0))
+    """
+    u = tuple(field.reduce(p[3] * q[k] - q[3] * p[k]) for k in range(3))
+    m = tuple(field.reduce(p[i] * q[j] - p[j] * q[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
+    return (u[0], u[1], u[2]), (m[0], m[1], m[2])

@@ -1,0 +1,208 @@
+import csv
+import random
+from itertools import combinations
+
+import networkx as nx
+import numpy as np
+import pytest
+from oracle import numeric_mobility
+from rigidity import chains_by_geng
+from strategies import random_sc
+
+from graphs.closure import independent_cycles, signed_cycle
+from graphs.conversion import to_sc
+from graphs.embedding import sc_from_link_joint_graph
+from graphs.errors import UnsolvableError
+from graphs.exact import exact_mobility
+from graphs.fields import PRIMES, PrimeField, Reals, null_vectors
+from graphs.files.formats import read
+from graphs.loops import Loop
+from graphs.mobility import loop_form
+from graphs.overconstraint import diagnose, mobility_without
+from graphs.realisation import Incidence, incidence_of, realise, realise_points
+from graphs.report import mobility_report
+from graphs.sc import SCGraph
+from graphs.sheet import Sheet
+
+
+def count(sc):
+    return loop_form(len(sc.joints), len(sc.centred_loops), sc.spatial_loops)
+
+
+def miura(rows, columns):
+    """An m x n mesh of quadrilaterals as an SC graph: its inner vertices are centres."""
+    number = {(i, j): i * columns + j for i in range(rows) for j in range(columns)}
+    joints = {("h", i, j): (number[i, j], number[i, j + 1]) for i in range(rows) for j in range(columns - 1)}
+    joints |= {("v", i, j): (number[i, j], number[i + 1, j]) for i in range(rows - 1) for j in range(columns)}
+    loops = [
+        Loop((("h", i, j), ("v", i, j + 1), ("h", i + 1, j), ("v", i, j)))
+        for i in range(rows - 1)
+        for j in range(columns - 1)
+    ]
+    return SCGraph(rows * columns, joints, loops)
+
+
+EXCEPTIONS = {
+    # Where the count is negative or a part of the mechanism is overconstrained.
+    "mesh-4x4-edge-creases.json": (1, 2),
+    "miura-3x4.fold": (-1, 0),
+    "miura-4x4.fold": (-3, 0),
+    "miura-5x5.fold": (-8, 0),
+}
+
+
+def test_all_mechanisms_of_the_papers(data):
+    found = 0
+    for file in sorted(data.glob("*/*.*")):
+        mechanism = read(file)
+        if isinstance(mechanism, Sheet):
+            mechanism = to_sc(mechanism)
+        if isinstance(mechanism, SCGraph):
+            report = mobility_report(mechanism)
+            pair = report.mobility, exact_mobility(mechanism).mobility
+            assert pair == EXCEPTIONS.get(file.name, (report.mobility, report.mobility)), file
+            found += 1
+    assert found > 50
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_agrees_with_floating_point(seed):
+    sc = random_sc(random.Random(seed))
+    numeric = numeric_mobility(sc, seed=3)
+    if numeric is not None:
+        assert exact_mobility(sc).mobility == numeric
+
+
+def test_random_members_do_not_matter():
+    mesh = miura(5, 4)
+    assert {exact_mobility(mesh, seed=seed).mobility for seed in range(5)} == {0}
+    assert exact_mobility(mesh, [101]).mobility >= 0
+
+
+@pytest.mark.parametrize("size", [(2, 2), (2, 7), (3, 3), (3, 4), (4, 4), (6, 5)])
+def test_meshes(size):
+    rows, columns = size
+    mesh = miura(*size)
+    assert exact_mobility(mesh).mobility == max(count(mesh), 0)
+    assert count(mesh) == 1 - (rows - 2) * (columns - 2)
+
+
+@pytest.mark.parametrize(
+    ("links", "dof"),
+    [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2), (9, 2), (6, 3), (8, 3), pytest.param(10, 1, id="10")],
+)
+def test_count_is_rank_on_chains_without_rigid_parts(links, dof):
+    """Conjecture 2 of Wampler: one embedding of each planar chain, every joint moves."""
+    for graph in chains_by_geng(links, dof):
+        if nx.check_planarity(graph)[0]:
+            sc = sc_from_link_joint_graph(graph)
+            found = diagnose(sc)
+            assert found.mobility == dof == count(sc)
+            assert found.idle == 0
+            assert found.immobile == ()
+
+
+def test_three_centres_in_line():
+    """Three loops that share a joint: their centres lie on its axis."""
+    links = ["a", "b", *(f"{k}{i}" for k in range(3) for i in range(2))]
+    joints = {"axis": ("a", "b")}
+    loops = []
+    for k in range(3):
+        joints |= {f"a{k}": ("a", f"{k}0"), f"m{k}": (f"{k}0", f"{k}1"), f"b{k}": (f"{k}1", "b")}
+        loops.append(Loop(("axis", f"a{k}", f"m{k}", f"b{k}")))
+    sc = SCGraph(links, joints, loops)
+    assert len(sc.centre_classes()) == 3
+    placed = realise(sc, PrimeField(PRIMES[0]))
+    p = np.array(placed.points, dtype=object)
+    assert len(null_vectors(p.T.tolist(), PrimeField(PRIMES[0]))) == 1
+    assert exact_mobility(sc).mobility == 1 == count(sc)
+
+
+def test_points_that_cannot_be_placed():
+    """Seven points and seven lines of three points, each pair of points on one: no such figure in space."""
+    fano = [(0, 1, 2), (0, 3, 4), (0, 5, 6), (1, 3, 5), (1, 4, 6), (2, 3, 6), (2, 4, 5)]
+    points = tuple(
+        (frozenset(k for k, line in zip(range(7), fano, strict=True) if p in line), False) for p in range(7)
+    )
+    for field in (PrimeField(PRIMES[0]), Reals()):
+        with pytest.raises(UnsolvableError, match="not realised"):
+            realise_points(Incidence(tuple(range(7)), points), field)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_placed_axes_pass_through_their_centres(seed):
+    sc = random_sc(random.Random(seed))
+    field = PrimeField(PRIMES[0])
+    incidence = incidence_of(sc)
+    placed = realise(sc, field)
+    for (joints, infinite), point in zip(incidence.points, placed.points, strict=True):
+        assert (point[3] == 0) == infinite
+        for joint in joints:
+            u, m = placed.axes[joint]
+            x, w = point[:3], point[3]
+            cross = [x[i] * u[j] - x[j] * u[i] - w * m[k] for i, j, k in ((1, 2, 0), (2, 0, 1), (0, 1, 2))]
+            assert [value % field.prime for value in cross] == [0, 0, 0]
+
+
+def test_spatial_loops_are_completed():
+    cycles = independent_cycles(SCGraph(5, [(a, b) for a, b in combinations(range(5), 2)]))
+    assert len(cycles) == 6
+    sc = SCGraph(7, [(i, (i + 1) % 7) for i in range(7)])
+    assert exact_mobility(sc).mobility == 1
+    assert list(signed_cycle((0, 1, 2), SCGraph(3, [(0, 1), (2, 1), (2, 0)]))) == [(0, 1), (1, -1), (2, 1)]
+
+
+def test_single_links_and_open_chains():
+    assert exact_mobility(SCGraph(1)).mobility == 0
+    assert exact_mobility(SCGraph(0)).mobility == 0
+    assert exact_mobility(SCGraph(3, [(0, 1), (1, 2)])).mobility == 2
+    assert exact_mobility(SCGraph(8, [(i, i ^ 1) for i in range(0, 8, 2)])).mobility == 4
+    found = diagnose(SCGraph(3, [(0, 1)]))
+    assert (found.mobility, found.idle, found.immobile, found.clusters) == (1, 0, (), ())
+
+
+def test_where_a_mesh_is_overconstrained():
+    found = diagnose(miura(4, 4))
+    assert (found.mobility, found.idle, len(found.immobile)) == (0, 3, 24)
+    assert found.clusters == (tuple(range(16)),)
+    assert all(len(circuit) <= 9 for circuit in found.circuits)
+    strip = diagnose(miura(2, 6))
+    assert (strip.mobility, strip.idle, strip.regions) == (1, 0, ())
+
+
+def test_overconstraint_stays_in_its_place(data):
+    """A rigid three by three block with a four-bar hung on: the four-bar's joints are in no circuit."""
+    block = miura(4, 4)
+    joints = {**block.joints, "p": (0, 16), "q": (16, 17), "r": (17, 18), "s": (18, 1)}
+    sc = SCGraph(19, joints, [*block.loops, Loop(("p", "q", "r", "s", ("h", 0, 0)))])
+    found = diagnose(sc)
+    assert found.mobility == 1
+    assert set("pqrs").isdisjoint(set().union(*found.regions))
+    assert set(found.immobile) == set(block.joints)
+    assert tuple(range(16)) in found.clusters
+    assert mobility_without(sc, "p") > found.mobility
+
+
+@pytest.mark.parametrize("name", ["watt.json", "stephenson.json", "eight-bar.json"])
+def test_cutting_a_joint(data, name):
+    mechanism = read(data / "wiener" / name)
+    whole = exact_mobility(mechanism).mobility
+    assert all(mobility_without(mechanism, joint) >= whole for joint in mechanism.joints)
+
+
+def test_crease_patterns_have_an_exact_mobility(fold_folder):
+    """Exact is at least the count, and equal where no part is overconstrained."""
+    checked = 0
+    with (fold_folder / "INDEX.tsv").open(encoding="utf-8") as stream:
+        for row in csv.DictReader(stream, delimiter="\t"):
+            if not (row["N_panels(F merged)"] or "").isdigit() or int(row["N_panels(F merged)"]) > 120:
+                continue
+            try:
+                sc = to_sc(read(fold_folder / row["name"]))
+            except Exception as error:
+                assert type(error).__module__ == "graphs.errors"
+                continue
+            exact = exact_mobility(sc).mobility
+            assert exact >= max(mobility_report(sc).mobility or 0, 0)
+            checked += 1
+    assert checked > 50
