@@ -111,10 +111,10 @@ def main() -> None:
             seconds(synth(8, "-o", f"{folder}/8.g6"))
             note(name, lambda command=command, name=name: times(command, 1 if name == "write 16 g6" else RUNS))
     note("cold, write 14 g6", cold)
-    for links in (12, 14):
+    for links in (12, 14, 16):
         command = geng(links)
         if command:
-            note(f"geng {links}", lambda command=command: times(command, 3))
+            note(f"geng {links}", lambda command=command, links=links: times(command, 1 if links == 16 else RUNS))
     for links in (6,):
         note(f"pylinkage {links}", lambda links=links: pylinkage(links))
     per_output = {
@@ -124,7 +124,7 @@ def main() -> None:
     }
     ratios = {
         f"geng {n} / count": round(taken[f"geng {n}"] / taken[f"count {n}"], 1)
-        for n in (12, 14)
+        for n in (12, 14, 16)
         if taken.get(f"geng {n}") and f"count {n}" in taken
     }
     if taken.get("pylinkage 6"):

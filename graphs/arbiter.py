@@ -10,12 +10,14 @@ from dataclasses import replace
 from graphs.errors import NumericalError, UnsolvableError, shown
 from graphs.exact import exact_mobility
 from graphs.overconstraint import diagnose
-from graphs.pose import pose_mobility
+from graphs.polyhedron import PolyhedronModel
+from graphs.pose import pose_mobility, pose_mobility_of_model
 from graphs.report import MobilityReport
+from graphs.rods import exact_mobility_of_model
 from graphs.sc import SCGraph
 from graphs.sheet import Sheet
 
-__all__ = ["MOST_JOINTS", "with_exact", "with_pose"]
+__all__ = ["MOST_JOINTS", "model_with_exact", "with_exact", "with_pose"]
 
 MOST_JOINTS = 1200
 """Larger mechanisms are ranked on request only: time grows with the cube of the joints."""
@@ -55,6 +57,35 @@ def with_exact(report: MobilityReport, mechanism: SCGraph, *, demanded: bool = F
     if exact.mobility == report.mobility:
         return report
     return report.with_notes(warnings=[_why_it_differs(report, mechanism, exact.mobility)])
+
+
+def model_with_exact(report: MobilityReport, model: PolyhedronModel, *, demanded: bool = False) -> MobilityReport:
+    """Add the exact generic mobility of a polyhedron model, and the freedoms at its coordinates if it has any.
+
+    Parameters
+    ----------
+    report : MobilityReport
+        Of the model.
+    model : PolyhedronModel
+    demanded : bool, optional
+        Whatever its size.
+    """
+    if len(model) > MOST_JOINTS // 3 and not demanded:
+        return report.with_notes(
+            warnings=[f"exact rank skipped: {len(model)} vertices are many; ask for it with --exact"]
+        )
+    try:
+        exact = exact_mobility_of_model(model)
+    except (UnsolvableError, NumericalError) as error:
+        report = report.with_notes(warnings=[f"no exact rank: {error}"])
+    else:
+        report = replace(report, exact=exact.to_json())
+        if exact.mobility != report.mobility:
+            note = f"the exact generic mobility is {exact.mobility}, the count says {report.mobility}"
+            report = report.with_notes(warnings=[note])
+    if model.coordinates:
+        report = replace(report, pose=pose_mobility_of_model(model).to_json(report.mobility))
+    return report
 
 
 def _why_it_differs(report: MobilityReport, mechanism: SCGraph, exact: int) -> str:

@@ -30,8 +30,10 @@ class ExactMobility:
     Attributes
     ----------
     mobility : int
-        M = J - rank.
-    joints, rank : int
+        M = unknowns - rank.
+    unknowns : int
+        Joint rates J; of a polyhedron model 3V - 6 velocities.
+    rank : int
     primes : tuple of int
         The primes modulo which the rank was found, each time at another random member.
     forced : bool
@@ -39,7 +41,7 @@ class ExactMobility:
     """
 
     mobility: int
-    joints: int
+    unknowns: int
     rank: int
     primes: tuple[int, ...]
     forced: bool

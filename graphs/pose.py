@@ -7,7 +7,7 @@ infinitesimal; a flat sheet has more of them than it can use. Theory: docs/theor
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,11 +20,20 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.fields import Reals
 from graphs.loops import JointId
 from graphs.mobility import overconstraint
+from graphs.polyhedron import PolyhedronModel
 from graphs.realisation import Line, join
+from graphs.rods import velocity_constraints
+from graphs.sc import SCGraph
 from graphs.sheet import Sheet
 from graphs.spectrum import Spectrum, spectrum
 
-__all__ = ["PoseMobility", "closure_at_pose", "pose_mobility"]
+__all__ = [
+    "PoseMobility",
+    "closure_at_pose",
+    "pose_mobility",
+    "pose_mobility_of_axes",
+    "pose_mobility_of_model",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,13 +97,95 @@ def pose_mobility(sheet: Sheet, *, hinge_flat: bool = False) -> PoseMobility:
     found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     closure = closure_at_pose(sheet, found)
     evidence = spectrum(dense(closure))
-    rank = evidence.rank
     assert sheet.coordinates is not None
+    return _mobility(evidence, len(closure.joints), len(closure.rows), np.asarray(_in_space(sheet.coordinates)))
+
+
+def pose_mobility_of_axes(
+    sc: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]]
+) -> PoseMobility:
+    """Return the infinitesimal freedoms of a linkage whose joint axes are given.
+
+    Every loop closes with six equations here, so centres need not be exact.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    axes : mapping of joint id to (point, direction)
+        Three coordinates each, any unit of length.
+
+    Raises
+    ------
+    InvariantError
+        If an axis has no direction.
+
+    Examples
+    --------
+    A planar four-bar:
+
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> places = [(0, 0, 0), (3, 0, 0), (4, 2, 0), (0, 1, 0)]
+    >>> pose_mobility_of_axes(four_bar, {i: (place, (0, 0, 1)) for i, place in zip(range(4), places)}).dof
+    1
+    """
+    points = np.array([axes[joint][0] for joint in sc.joints], dtype=float).reshape(-1, 3)
+    near = _in_space(tuple(map(tuple, points.tolist())))
+    lines = {}
+    for joint, p in zip(sc.joints, near, strict=True):
+        u = np.asarray(axes[joint][1], dtype=float)
+        size = float(np.linalg.norm(u))
+        if size == 0.0:
+            raise InvariantError(
+                "axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero"
+            )
+        lines[joint] = join((*p, 1.0), (*(np.array(p) + u / size), 1.0), Reals())
+    evidence = spectrum(dense(closure_of(SCGraph(sc.nodes, sc.joints), lines, {}, Reals())))
+    return _mobility(evidence, len(sc.joints), 6 * sc.independent_loops, points)
+
+
+def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
+    """Return the infinitesimal freedoms of a polyhedron model at its coordinates.
+
+    Links of four vertices or more get a virtual apex, since their vertices may be coplanar.
+
+    Parameters
+    ----------
+    model : PolyhedronModel
+        With coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no coordinates.
+    InvariantError
+        If a rod has no length.
+    """
+    if not model.coordinates:
+        raise UnsolvableError("the freedoms at a pose need coordinates, and the model has none")
+    near = dict(zip(model.coordinates, _in_space(tuple(model.coordinates.values())), strict=True))
+    for a, b in model.edges:
+        if near[a] == near[b]:
+            raise InvariantError("rod", f"the rod between vertices {a!r} and {b!r} has no length")
+    rows, points = velocity_constraints(model, near, Reals())
+    column: dict[Any, int] = {}
+    for row in rows:
+        for key in row:
+            column.setdefault(key, len(column))
+    matrix = np.zeros((len(rows), max(len(column), 1)))
+    for i, row in enumerate(rows):
+        for key, value in row.items():
+            matrix[i, column[key]] = value
+    whole = 6 if model.ground is None else 0
+    return _mobility(spectrum(matrix), 3 * points - whole, len(rows), np.array(list(near.values())))
+
+
+def _mobility(evidence: Spectrum, unknowns: int, equations: int, points: npt.NDArray[np.float64]) -> PoseMobility:
+    rank = evidence.rank
     return PoseMobility(
-        None if rank is None else len(closure.joints) - rank,
-        None if rank is None else len(closure.rows) - rank,
+        None if rank is None else unknowns - rank,
+        None if rank is None else equations - rank,
         evidence,
-        is_flat(np.asarray(_in_space(sheet.coordinates))),
+        is_flat(points),
     )
 
 

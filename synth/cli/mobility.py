@@ -89,7 +89,7 @@ def _objects_stay() -> Iterator[None]:
 def _report(
     label: str, mechanism: Mechanism, exact: bool | None, hinge_flat: bool, pose: int | None
 ) -> MobilityReport:
-    from graphs.arbiter import with_exact
+    from graphs.arbiter import model_with_exact, with_exact
     from graphs.conversion import to_sc
     from graphs.polyhedron import PolyhedronModel
     from graphs.report import mobility_report
@@ -98,10 +98,10 @@ def _report(
 
     if isinstance(mechanism, Sheet):
         return _report_of_sheet(label, mechanism, exact, hinge_flat, pose)
-    notes = [] if pose is None else ["no freedoms at a pose: they are computed for crease patterns"]
     if isinstance(mechanism, PolyhedronModel):
-        notes += ["no exact rank: a polyhedron model is counted only"] if exact else []
-        return mobility_report(mechanism).with_notes(warnings=notes)
+        report = mobility_report(mechanism)
+        return report if exact is False else model_with_exact(report, mechanism, demanded=bool(exact))
+    notes = [] if pose is None else ["no freedoms at a pose: a graph has no coordinates"]
     sc = mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism)
     report = mobility_report(sc).with_notes(warnings=notes)
     return report if exact is False else with_exact(report, sc, demanded=bool(exact))
