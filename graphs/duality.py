@@ -17,14 +17,12 @@ import numpy as np
 from graphs.errors import InvariantError
 from graphs.loops import Centre, Loop, split_dependent
 from graphs.sc import SCGraph
-from graphs.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
+from graphs.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
 
 ROUNDED = 1e-9
 """Panels farther off their planes than this, in units of their extent, are told of."""
-COLLINEAR = 1e-6
-"""Two hinges are collinear if their ends lie this close to one line, in units of their extent."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +96,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
     if split:
         notes.repairs.append(f"{split} collinear split hinge(s) joined")
-    if _is_flat(sheet):
+    if sheet.coordinates is not None and in_one_plane(sheet.coordinates):
         notes.warnings.append("flat state: the sheet has more infinitesimal freedoms as drawn than when folded")
     elif (off := _off_plane(sheet)) > ROUNDED:
         notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of its size")
@@ -362,14 +360,3 @@ def _off_plane(sheet: Sheet) -> float:
     sizes = np.linalg.norm(arms, axis=2).max(axis=1)
     volumes = np.abs(np.linalg.det(arms))
     return float(np.max(volumes / np.maximum(sizes, 1e-300) ** 3))
-
-
-def _is_flat(sheet: Sheet) -> bool:
-    """Whether all vertices lie in one plane, by coordinates and never by labels."""
-    if sheet.coordinates is None or len(sheet.coordinates) < 1:
-        return False
-    points = np.asarray(sheet.coordinates, dtype=float)
-    if points.shape[1] < 3:
-        return True
-    sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    return bool(len(sizes) < 3 or sizes[2] <= COLLINEAR * sizes[0])

@@ -24,7 +24,7 @@ from graphs.polyhedron import PolyhedronModel
 from graphs.realisation import Line, join
 from graphs.rods import velocity_constraints
 from graphs.sc import SCGraph
-from graphs.sheet import Sheet
+from graphs.sheet import Sheet, in_one_plane
 from graphs.spectrum import Spectrum, spectrum
 
 __all__ = [
@@ -185,7 +185,7 @@ def _mobility(evidence: Spectrum, unknowns: int, equations: int, points: npt.NDA
         None if rank is None else unknowns - rank,
         None if rank is None else equations - rank,
         evidence,
-        is_flat(points),
+        in_one_plane(points.tolist()),
     )
 
 
@@ -241,11 +241,3 @@ def dense(closure: Closure) -> npt.NDArray[np.float64]:
         for j, value in row.items():
             matrix[i, j] = value
     return matrix
-
-
-def is_flat(points: npt.NDArray[np.float64]) -> bool:
-    """Tell whether points lie in one plane, but for a millionth of their extent."""
-    if not len(points):
-        return True
-    sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    return bool(len(sizes) < 3 or sizes[2] <= 1e-6 * max(sizes[0], 1e-300))

@@ -10,11 +10,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+import numpy as np
+
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.polyhedron import PolyhedronModel
 
-__all__ = ["FLAT", "HINGES", "Edge", "Sheet", "flat_places", "sheet_from_model", "sides_of_face"]
+__all__ = [
+    "COLLINEAR",
+    "FLAT",
+    "HINGES",
+    "Edge",
+    "Sheet",
+    "flat_places",
+    "in_one_plane",
+    "sheet_from_model",
+    "sides_of_face",
+]
 
+COLLINEAR = 1e-6
+"""Points are in one line or plane if they lie this close to it, in units of their extent."""
 HINGES = "MVU"
 """Edge assignments that are hinges: mountain, valley, unassigned."""
 FLAT = "FJ"
@@ -126,6 +140,21 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     if len({place[2] for place in sheet.coordinates if len(place) > 2}) > 1:
         raise UnsolvableError(f"{what} is flat, and the sheet is not")
     return [(place[0], place[1]) for place in sheet.coordinates]
+
+
+def in_one_plane(points: Sequence[Sequence[float]]) -> bool:
+    """Tell whether points lie in one plane, but for a millionth of their extent.
+
+    Examples
+    --------
+    >>> in_one_plane([(0, 0, 1), (1, 0, 1), (0, 1, 1), (5, 5, 1)])
+    True
+    """
+    places = np.asarray(points, dtype=float)
+    if places.size == 0 or places.shape[1] < 3:
+        return True
+    sizes = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+    return bool(len(sizes) < 3 or sizes[2] <= COLLINEAR * sizes[0])
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
