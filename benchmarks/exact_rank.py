@@ -3,7 +3,7 @@
     python benchmarks/exact_rank.py
 
 writes the figures to benchmarks/results/exact_rank.json. All in one run: the closure of a mesh about 40 x 40 and
-about 300 x 300, placed, built and ranked modulo one prime; sympy's DomainMatrix on the same numbers modulo the same
+about 300 x 300, placed, built and ranked modulo one prime; sympy's DomainMatrix on the same numbers modulo that
 prime (installed into a temporary folder, with numbers of its own); numpy's singular values of a real matrix of one
 shape and pattern with it.
 """

@@ -113,13 +113,22 @@ DIFFERENT = {
 }
 
 
-def test_crease_patterns_as_they_lie(fold_folder):
+# Shapes that a simulation left, never quite at rest: many small singular values, without a gap.
+AT_REST_NEARLY = {
+    "osbo_huffmanExdentedBoxes.fold",
+    "osbo_huffmanRectangularWeave.fold",
+    "osbo_huffmanWaterbomb.fold",
+}
+
+
+@pytest.mark.parametrize("most", [300, pytest.param(1000, marks=pytest.mark.slow)])
+def test_crease_patterns_as_they_lie(fold_folder, most):
     """Freedoms as in the index; where coordinates are rounded, small singular values make up the difference."""
     same = rounded = 0
     with (fold_folder / "INDEX.tsv").open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream, delimiter="\t"))
     for row in rows:
-        if not row["DOF_rank"].isdigit() or int(row["N_panels(F merged)"]) > 600:
+        if not row["DOF_rank"].isdigit() or int(row["N_panels(F merged)"]) > most:
             continue
         try:
             sheet = read(fold_folder / row["name"])
@@ -129,7 +138,10 @@ def test_crease_patterns_as_they_lie(fold_folder):
         if sheet.coordinates is None or row["name"] in DIFFERENT:
             continue
         found, expected = pose_mobility(sheet), int(row["DOF_rank"])
-        if found.dof == expected:
+        if row["name"] in AT_REST_NEARLY:
+            assert found.dof is None or found.dof < expected
+            assert found.spectrum.nearly > expected - (found.dof or 0)
+        elif found.dof == expected:
             same += 1
         else:
             assert found.dof <= expected <= found.dof + found.spectrum.nearly, row["name"]
