@@ -15,11 +15,15 @@ from typing import Any
 import networkx as nx
 
 from graphs.fields import Field
-from graphs.loops import Centre, JointId, Loop, added_independent
+from graphs.loops import Centre, JointId, Joints, Loop, added_independent
 from graphs.realisation import Line, Point
 from graphs.sc import SCGraph
 
 __all__ = ["Closure", "closure_of", "independent_cycles", "signed_cycle"]
+
+
+_FINITE = [(0, 0), (0, 1), (0, 2)]
+_SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,20 +45,24 @@ class Closure:
     loops: tuple[tuple[JointId, ...], ...]
 
 
-def signed_cycle(cycle: Sequence[JointId], sc: SCGraph) -> Iterator[tuple[JointId, int]]:
+def signed_cycle(cycle: Sequence[JointId], joints: Joints) -> Iterator[tuple[JointId, int]]:
     """Yield the joints of a cycle with 1 where it passes from a joint's first link to the second, else -1.
 
     Examples
     --------
-    >>> list(signed_cycle((0, 1, 2), SCGraph(3, [(0, 1), (2, 1), (2, 0)])))
+    >>> list(signed_cycle((0, 1, 2), {0: ("a", "b"), 1: ("c", "b"), 2: ("c", "a")}))
     [(0, 1), (1, -1), (2, 1)]
     """
-    a, b = sc.joints[cycle[0]]
-    link = a if b in sc.joints[cycle[1]] else b
+    a, b = joints[cycle[0]]
+    link = a if b in joints[cycle[1]] else b
     for joint in cycle:
-        first, second = sc.joints[joint]
-        yield joint, 1 if link == first else -1
-        link = second if link == first else first
+        first, second = joints[joint]
+        if link == first:
+            yield joint, 1
+            link = second
+        else:
+            yield joint, -1
+            link = first
 
 
 def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
@@ -101,13 +109,19 @@ def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, 
         The centre of each loop that has one.
     field : Field
     """
-    column = {joint: i for i, joint in enumerate(sc.joints)}
+    joints = sc.joints
+    column = {joint: i for i, joint in enumerate(joints)}
     rows: list[dict[int, Any]] = []
     loops: list[tuple[JointId, ...]] = []
     for index, loop in enumerate(independent_cycles(sc)):
-        signed = [(column[joint], sign, axes[joint]) for joint, sign in signed_cycle(loop.joints, sc)]
+        signed = [(column[joint], sign, axes[joint]) for joint, sign in signed_cycle(loop.joints, joints)]
         for part, k in _equations(centres.get(index), field):
-            rows.append({j: field.reduce(sign * axis[part][k]) for j, sign, axis in signed if axis[part][k]})
+            row = {}
+            for j, sign, axis in signed:
+                value = axis[part][k]
+                if value:
+                    row[j] = value if sign == 1 else field.reduce(-value)
+            rows.append(row)
             loops.append(loop.joints)
     return Closure(tuple(sc.joints), tuple(rows), tuple(loops))
 
@@ -119,8 +133,8 @@ def _equations(centre: Point | None, field: Field) -> list[tuple[int, int]]:
     the direction tells all three, and the moments are perpendicular to it.
     """
     if centre is None:
-        return [(part, k) for part in (0, 1) for k in range(3)]
+        return _SPATIAL
     if not field.is_zero(centre[3]):
-        return [(0, k) for k in range(3)]
+        return _FINITE
     largest = max(range(3), key=lambda k: abs(centre[k]))
     return [(0, largest), *((1, k) for k in range(3) if k != largest)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -25,28 +25,50 @@ _MOST_SHOWN = 200
 @click.command("reduce", short_help="Take off ride-alongs and adjunct addenda.")
 @click.argument("file", metavar="FILE")
 @click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism here.")
-@click.option("--rule", type=click.Choice(["ride-along", "dyad"]), default="ride-along", show_default=True)
+@click.option(
+    "--rule", type=click.Choice(["ride-along", "dyad", "assur"]), default="ride-along", show_default=True
+)
 @click.option("--fully", is_flag=True, help="Reduce a block even where it then has no loop left.")
 @click.option("--keep", multiple=True, metavar="LINK", help="A link that stays (an input, say); may be repeated.")
+@click.option("--ground", metavar="LINK", help="The fixed link, for the rule assur; the file's, if it names one.")
+@click.option(
+    "--input", "inputs", multiple=True, metavar="JOINT", help="An input, for the rule assur; may be repeated."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print counts and steps as JSON.")
 def reduce_command(
-    file: str, output: str | None, rule: str, fully: bool, keep: tuple[str, ...], as_json: bool
+    file: str,
+    output: str | None,
+    rule: str,
+    fully: bool,
+    keep: tuple[str, ...],
+    ground: str | None,
+    inputs: tuple[str, ...],
+    as_json: bool,
 ) -> None:
     """Take ride-alongs off a mechanism, one by one, until none is left. Mobility stays.
 
     A ride-along is two binary links u, v on two adjacent links a, b, the four about one centre. Chains of them,
     adjunct addenda, are shown as trees. The rule "dyad" takes off such pairs also where a and b are not joined.
 
+    The rule "assur" parts a mechanism whose loops have one centre into the groups of links that are positioned
+    together, given a ground link and an input for each freedom, and takes off those that nothing hangs on.
+
     \b
-    Example:
+    Examples:
       synth reduce data/wiener/fortune-teller.json -o eight-bar.json
+      synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
     from graphs.conversion import to_sc
     from graphs.files.formats import read, write
     from graphs.reduction import reduce_addenda
 
+    if (rule != "assur") and (ground is not None or inputs):
+        raise click.UsageError("--ground and --input belong to --rule assur")
     with about(file):
         sc = to_sc(read(file))
+        if rule == "assur":
+            _reduce_assur(file, sc, output, ground, inputs, as_json)
+            return
         reduction = reduce_addenda(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
     if output is not None:
         write(reduction.graph, output)
@@ -58,16 +80,44 @@ def reduce_command(
         click.echo(f"written: {plain(output, 4096)}")
 
 
+def _reduce_assur(
+    file: str, sc: SCGraph, output: str | None, ground: str | None, inputs: tuple[str, ...], as_json: bool
+) -> None:
+    from graphs.assur import reduce_assur
+    from graphs.files.formats import write
+
+    fixed = sc.ground if ground is None else link_named(sc, ground)
+    if fixed is None or not inputs:
+        raise click.UsageError("--rule assur needs --ground LINK and an --input JOINT for each freedom")
+    joints = [next((joint for joint in sc.joints if str(joint) == name), name) for name in inputs]
+    reduction = reduce_assur(sc, fixed, joints)
+    if output is not None:
+        write(reduction.graph, output)
+    told = reduction.to_json()
+    if as_json:
+        print_json({"file": file, "output": output, **told})
+        return
+    _print_counts(told)
+    taken = {group.links for group in reduction.removed}
+    for number, group in enumerate(reduction.groups, start=1):
+        words = f"group {number}: links {_listed(group.links)}, joints {_listed(group.joints)}"
+        words += f", input {_listed(group.inputs)}" if group.inputs else ""
+        click.echo(words + ("   (taken off)" if group.links in taken else ""))
+    if output is not None:
+        click.echo(f"written: {plain(output, 4096)}")
+
+
+def _listed(names: tuple[Hashable, ...]) -> str:
+    return plain(", ".join(map(str, names)), 200)
+
+
 def link_named(sc: SCGraph, name: str) -> Hashable:
     """Return the link whose name reads as given, or the name itself."""
     return next((link for link in sc.nodes if str(link) == name), name)
 
 
 def _print(reduction: Reduction) -> None:
-    told = reduction.to_json()
-    for when in ("before", "after"):
-        counts = told[when]
-        click.echo(f"{when:6}  links {counts['links']}, joints {counts['joints']}, mobility {counts['mobility']}")
+    _print_counts(reduction.to_json())
     if not reduction.steps:
         click.echo("nothing to take off")
         return
@@ -81,6 +131,12 @@ def _print(reduction: Reduction) -> None:
     out = console()
     for chain in chains:
         out.print(_tree(reduction, chain))
+
+
+def _print_counts(told: dict[str, Any]) -> None:
+    for when in ("before", "after"):
+        counts = told[when]
+        click.echo(f"{when:6}  links {counts['links']}, joints {counts['joints']}, mobility {counts['mobility']}")
 
 
 def _tree(reduction: Reduction, chain: nx.DiGraph) -> Tree:

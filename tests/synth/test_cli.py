@@ -228,7 +228,18 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     )
     result = run("reduce", data / "wiener" / "watt.json", "--keep", "sky", code=2)
     assert "'sky' is to be kept and is no link; expected one of the links" in result.stderr
-    run("reduce", "--rule", "assur", data / "wiener" / "watt.json", code=2)
+    stephenson = data / "wiener" / "stephenson.json"
+    assert (
+        "needs --ground LINK and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
+    )
+    words = ("reduce", stephenson, "--rule", "assur", "--ground", 0, "--input", 0)
+    out = run(*words).stdout
+    assert re.search(r"group 1: links 1, joints 0, input 0\n", out)
+    assert out.count("(taken off)") == 2
+    told = json.loads(run(*words, "--json").stdout)
+    assert (told["before"]["mobility"], told["after"]["mobility"], told["after"]["links"]) == (1, 1, 2)
+    assert "belong to --rule assur" in run("reduce", stephenson, "--input", 0, code=2).stderr
+    assert "need one centre" in run("reduce", data / "wiener" / "watt.json", *words[2:], code=2).stderr
 
 
 def test_edit_tells_predicted_and_counted_change(data, tmp_path):

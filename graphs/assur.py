@@ -1,0 +1,234 @@
+"""Assur groups: the smallest sets of links that can be positioned together, one set after the other.
+
+With one link fixed and as many inputs given as there are freedoms, each moving link of a spherical or planar
+mechanism has three freedoms and each joint takes two (an input all three): as many as there are. Every taken
+freedom is given to one of the two links it ties, so that each link pays for three; a link then depends on the
+others its freedoms are tied to, and the strong components of these dependencies are the Assur groups, whatever way
+the freedoms were given (Dulmage and Mendelsohn 1958). A group without an input can be taken off, if no other hangs
+on it: mobility stays.
+
+Theory: docs/theory/reduction.md.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import networkx as nx
+
+from graphs.embedding import sc_from_link_joint_graph
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.loops import JointId, LinkId
+from graphs.mobility import loop_form
+from graphs.report import mechanism_class
+from graphs.sc import SCGraph
+
+__all__ = ["AssurGroup", "AssurReduction", "assur_groups", "reduce_assur"]
+
+
+@dataclass(frozen=True, slots=True)
+class AssurGroup:
+    """Links that are positioned together.
+
+    Attributes
+    ----------
+    links : tuple of link ids
+    joints : tuple of joint ids
+        Joints between them, and to the ground link or earlier groups.
+    inputs : tuple of joint ids
+        Those of the joints that are inputs.
+    """
+
+    links: tuple[LinkId, ...]
+    joints: tuple[JointId, ...]
+    inputs: tuple[JointId, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AssurReduction:
+    """A mechanism without the Assur groups that nothing hangs on.
+
+    Attributes
+    ----------
+    before, graph : SCGraph
+    groups : tuple of AssurGroup
+        All groups, each after those it hangs on.
+    removed : tuple of AssurGroup
+        In the order in which they were taken off.
+    """
+
+    before: SCGraph
+    graph: SCGraph
+    groups: tuple[AssurGroup, ...]
+    removed: tuple[AssurGroup, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on, and the groups."""
+        return {
+            "before": _counts(self.before),
+            "after": _counts(self.graph),
+            "steps": [_as_json(group) for group in self.removed],
+            "groups": [_as_json(group) for group in self.groups],
+        }
+
+
+def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tuple[AssurGroup, ...]:
+    """Return the Assur groups of a mechanism, each after those it hangs on.
+
+    Parameters
+    ----------
+    sc : SCGraph
+        All loops about one centre, finite or infinite.
+    ground : link id
+    inputs : iterable of joint ids
+        As many as there are freedoms.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such link or joint.
+    UnsolvableError
+        If the loops have not one centre, or these inputs do not drive the mechanism.
+
+    Examples
+    --------
+    A four-bar driven at its ground: the crank, then a dyad.
+
+    >>> from graphs.loops import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> [group.links for group in assur_groups(four_bar, 0, [0])]
+    [(1,), (2, 3)]
+    """
+    driven = _checked(sc, ground, inputs)
+    payer = _shared_out(sc, ground, driven)
+    hangs_on = nx.DiGraph()
+    hangs_on.add_nodes_from(link for link in sc if link != ground)
+    for (joint, _), link in payer.items():
+        a, b = sc.joints[joint]
+        other = b if link == a else a
+        if other != ground:
+            hangs_on.add_edge(link, other)
+    parts = nx.condensation(hangs_on)
+    place = {link: i for i, link in enumerate(sc)}
+    first = {part: min(place[link] for link in parts.nodes[part]["members"]) for part in parts}
+    order = list(nx.lexicographical_topological_sort(parts.reverse(), key=first.__getitem__))
+    rank = {link: i for i, part in enumerate(order) for link in parts.nodes[part]["members"]}
+    groups = []
+    for i, part in enumerate(order):
+        links = sorted(parts.nodes[part]["members"], key=place.__getitem__)
+        joints = tuple(joint for joint, ends in sc.joints.items() if max(rank.get(end, -1) for end in ends) == i)
+        groups.append(AssurGroup(tuple(links), joints, tuple(joint for joint in joints if joint in driven)))
+    return tuple(groups)
+
+
+def _checked(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> frozenset[JointId]:
+    """Return the inputs, if the question makes sense."""
+    driven = frozenset(inputs)
+    if ground not in sc:
+        raise InvariantError(
+            "ground is a link", f"ground {shown(ground)} is no link", "a link", ("ground", ground)
+        )
+    for joint in driven:
+        if joint not in sc.joints:
+            raise InvariantError("inputs are joints", f"input {shown(joint)} is no joint", "a joint")
+    kind = mechanism_class(sc)
+    if kind not in ("spherical", "planar") or sc.components != 1:
+        raise UnsolvableError(
+            f"Assur groups need one centre for all loops of a connected mechanism; this is: {kind}"
+        )
+    freedoms = loop_form(len(sc.joints), len(sc.centred_loops), 0)
+    if len(driven) != freedoms:
+        raise UnsolvableError(f"{len(driven)} input(s) for {freedoms} freedom(s): name one input for each")
+    return driven
+
+
+def _shared_out(sc: SCGraph, ground: LinkId, driven: frozenset[JointId]) -> dict[tuple[JointId, int], LinkId]:
+    """Give every freedom that a joint takes to one of its links, three to each; augmenting paths."""
+    payer: dict[tuple[JointId, int], LinkId] = {}
+    paid: dict[LinkId, list[tuple[JointId, int]]] = {link: [] for link in sc if link != ground}
+
+    def settle(taken: tuple[JointId, int]) -> bool:
+        """Look breadth-first for a link that can still pay; on the way back each link takes what wanted it."""
+        wanted_by: dict[LinkId, tuple[JointId, int]] = {}
+        waiting = deque([taken])
+        while waiting:
+            one = waiting.popleft()
+            for link in sc.joints[one[0]]:
+                if link == ground or link in wanted_by:
+                    continue
+                wanted_by[link] = one
+                if len(paid[link]) == 3:
+                    waiting.extend(paid[link])
+                    continue
+                while True:
+                    one = wanted_by[link]
+                    before = payer.get(one)
+                    payer[one] = link
+                    paid[link].append(one)
+                    if before is None:
+                        return True
+                    paid[before].remove(one)
+                    link = before  # noqa: PLW2901 - its place is free now
+        return False
+
+    for joint in sc.joints:
+        for k in range(3 if joint in driven else 2):
+            if not settle((joint, k)):
+                raise UnsolvableError(
+                    f"with these inputs the part about joint {shown(joint)} is held twice over, and another moves"
+                )
+    return payer
+
+
+def reduce_assur(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> AssurReduction:
+    """Take off Assur groups without inputs that nothing hangs on, until each that is left drives or is needed.
+
+    Parameters
+    ----------
+    sc, ground, inputs
+        As for `assur_groups`.
+
+    Raises
+    ------
+    InvariantError, UnsolvableError
+        As `assur_groups`.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> [link for link in reduce_assur(four_bar, 0, [0]).graph]
+    [0, 1]
+    """
+    groups = assur_groups(sc, ground, inputs)
+    left = list(groups)
+    removed: list[AssurGroup] = []
+    for group in reversed(groups):
+        ends = {end for other in left if other is not group for joint in other.joints for end in sc.joints[joint]}
+        if not group.inputs and ends.isdisjoint(group.links):
+            left.remove(group)
+            removed.append(group)
+    return AssurReduction(sc, _remaining(sc, ground, left), groups, tuple(removed))
+
+
+def _remaining(sc: SCGraph, ground: LinkId, groups: Sequence[AssurGroup]) -> SCGraph:
+    kept = {ground}.union(*(group.links for group in groups))
+    graph = nx.MultiGraph()
+    graph.add_nodes_from(link for link in sc if link in kept)
+    for group in groups:
+        for joint in group.joints:
+            graph.add_edge(*sc.joints[joint], key=joint)
+    made = sc_from_link_joint_graph(graph, sc.centred_loops[0].centre)
+    return SCGraph(made.nodes, made.joints, made.loops, ground=ground)
+
+
+def _counts(sc: SCGraph) -> dict[str, int]:
+    mobility = loop_form(len(sc.joints), len(sc.centred_loops), sc.spatial_loops)
+    return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility}
+
+
+def _as_json(group: AssurGroup) -> dict[str, Any]:
+    return {"links": list(group.links), "joints": list(group.joints), "inputs": list(group.inputs)}
