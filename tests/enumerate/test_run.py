@@ -77,6 +77,36 @@ def test_ctrl_c_stops_between_units_and_leaves_the_store_whole(tmp_path):
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
+@pytest.mark.parametrize(
+    ("name", "words"), [("chains.sqlite", "go on with --resume"), ("chains.g6", "nothing was written")]
+)
+def test_ctrl_c_at_the_command_line(tmp_path, name, words):
+    command = [
+        *SYNTH,
+        "enumerate",
+        "chains",
+        "--links",
+        "16",
+        "--dof",
+        "1",
+        "--workers",
+        "2",
+        "-o",
+        str(tmp_path / name),
+    ]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    time.sleep(6)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert errors.strip() == f"stopped; {words}"
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == ({name} if name.endswith(".sqlite") else set())
+    if left:
+        assert read_meta(tmp_path / name)["complete"] is False
+        assert next(read_rows(tmp_path / name))[1] == 16
+
+
 def test_a_complete_store_can_be_resumed_and_has_nothing_to_do(tmp_path):
     store = tmp_path / "squares.sqlite"
     run(Squares(), SqliteSink(store))
