@@ -9,11 +9,11 @@ from oracle import numeric_mobility
 from rigidity import chains_by_geng
 from strategies import random_sc
 
-from graphs.closure import independent_cycles, signed_cycle
+from graphs.closure import Closure, independent_cycles, signed_cycle
 from graphs.conversion import to_sc
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import UnsolvableError
-from graphs.exact import exact_mobility
+from graphs.exact import closure_modulo, exact_mobility, matrix_modulo
 from graphs.fields import PRIMES, PrimeField, Reals, null_vectors
 from graphs.files.formats import read
 from graphs.loops import Loop
@@ -239,3 +239,15 @@ def test_crease_patterns_have_an_exact_mobility(fold_folder, most):
             assert exact >= max(mobility_report(sc).mobility or 0, 0)
             checked += 1
     assert checked > 50
+
+
+def test_circuits_are_smallest_dependent_sets():
+    closure, matrix = closure_modulo(miura(5, 4), PRIMES[0])
+    stresses, idle = matrix.transpose().nullspace()
+    assert idle == 5
+    for k in range(idle):
+        support = [i for i in range(len(closure.rows)) if int(stresses[i, k])]
+        for left_out in (None, support[0], support[-1]):
+            rows = [closure.rows[i] for i in support if i != left_out]
+            part = matrix_modulo(Closure(closure.joints, tuple(rows), ()), PRIMES[0])
+            assert part.rank() == len(support) - 1
