@@ -6,7 +6,7 @@ import pytest
 
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
-from graphs.files.formats import read
+from graphs.files.formats import read, read_frame
 from graphs.mobility import loop_form
 from graphs.pose import closure_at_pose, dense, pose_mobility
 from graphs.sheet import Sheet
@@ -132,10 +132,13 @@ def test_crease_patterns_as_they_lie(fold_folder, most):
             continue
         try:
             sheet = read(fold_folder / row["name"])
+            if sheet.coordinates is None:  # a later frame has them
+                sheet = read_frame(fold_folder / row["name"])
             mechanism_of_sheet(sheet)
         except SynthedraError:
             continue
-        if sheet.coordinates is None or row["name"] in DIFFERENT:
+        assert sheet.coordinates is not None
+        if row["name"] in DIFFERENT:
             continue
         found, expected = pose_mobility(sheet), int(row["DOF_rank"])
         if row["name"] in AT_REST_NEARLY:
@@ -147,7 +150,7 @@ def test_crease_patterns_as_they_lie(fold_folder, most):
             assert found.dof <= expected <= found.dof + found.spectrum.nearly, row["name"]
             rounded += 1
     assert same > 60
-    assert rounded <= 6
+    assert rounded <= 8
 
 
 def test_kresling_rings_are_as_stiff_as_they_should_be(fold_folder):
