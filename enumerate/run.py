@@ -88,7 +88,7 @@ class Sink(Protocol):
         """All units were taken."""
 
     def abort(self) -> None:
-        """There will be no more units, though some are missing."""
+        """There will be no more units, though some are missing; also where `start` failed."""
 
 
 @dataclass(slots=True)
@@ -144,8 +144,8 @@ def run(
     StoreError
         If the sink cannot take the rows, workers die again and again, or the cluster is not reached.
     """
-    stored = sink.start(job)
     try:
+        stored = sink.start(job)
         with _interruptible() as stopped:
             units = job.units()
             weights = sum(unit.weight for unit in units[:stored])
@@ -162,7 +162,7 @@ def run(
                 if report is not None:
                     report(progress)
         sink.finish()
-    except BaseException:
+    except BaseException:  # Ctrl-C and the like too: nothing half written stays
         sink.abort()
         raise
     return progress

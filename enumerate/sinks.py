@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,21 @@ from graphs.sc import SCGraph
 __all__ = ["SINKS", "CountSink", "RowSink", "sink_for"]
 
 
-class RowSink:
+class _MemorySink:
+    """A sink with nothing to open, close or remove."""
+
+    def start(self, job: Job) -> int:
+        """Nothing is there already."""
+        return 0
+
+    def finish(self) -> None:
+        """Nothing is left to do."""
+
+    def abort(self) -> None:
+        """Nothing is left to do."""
+
+
+class RowSink(_MemorySink):
     """A sink that calls a function with the columns and the rows of each unit."""
 
     def __init__(self, function: Callable[[tuple[str, ...], list[Row]], None]) -> None:
@@ -35,43 +49,26 @@ class RowSink:
     def start(self, job: Job) -> int:
         """Note the columns."""
         self._columns = tuple(job.columns)
-        return 0
+        return super().start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Call the function."""
         self._function(self._columns, rows)
 
-    def finish(self) -> None:
-        """Nothing is left to do."""
 
-    def abort(self) -> None:
-        """Nothing is left to do."""
-
-
-class CountSink:
+class CountSink(_MemorySink):
     """A sink that adds up the first value of every row."""
 
     def __init__(self) -> None:
         self.total = 0
 
-    def start(self, job: Job) -> int:
-        """Begin at zero."""
-        self.total = 0
-        return 0
-
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Add."""
         self.total += sum(row[0] for row in rows)
 
-    def finish(self) -> None:
-        """Nothing is left to do."""
-
-    def abort(self) -> None:
-        """Nothing is left to do."""
-
 
 class _FileSink:
-    """A sink that is one file; what a unit becomes is the subclass's affair."""
+    """A file beside its place; what a unit becomes is the subclass's affair."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -84,13 +81,9 @@ class _FileSink:
         self._file = Beside(self._path)
         return 0
 
-    def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Write the rows."""
+    def _write(self, lines: Iterable[str]) -> None:
         assert self._file is not None
-        self._file.write("".join(map(self._line, rows)).encode("utf-8"))
-
-    def _line(self, row: Row) -> str:
-        raise NotImplementedError
+        self._file.write("".join(lines).encode("utf-8"))
 
     def finish(self) -> None:
         """Move the file to its place."""
@@ -114,15 +107,17 @@ class Graph6Sink(_FileSink):
             )
         return super().start(job)
 
-    def _line(self, row: Row) -> str:
-        return str(row[0])[3:] + "\n"
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write a line a row."""
+        self._write(row[0].removeprefix("k1:") + "\n" for row in rows)
 
 
 class JsonLinesSink(_FileSink):
     """JSON lines: one object a row."""
 
-    def _line(self, row: Row) -> str:
-        return json.dumps(dict(zip(self._columns, row, strict=True))) + "\n"
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write a line a row."""
+        self._write(json.dumps(dict(zip(self._columns, row, strict=True))) + "\n" for row in rows)
 
 
 class ParquetSink(_FileSink):

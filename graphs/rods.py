@@ -198,7 +198,7 @@ def velocity_constraints(
             rods += [(apex, vertex) for vertex in around]
     rows = [_length(a, b, where) for a, b in rods]
     for one in model.on_plane:
-        rows += [_flat(one.vertex, tuple(one.of), where)] if one.of != GROUND else _held(one.vertex, 1, field)
+        rows += [_flat(one.vertex, tuple(one.of), where)] if one.of != GROUND else [_held(one.vertex, field)]
     lines = _ground_lines(model, field)
     for one in model.on_line:
         if one.of == GROUND:
@@ -255,9 +255,9 @@ def _straight(v: Hashable, of: tuple[Hashable, ...], where: Mapping[Hashable, Pl
     return rows
 
 
-def _held(v: Hashable, conditions: int, field: Field) -> list[Row]:
+def _held(v: Hashable, field: Field) -> Row:
     """A vertex on a random plane of the ground link."""
-    return [{(v, k): field.random() for k in range(3)} for _ in range(conditions)]
+    return {(v, k): field.random() for k in range(3)}
 
 
 def _ground_lines(model: PolyhedronModel, field: Field) -> dict[VertexId, Place]:

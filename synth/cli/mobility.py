@@ -133,8 +133,9 @@ def _report_of_sheet(
     report = report.with_notes(found.repairs, (*found.warnings, *notes))
     if exact is not False:
         report = with_exact(report, found.sc, demanded=bool(exact))
+    has_frames = label.lower().endswith(".fold")
     lying = sheet
-    if pose is not None or (sheet.coordinates is None and label.lower().endswith(".fold")):
+    if pose or (has_frames and (pose is not None or sheet.coordinates is None)):
         lying = read_frame(label, pose)
     return with_pose(report, lying, hinge_flat=hinge_flat, demanded=pose is not None)
 

@@ -60,10 +60,13 @@ class RunOptions:
         if output is not None and as_json:
             raise click.UsageError("give -o or --json, not both")
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
-        self.workers = (
-            workers or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else workers or 1
-        )
+        self.workers = workers or _cores()
         self.scheduler = scheduler
+
+
+def _cores() -> int:
+    """Return the number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def runner_options(function: F) -> F:

@@ -12,7 +12,7 @@ from strategies import random_sc
 from graphs.closure import Closure, independent_cycles, signed_cycle
 from graphs.conversion import to_sc
 from graphs.embedding import sc_from_link_joint_graph
-from graphs.errors import UnsolvableError
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.exact import closure_modulo, exact_mobility, matrix_modulo
 from graphs.fields import PRIMES, PrimeField, Reals, null_vectors
 from graphs.files.formats import read
@@ -232,8 +232,7 @@ def test_crease_patterns_have_an_exact_mobility(fold_folder, most):
                 continue
             try:
                 sc = to_sc(read(fold_folder / row["name"]))
-            except Exception as error:
-                assert type(error).__module__ == "graphs.errors"
+            except SynthedraError:  # files that are refused are another test's affair
                 continue
             exact = exact_mobility(sc).mobility
             assert exact >= max(mobility_report(sc).mobility or 0, 0)

@@ -1,0 +1,128 @@
+"""The command line of the enumerators: rows, counts, files, and wrong words."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+from commands import run
+
+from enumerate.store import read_rows
+from graphs.files.formats import read
+from graphs.identity import chain_id
+
+
+def test_enumerate_strings(tmp_path):
+    rows = json.loads(run("enumerate", "strings", "--json").stdout)
+    assert len(rows) == 20
+    assert rows[-2]["string"] == "RR-R-RRR"
+    assert rows[-2].keys() == {"creases", "string", "joints", "distance", "dof", "modes", "comment"}
+    assert re.search(r"6 +RR-R-RRR +UPS +variable +6 +2", run("enumerate", "strings").stdout)
+    assert run("enumerate", "strings", "--count").stdout == "20\n"
+    assert json.loads(run("enumerate", "strings", "--count", "--json").stdout) == {"count": 20}
+    assert run("enumerate", "strings", "--dof", 30, "--max-panels", "none", "--count").stdout == "26903492\n"
+    assert run("enumerate", "strings", "--modes", "--max-dof", 6, "--count").stdout == "30\n"
+    moded = json.loads(run("enumerate", "strings", "--dof", 6, "--modes", "--json").stdout)
+    assert [row["mode"] for row in moded if row["string"] == "RR-RR-RR"] == ["SS", "DS", "DD"]
+    run("enumerate", "strings", "-o", tmp_path / "s.jsonl")
+    assert [json.loads(line) for line in (tmp_path / "s.jsonl").read_text().splitlines()] == rows
+    many = run("enumerate", "strings", "--dof", 14, "--max-panels", "none").stdout.splitlines()
+    assert many[0].split("\t")[:2] == ["creases", "string"]
+    assert len(many) == 1 + int(run("enumerate", "strings", "--dof", 14, "--max-panels", "none", "--count").stdout)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--dof", 3, "--max-dof", 4], "give --dof or --max-dof, not both"),
+        (["--max-panels", "many"], "'many' is neither a number nor 'none'"),
+        (["--max-cluster", 0], "max_cluster is 0; expected 1 or more"),
+        (["--dof", 0], "0 is not in the range"),
+        (["-o", "strings.txt"], "strings.txt: the extension is not known; expected .jsonl"),
+    ],
+)
+def test_strings_that_cannot_be_listed(words, message):
+    assert message in run("enumerate", "strings", *words, code=2).stderr
+
+
+def test_enumerate_chains(tmp_path):
+    base = ("enumerate", "chains", "--links", 8, "--dof", 1)
+    rows = json.loads(run(*base, "--json").stdout)
+    assert len(rows) == 16
+    assert rows[0].keys() == {"code", "links", "joints", "dof", "loops", "assortment", "longest_string", "symmetry",
+                              "inversions", "planar", "fractionated"}  # fmt: skip
+    assert run(*base, "--count").stdout == run(*base, "--count", "--method", "burnside").stdout == "16\n"
+    assert json.loads(run(*base, "--count", "--json").stdout) == {"count": 16}
+    assert run(*base, "--count", "--inversions").stdout == "71\n"
+    assert run(*base, "--count", "--assortment", "4,4").stdout == "9\n"
+    filters = ("--symmetry", "4..", "--longest-string", "..2", "--planar")
+    assert json.loads(run(*base, "--json", *filters).stdout) == [
+        row for row in rows if row["symmetry"] >= 4 and row["longest_string"] <= 2 and row["planar"]
+    ]
+    assert re.search(r"k1:\S+ +8 +10 +1 +3 +4,4 +\d +\d+ +\d +yes +no", run(*base).stdout)
+    many = run("enumerate", "chains", "--links", 12, "--dof", 1).stdout.splitlines()
+    assert len(many) == 6857
+    assert many[0].startswith("code\tlinks\tjoints")
+    files = {name: tmp_path / name for name in ("c.g6", "c.jsonl", "c.sqlite", "c.parquet", "folder")}
+    for file in files.values():
+        assert run(*base, "-o", file).output == ""
+    codes = [row["code"] for row in rows]
+    assert ["k1:" + line for line in files["c.g6"].read_text().splitlines()] == codes
+    assert [json.loads(line) for line in files["c.jsonl"].read_text().splitlines()] == rows
+    assert [row[0] for row in read_rows(files["c.sqlite"])] == codes
+    assert pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist() == rows
+    assert [chain_id(read(file)) for file in sorted(files["folder"].iterdir())] == codes
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(files)
+    reports = json.loads(run("mobility", "--json", files["c.g6"]).stdout)
+    assert [report["mobility"] for report in reports] == [1] * 16
+
+
+def test_enumerate_inversions_and_inputs(tmp_path):
+    base = ("enumerate", "chains", "--links", 6, "--dof", 1)
+    grounds = json.loads(run(*base, "--inversions", "--json").stdout)
+    assert [row["ground"] for row in grounds].count(0) == 2
+    assert len(grounds) == 5
+    inputs = json.loads(run(*base, "--inputs", "--json").stdout)
+    assert {(row["code"], row["ground"]) for row in grounds} == {(row["code"], row["ground"]) for row in inputs}
+    assert all(re.fullmatch(r"\d-\d", row["inputs"]) for row in inputs)
+    run(*base, "--inversions", "-o", tmp_path / "mechanisms")
+    assert [read(file).ground for file in sorted((tmp_path / "mechanisms").iterdir())] == [
+        r["ground"] for r in grounds
+    ]
+    message = run(*base, "--inversions", "-o", tmp_path / "c.g6", code=2).stderr
+    assert "graph6 has no place for the ground link" in message
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("--links 8", "Missing option '--dof'"),
+        ("--links 3 --dof 1", "3 is not in the range x>=4"),
+        ("--links 8 --dof 1 --assortment 4;4", "is no list of numbers such as 4,2"),
+        ("--links 8 --dof 1 --symmetry 4...", "neither a number nor a range such as 2..4"),
+        ("--links 8 --dof 1 --symmetry 4..2", "the range 4 to 2; expected the smaller number first"),
+        ("--links 8 --dof 1 --method orbits", "add --count"),
+        ("--links 8 --dof 1 --resume", "--resume needs the store to go on with"),
+        ("--links 8 --dof 1 --json -o x.g6", "give -o or --json, not both"),
+        ("--links 8 --dof 1 --count -o x.g6", "--count stores nothing"),
+        ("--links 8 --dof 1 -o chains.xyz", "expected one of .g6 .jsonl .parquet .sqlite, or a folder"),
+        ("--links 8 --dof 1 -o no/such/chains.g6", "cannot be written: No such file or directory"),
+        ("--links 8 --dof 1 -o /proc/chains.g6", "cannot be written"),
+        ("--links 8 --dof 1 -o /proc/chains.sqlite", "unable to open database file"),
+        ("--links 8 --dof 1 -o chains.g6 --resume", "only a .sqlite store can be resumed"),
+        ("--links 30 --dof 1 --count", "30 links with M = 1 have 14 loops; expected 11 at most"),
+        ("--links 8 --dof 1 --inputs --count --method burnside", "Burnside's lemma counts"),
+        ("--links 8 --dof 1 --scheduler there", "no Dask scheduler at 'there'"),
+    ],
+)
+def test_enumerate_chains_wrong_words(words, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert message in run("enumerate", "chains", *words.split(), code=2).stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_numbers_that_no_chain_has():
+    result = run("enumerate", "chains", "--links", 8, "--dof", 2, "--count")
+    assert result.stdout == "0\n"
+    assert "N - 1 and M must be both even or both odd" in result.stderr
