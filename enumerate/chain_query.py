@@ -12,7 +12,7 @@ from enumerate.compiled import Bytes
 from enumerate.contracted import MOST_LOOPS, decode
 from graphs.errors import InvariantError
 
-__all__ = ["ChainQuery", "Range"]
+__all__ = ["ChainQuery", "Range", "is_planar", "within"]
 
 Range = tuple[int, int | None]
 """Least and greatest value allowed; no limit above with None."""
@@ -121,7 +121,7 @@ class ChainQuery:
 
     def admits(self, longest: int, symmetry: int) -> bool:
         """Tell whether longest string and number of automorphisms are within the limits."""
-        return _within(longest, self.longest_string) and _within(symmetry, self.symmetry)
+        return within(longest, self.longest_string) and within(symmetry, self.symmetry)
 
 
 def is_planar(adjacency: Bytes) -> bool:
@@ -139,6 +139,7 @@ def is_planar(adjacency: Bytes) -> bool:
     return planar
 
 
-def _within(value: int, limits: Range) -> bool:
+def within(value: int, limits: Range) -> bool:
+    """Tell whether a value is within limits."""
     low, high = limits
     return value >= low and (high is None or value <= high)

@@ -34,6 +34,8 @@ __all__ = [
     "GROUND_COLUMNS",
     "INPUT_COLUMNS",
     "GraphChains",
+    "assortment_text",
+    "chain_ids",
     "columns_of",
     "rows_of_graph",
     "rows_of_joints",
@@ -105,15 +107,12 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         return []
     ends, first, moved, automorphisms = frame_of(chains.code, chains.n)
     joints = joints_of_all(ends, chains.n, chains.x)
-    labels = np.array([canonical_order(query.links, pairs) for pairs in joints.tolist()], np.int64)
-    text = graph6_rows(joints, labels).tobytes().decode("ascii")
-    width = len(text) // len(labels)
-    codes = [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)]
+    codes, labels = chain_ids(query.links, joints)
     if bare:
         return [(code,) for code in codes]
     orbits = chains.inversions(query.links)
     degrees = Counter(decode(chains.code, chains.n).sum(axis=1).tolist())
-    assortment = _assortment({**degrees, 2: query.links - chains.n})
+    assortment = assortment_text({**degrees, 2: query.links - chains.n})
     planar = is_planar(decode(chains.code, chains.n))
     counts = (orbits == np.arange(query.links)).sum(axis=1).tolist()
     common = query.links, query.joints, query.dof, query.loops, assortment
@@ -134,6 +133,27 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         pairs = [(order[a], order[b]) for a, b in joints[i].tolist()]
         found += [(*row, *choice) for choice in _choices(query, pairs, renamed)]
     return found
+
+
+def chain_ids(links: int, joints: Ints) -> tuple[list[str], Ints]:
+    """Return the ids of simple chains of N links, and the canonical numbers of their links.
+
+    Parameters
+    ----------
+    links : int
+    joints : int64[r, J, 2]
+
+    Returns
+    -------
+    list of str
+    int64[r, N]
+    """
+    if not len(joints):
+        return [], np.zeros((0, links), np.int64)
+    labels = np.array([canonical_order(links, pairs) for pairs in joints.tolist()], np.int64)
+    text = graph6_rows(joints, labels).tobytes().decode("ascii")
+    width = len(text) // len(labels)
+    return [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)], labels
 
 
 def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints) -> Iterator[Row]:
@@ -182,7 +202,7 @@ def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: b
         query.joints,
         query.dof,
         query.loops,
-        _assortment(degrees),
+        assortment_text(degrees),
         longest,
         symmetry,
         int((orbits_of(renamed) == np.arange(query.links)).sum()),
@@ -194,7 +214,7 @@ def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: b
     return [(*row, *choice) for choice in _choices(query, pairs, renamed)]
 
 
-def _assortment(degrees: Mapping[int, int]) -> str:
+def assortment_text(degrees: Mapping[int, int]) -> str:
     """Return the numbers of binary, ternary, ... links."""
     return ",".join(str(degrees.get(degree, 0)) for degree in range(2, max(degrees) + 1))
 

@@ -17,11 +17,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled, doubled
+from enumerate.compiled import Bytes, Ints, compiled
 from enumerate.labelling import canonical_labels
+from enumerate.row_set import empty_set, insert
 from graphs.errors import InvariantError
 
-__all__ = ["MOST_LOOPS", "contracted_graphs", "cubic_graphs", "decode"]
+__all__ = ["MOST_LOOPS", "contracted_graphs", "cubic_graphs", "decode", "graph_key"]
 
 MOST_LOOPS = 11
 """20 links at most, so that a place in the matrix fits a byte, and the conditions on placements their counters."""
@@ -124,49 +125,22 @@ def _encode(adjacency: Bytes, order: Bytes, code: Bytes) -> None:
 
 
 @compiled
-def _slot(table: Ints, rows: Bytes, row: Bytes) -> np.int64:
-    """Return where a row is in a hash table of rows, or the free slot where it belongs."""
-    word = np.uint64(0)
-    for byte in row:
-        word = (word ^ np.uint64(byte)) * np.uint64(0x9E3779B97F4A7C15)
-        word ^= word >> np.uint64(32)
-    slot = np.int64(word & np.uint64(len(table) - 1))
-    while table[slot] >= 0:
-        other = rows[table[slot]]
-        k = 0
-        while k < len(row) and other[k] == row[k]:
-            k += 1
-        if k == len(row):
-            return slot
-        slot = (slot + 1) & np.int64(len(table) - 1)
-    return slot
-
-
-@compiled
-def _insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes, int]:
-    """Add a row to a set of rows, which may grow; return table, rows and their number."""
-    slot = _slot(table, rows, row)
-    if table[slot] >= 0:
-        return table, rows, used
-    table[slot] = used
-    for k in range(len(row)):
-        rows[used, k] = row[k]
-    used += 1
-    if used == len(rows):
-        rows = doubled(rows)
-        table = np.full(8 * used, -1, np.int64)
-        for i in range(used):
-            table[_slot(table, rows, rows[i])] = i
-    return table, rows, used
+def graph_key(adjacency: Bytes, n: int) -> Bytes:
+    """Return the code of a contracted graph given by its matrix."""
+    joints = 0
+    for i in range(n):
+        for j in range(i):
+            joints += adjacency[i, j]
+    code = np.empty(joints, np.uint8)
+    order, _ = canonical_labels(adjacency, n)
+    _encode(adjacency, order, code)
+    return code
 
 
 @compiled
 def _contract_all(parents: Bytes, n: int) -> Bytes:
     """Return the codes of the graphs that contracting a joint of a graph with n links gives, one row each."""
-    size = 64
-    rows = np.empty((size, parents.shape[1] - 1), np.uint8)
-    table = np.full(4 * size, -1, np.int64)
-    used = 0
+    table, rows, used = empty_set(parents.shape[1] - 1)
     code = np.empty(parents.shape[1] - 1, np.uint8)
     for parent in range(len(parents)):
         adjacency = decode(parents[parent], n)
@@ -187,7 +161,7 @@ def _contract_all(parents: Bytes, n: int) -> Bytes:
                 child = _contract(adjacency, n, u, v)
                 order, _ = canonical_labels(child, n - 1)
                 _encode(child, order, code)
-                table, rows, used = _insert(table, rows, used, code)
+                table, rows, used = insert(table, rows, used, code)
     return rows[:used].copy()
 
 
@@ -260,10 +234,7 @@ def _contract(adjacency: Bytes, n: int, u: int, v: int) -> Bytes:
 @compiled
 def _extend_all(parents: Bytes, n: int) -> Bytes:
     """Return the codes of the cubic graphs with two links more than these with n links."""
-    size = 64
-    rows = np.empty((size, parents.shape[1] + 3), np.uint8)
-    table = np.full(4 * size, -1, np.int64)
-    used = 0
+    table, rows, used = empty_set(parents.shape[1] + 3)
     code = np.empty(parents.shape[1] + 3, np.uint8)
     for parent in range(len(parents)):
         adjacency = decode(parents[parent], n + 2)
@@ -276,7 +247,7 @@ def _extend_all(parents: Bytes, n: int) -> Bytes:
                     if len(child):
                         order, _ = canonical_labels(child, n + 2)
                         _encode(child, order, code)
-                        table, rows, used = _insert(table, rows, used, code)
+                        table, rows, used = insert(table, rows, used, code)
     return rows[:used].copy()
 
 

@@ -15,7 +15,7 @@ from enumerate.contracted import decode
 from enumerate.labelling import canonical_labels
 from enumerate.placement import conditions, no_prefix, permutations, place, rigid_sets, slots
 
-__all__ = ["count_by_burnside", "count_by_orbits", "count_of_graph"]
+__all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
 
 
 @compiled
@@ -52,12 +52,39 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
     prefix : int64[p]
         Where the first units lie.
     """
-    total = 0
     adjacency = decode(code, n)
     _, automorphisms = canonical_labels(adjacency, n)
     ends, first = slots(adjacency, n)
     sets, needs = rigid_sets(adjacency, n)
     moved = permutations(ends, first, automorphisms)
+    return count_in(ends, first, moved, sets, needs, n, links, most, only, prefix)
+
+
+@compiled
+def count_in(
+    ends: Bytes,
+    first: Ints,
+    moved: Bytes,
+    sets: Ints,
+    needs: Ints,
+    n: int,
+    links: int,
+    most: int,
+    only: int,
+    prefix: Ints,
+) -> int:
+    """Return the number of placements on joints with given symmetries.
+
+    Parameters
+    ----------
+    ends, first, moved
+        Joints, first parallel ones, and permutations of the joints: `enumerate.placement`.
+    sets, needs
+        As `enumerate.placement.rigid_sets` returns them.
+    n, links, most, only, prefix
+        As for `count_of_graph`.
+    """
+    total = 0
     nothing, nowhere = np.zeros((0, len(ends)), np.uint8), no_prefix()
     cost = np.ones(len(ends), np.int64)
     for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
@@ -65,6 +92,22 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
             room, weight = conditions(ends, sets, needs, bound)
             free = links - n - bound
             total += place(room, weight, cost, first, bound, free, most, moved, prefix, nothing, nowhere)
+    return total
+
+
+@compiled
+def count_fixed(
+    moved: Bytes, ends: Bytes, first: Ints, sets: Ints, needs: Ints, n: int, links: int, most: int
+) -> int:
+    """Return the number of placements that a permutation of the joints leaves as they are."""
+    total = 0
+    for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
+        room, weight = conditions(ends, sets, needs, bound)
+        cost, start, share, _ = _cycles(moved, first, weight)
+        same = np.arange(len(cost)).astype(np.uint8).reshape(1, -1)
+        nothing, nowhere = np.zeros((0, len(cost)), np.uint8), no_prefix()
+        free = links - n - bound
+        total += place(room, share, cost, start, bound, free, most, same, no_prefix(), nothing, nowhere)
     return total
 
 

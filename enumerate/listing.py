@@ -17,6 +17,7 @@ __all__ = [
     "frame_of",
     "graph6_rows",
     "joints_of_all",
+    "list_placements",
     "orbits_of",
     "orbits_of_all",
     "placements_of",
@@ -51,6 +52,23 @@ def placements_of(code: Bytes, n: int, links: int, most: int, only: int, prefix:
     """
     ends, first, moved, _ = frame_of(code, n)
     sets, needs = rigid_sets(decode(code, n), n)
+    return list_placements(ends, first, moved, sets, needs, n, links, most, only, prefix)
+
+
+@compiled
+def list_placements(
+    ends: Bytes,
+    first: Ints,
+    moved: Bytes,
+    sets: Ints,
+    needs: Ints,
+    n: int,
+    links: int,
+    most: int,
+    only: int,
+    prefix: Ints,
+) -> tuple[Bytes, Ints]:
+    """List the placements on joints with given symmetries, as `placements_of` does for a graph."""
     m = len(ends)
     cost = np.ones(m, np.int64)
     least, last = max(needs[-1], 0), min(links - n, 2 * m)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +20,10 @@ from graphs.errors import FileError, StoreError
 from graphs.files.native import dumps
 from graphs.files.source import Beside
 from graphs.identity import chain_from_id
+from graphs.map_identity import mechanism_from_map_id
 from graphs.sc import SCGraph
 
-__all__ = ["SINKS", "CountSink", "RowSink", "sink_for"]
+__all__ = ["SINKS", "CountSink", "RowSink", "mechanism_text", "sink_for"]
 
 
 class _MemorySink:
@@ -101,10 +102,10 @@ class Graph6Sink(_FileSink):
 
     def start(self, job: Job) -> int:
         """Open the file."""
-        if "ground" in job.columns:
-            raise StoreError(
-                f"{self._path}: graph6 has no place for the ground link; name a .jsonl or .sqlite file"
-            )
+        beyond = {"ground": "the ground link", "chain": "a drawing, centres and open edges"}
+        for column, what in beyond.items():
+            if column in job.columns:
+                raise StoreError(f"{self._path}: graph6 has no place for {what}; name a .jsonl or .sqlite file")
         return super().start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
@@ -169,8 +170,26 @@ class ParquetSink(_FileSink):
         super().finish()
 
 
+def mechanism_text(row: Mapping[str, Any]) -> str:
+    """Return the native file of the mechanism of a row.
+
+    Parameters
+    ----------
+    row : mapping
+        Column to value. ``mechanism`` is the file itself; ``code`` the id of a drawn mechanism, or of a chain,
+        which gets the faces of an embedding as loops.
+    """
+    if "mechanism" in row:
+        return str(row["mechanism"])
+    code = row["code"]
+    if code.startswith("m1:"):
+        return dumps(mechanism_from_map_id(code))
+    sc = sc_from_link_joint_graph(chain_from_id(code))
+    return dumps(SCGraph(sc.nodes, sc.joints, sc.loops, ground=row.get("ground")))
+
+
 class FolderSink:
-    """A folder with a native file for each row, named by its number; the loops are the faces of an embedding."""
+    """A folder with a native file for each row, named by its number; see `mechanism_text`."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -199,11 +218,9 @@ class FolderSink:
         assert self._beside is not None
         for row in rows:
             self._number += 1
-            values = dict(zip(self._columns, row, strict=True))
-            sc = sc_from_link_joint_graph(chain_from_id(values["code"]))
-            sc = SCGraph(sc.nodes, sc.joints, sc.loops, ground=values.get("ground"))
+            text = mechanism_text(dict(zip(self._columns, row, strict=True)))
             try:
-                (self._beside / f"{self._number:07d}.json").write_text(dumps(sc), encoding="utf-8")
+                (self._beside / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
             except OSError as error:
                 raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
 

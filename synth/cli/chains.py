@@ -9,10 +9,10 @@ import click
 from synth.cli.output import plain
 from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
 
-__all__ = ["chains"]
+__all__ = ["assortment", "chains", "say_if_odd"]
 
 
-def _assortment(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[int, ...] | None:
+def assortment(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[int, ...] | None:
     """Read numbers of binary, ternary, ... links."""
     del context, parameter
     if value is None:
@@ -29,7 +29,7 @@ def _assortment(context: click.Context, parameter: click.Parameter, value: str |
 @click.option("--fractionated", is_flag=True, help="Also chains that one link or one joint cuts in two.")
 @click.option("--inversions", is_flag=True, help="Each choice of a ground link apart.")
 @click.option("--inputs", is_flag=True, help="Each choice of a ground link and M input joints apart.")
-@click.option("--assortment", callback=_assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
+@click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
 @click.option("--planar/--nonplanar", default=None, help="Only chains that can (not) be drawn without crossings.")
 @click.option("--longest-string", type=Limits(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
 @click.option("--symmetry", type=Limits(), metavar="K", help="Number of automorphisms: 1, 2.., 2..8")
@@ -60,9 +60,7 @@ def chains(
       synth enumerate chains --links 16 --dof 1 -o chains.sqlite
       synth enumerate chains --links 16 --dof 1 -o chains.sqlite --resume
     """
-    options = RunOptions(
-        *(rest.pop(name) for name in ("output", "workers", "scheduler", "resume", "quiet", "as_json"))
-    )
+    options = RunOptions.taken_from(rest)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
     from enumerate.chain_jobs import ChainJob, count_job
@@ -71,10 +69,18 @@ def chains(
     query = ChainQuery(
         links, dof, **rest, longest_string=longest_string or (0, None), symmetry=symmetry or (1, None)
     )
-    if (links - 1 - dof) % 2:
-        click.echo(f"{links} links with M = {dof}: none; N - 1 and M must be both even or both odd", err=True)
+    say_if_odd(links, dof)
     if only_count:
         run_count(count_job(query, method or "orbits"), options)
     else:
         graph6 = options.output is not None and options.output.lower().endswith(".g6")
         run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), options)
+
+
+def say_if_odd(links: int, dof: int, spatial: int = 0) -> None:
+    """Say on standard error why there is nothing of a size, where its parity says so."""
+    if (links - 1 - dof - 3 * spatial) % 2:
+        freedoms = "M + 3 S" if spatial else "M"
+        click.echo(
+            f"{links} links with M = {dof}: none; N - 1 and {freedoms} must be both even or both odd", err=True
+        )

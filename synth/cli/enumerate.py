@@ -9,8 +9,11 @@ from typing import Any
 
 import click
 
+from synth.cli.addenda import addenda
 from synth.cli.chains import chains
 from synth.cli.output import console, plain, print_json, table
+from synth.cli.sc import sc
+from synth.cli.scd import scd
 
 __all__ = ["enumerate_group"]
 
@@ -25,10 +28,13 @@ def enumerate_group() -> None:
     Example:
       synth enumerate strings --max-dof 6
       synth enumerate chains --links 8 --dof 1
+      synth enumerate sc --links 8 --dof 1 --centres 3
+      synth enumerate scd --links 4 --dof 1 --max-degree 4
     """
 
 
-enumerate_group.add_command(chains)
+for _command in (chains, sc, scd, addenda):
+    enumerate_group.add_command(_command)
 
 
 def _limit(context: click.Context, parameter: click.Parameter, value: str) -> int | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -62,6 +62,12 @@ class RunOptions:
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
         self.workers = workers or _cores()
         self.scheduler = scheduler
+
+    @classmethod
+    def taken_from(cls, options: dict[str, Any]) -> RunOptions:
+        """Take the runner's own out of the options of a subcommand."""
+        names = ("output", "workers", "scheduler", "resume", "quiet", "as_json")
+        return cls(*(options.pop(name) for name in names))
 
 
 def _cores() -> int:
@@ -122,9 +128,9 @@ def run_rows(job: Job, options: RunOptions) -> None:
         )
         print_json(found)
         return
-    printer = _Printer()
+    printer = _Printer(job.columns)
     _run(job, RowSink(printer.take), options)
-    printer.finish(tuple(job.columns))
+    printer.finish()
 
 
 def _run(job: Job, sink: Sink, options: RunOptions) -> Progress:
@@ -175,37 +181,46 @@ def _time(seconds: float) -> str:
 
 
 class _Printer:
-    """Prints a table, or lines parted by tabs where there are too many rows for one."""
+    """Prints a table, or lines parted by tabs where there are too many rows for one; whole files are left out."""
 
-    def __init__(self) -> None:
-        self._kept: list[Row] = []
+    def __init__(self, columns: Mapping[str, type]) -> None:
+        self._shown = [i for i, column in enumerate(columns) if column != "mechanism"]
+        self._columns = [list(columns)[i] for i in self._shown]
+        self._numbers = [column for column in self._columns if columns[column] is int]
+        self._kept: list[list[str]] = []
         self._streaming = False
 
     def take(self, columns: tuple[str, ...], rows: list[Row]) -> None:
         """Keep rows for the table, or print them."""
-        self._kept += rows
+        del columns
+        self._kept += [[_cell(row[i]) for i in self._shown] for row in rows]
         if len(self._kept) > _MOST_IN_TABLE or self._streaming:
             if not self._streaming:
-                click.echo("\t".join(columns))
+                click.echo("\t".join(self._columns))
             self._streaming = True
-            click.echo("\n".join("\t".join(map(_cell, row)) for row in self._kept))
+            click.echo("\n".join("\t".join(row) for row in self._kept))
             self._kept = []
 
-    def finish(self, columns: tuple[str, ...]) -> None:
-        """Print the table, if there is one to print."""
+    def finish(self) -> None:
+        """Print the table, if there is one to print; what is the same in all rows goes above it."""
         if self._streaming:
             return
-        numbers = (
-            [name for name, value in zip(columns, self._kept[0], strict=True) if type(value) is int]
-            if self._kept
-            else []
-        )
-        made = table(
-            *(column.replace("_", " ") for column in columns), numbers=[n.replace("_", " ") for n in numbers]
-        )
+        common = [
+            i
+            for i in range(1, len(self._columns))
+            if len(self._kept) > 1 and len({row[i] for row in self._kept}) == 1
+        ]
+        if common:
+            click.echo("  ".join(f"{self._title(i)} {self._kept[0][i] or '-'}" for i in common))
+        left = [i for i in range(len(self._columns)) if i not in common]
+        numbers = [self._title(i) for i in left if self._columns[i] in self._numbers]
+        made = table(*map(self._title, left), numbers=numbers)
         for row in self._kept:
-            made.add_row(*map(_cell, row))
+            made.add_row(*(row[i] for i in left))
         console().print(made)
+
+    def _title(self, column: int) -> str:
+        return self._columns[column].replace("_", " ")
 
 
 def _cell(value: object) -> str:

@@ -2,10 +2,10 @@
 
 import networkx as nx
 import pytest
-from canonical import canonical_code
 from embeddings import spherical_embeddings
 from rigidity import chains_by_geng
 
+from graphs.class_identity import class_code
 from graphs.identity import chain_id
 from graphs.loops import Loop
 from graphs.overconstraint import diagnose
@@ -69,4 +69,4 @@ def face_code(links, joints, faces, outer):
 
 
 def test_canonical_codes_tell_no_more_than_the_loops():
-    assert len({canonical_code(sc) for sc in sc_graphs(6, 1)}) <= 4
+    assert len({class_code(sc) for sc in sc_graphs(6, 1)}) <= 4

@@ -1,0 +1,268 @@
+"""Every addendum of a mechanism: chains of new links between two of its links that close one loop more.
+
+The mechanism stays what it is: none of its axes loses a freedom to lie where it lay. So the new loop is one of
+
+* *ride-along*, or *spherical loop*, on a joint: it passes one joint of the mechanism and has a centre of its own
+  on its axis; a ride-along has two new links;
+* *dyad*, or *spherical loop*, in a class: it passes joints of one class only, and has its centre; a dyad has two
+  new links;
+* *spatial loop*: it has no centre, and it does not matter which way it goes through the mechanism.
+
+A chain of k links changes the mobility by k - 2, without a centre by k - 5 (Wiener 2016, Eqs. 5 and 6); every
+result is checked by its exact rank. Of those that a symmetry of the mechanism exchanges, one is listed.
+
+Source: Wiener 2016, section 4.2. Theory: docs/theory/scd-enumeration.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import networkx as nx
+
+from enumerate.run import Row, Unit
+from graphs.centres import CentreClass
+from graphs.class_identity import class_code, symmetries_of_links
+from graphs.edits import Edit, add_loop
+from graphs.errors import InvariantError
+from graphs.exact import exact_mobility
+from graphs.files.native import dumps
+from graphs.identity import chain_id
+from graphs.loops import Centre, JointId, LinkId
+from graphs.sc import SCGraph
+from graphs.scd import SCDGraph
+
+__all__ = ["ADDENDUM_COLUMNS", "Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
+
+ADDENDUM_COLUMNS: dict[str, type] = {
+    "kind": str,
+    "a": str,
+    "b": str,
+    "through": str,
+    "new_links": int,
+    "links": int,
+    "joints": int,
+    "centres": int,
+    "exact_dof": int,
+    "chain": str,
+    "mechanism": str,
+}
+
+_PAIRS = 50
+"""Pairs of links of a unit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Addendum:
+    """A mechanism with an addendum.
+
+    Attributes
+    ----------
+    kind : str
+        ``"ride-along"``, ``"dyad"``, ``"spherical loop"`` or ``"spatial loop"``.
+    ends : (link, link)
+        The links that carry it.
+    through : tuple of joint ids
+        The joints of the mechanism that the new loop passes.
+    edit : Edit
+        Before and after.
+    mobility : int
+        By the exact rank, after.
+    """
+
+    kind: str
+    ends: tuple[LinkId, LinkId]
+    through: tuple[JointId, ...]
+    edit: Edit
+    mobility: int
+
+
+def addenda(mechanism: SCGraph, delta_dof: int) -> Iterator[Addendum]:
+    """Yield every addendum that changes the mobility of a mechanism by a number, one of each orbit.
+
+    Parameters
+    ----------
+    mechanism : SCGraph
+        Connected. Of an SCD graph the SC graph is taken: addenda have no sides yet. Its ground link counts.
+    delta_dof : int
+        dM; -2 or more: two links have K + 2 new ones between them, or K + 5 in a spatial loop.
+
+    Raises
+    ------
+    InvariantError
+        If the number is too small, or the mechanism has several parts.
+    UnsolvableError
+        If the mechanism cannot be placed to find its rank.
+
+    Examples
+    --------
+    On a spherical four-bar: a ride-along on its joint, dyads between neighbours and opposite links, spatial loops:
+
+    >>> from graphs.loops import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> [(one.kind, len(one.through)) for one in addenda(four_bar, 0)]
+    [('ride-along', 1), ('dyad', 3), ('spatial loop', 1), ('dyad', 2), ('spatial loop', 2)]
+    """
+    job = AddendumJob(mechanism, delta_dof)
+    before = exact_mobility(job.mechanism).mobility
+    for pair in job.pairs():
+        yield from job.on_pair(*pair, before)
+
+
+@dataclass(frozen=True)
+class AddendumJob:
+    """All addenda of a mechanism as rows; see `addenda`.
+
+    Attributes
+    ----------
+    mechanism : SCGraph
+    delta_dof : int
+    """
+
+    mechanism: SCGraph
+    delta_dof: int
+
+    def __post_init__(self) -> None:
+        if self.delta_dof < -2:
+            raise InvariantError("relative mobility", f"a change of {self.delta_dof}", "-2 or more")
+        if self.mechanism.components != 1:
+            raise InvariantError("connected", f"the mechanism has {self.mechanism.components} parts", "one")
+        if isinstance(self.mechanism, SCDGraph):
+            object.__setattr__(self, "mechanism", self.mechanism.sc_graph())
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """Names and types of the values of a row."""
+        return ADDENDUM_COLUMNS
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"enumerate": "addenda", "of": dumps(self.mechanism), "delta_dof": self.delta_dof}
+
+    def pairs(self) -> list[tuple[LinkId, LinkId]]:
+        """Return one pair of links of each orbit under the symmetries of the mechanism."""
+        orbits = nx.utils.UnionFind(frozenset(pair) for pair in combinations(self.mechanism.nodes, 2))
+        for moved in symmetries_of_links(self.mechanism):
+            for a, b in combinations(self.mechanism.nodes, 2):
+                orbits.union(frozenset((a, b)), frozenset((moved[a], moved[b])))
+        seen: set[Any] = set()
+        found = []
+        for a, b in combinations(self.mechanism.nodes, 2):
+            root = orbits[frozenset((a, b))]
+            if root not in seen:
+                seen.add(root)
+                found.append((a, b))
+        return found
+
+    def units(self) -> list[Unit]:
+        """Units of some pairs of links each."""
+        pairs = self.pairs()
+        return [
+            Unit(tuple(pairs[i : i + _PAIRS]), len(pairs[i : i + _PAIRS])) for i in range(0, len(pairs), _PAIRS)
+        ]
+
+    def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
+        """Return the rows of a unit."""
+        before = exact_mobility(self.mechanism).mobility
+        return [_row(one) for a, b in payload for one in self.on_pair(a, b, before)]
+
+    def on_pair(self, a: LinkId, b: LinkId, before: int) -> Iterator[Addendum]:
+        """Yield the addenda between two links; no two are exchanged by a symmetry.
+
+        Parameters
+        ----------
+        a, b : link ids
+        before : int
+            Mobility of the mechanism.
+        """
+        seen: set[Any] = set()
+        for kind, through, links, centre in self._loops(a, b):
+            edit = add_loop(self.mechanism, a, b, links, centre=centre, through=through)
+            new = set(edit.graph.nodes) - set(self.mechanism.nodes)
+            code = class_code(edit.graph, new)
+            if code in seen:
+                continue
+            seen.add(code)
+            mobility = exact_mobility(edit.graph).mobility
+            if mobility == before + self.delta_dof:
+                yield Addendum(kind, (a, b), tuple(through), edit, mobility)
+
+    def _loops(self, a: LinkId, b: LinkId) -> Iterator[tuple[str, list[JointId], int, Centre]]:
+        """Yield kind, joints passed, number of new links and centre of each new loop between two links."""
+        links = self.delta_dof + 2
+        between = list(self.mechanism[a].get(b, ()))
+        if links > 0 or not between:  # two links are joined once
+            for joint in between:
+                yield "ride-along" if links == 2 else "spherical loop", [joint], links, Centre.FINITE
+            for one in self.mechanism.centre_classes():
+                path = self._path(a, b, one)
+                if path:
+                    yield "dyad" if links == 2 else "spherical loop", path, links, one.centre
+        links = self.delta_dof + 5
+        yield "spatial loop", self._path(a, b, None) or between[:1], links, Centre.NONE
+
+    def _path(self, a: LinkId, b: LinkId, one: CentreClass | None) -> list[JointId]:
+        """Return a shortest path of two joints or more, within a class if one is given; empty if there is none."""
+        joints = (
+            self.mechanism.joints if one is None else {joint: self.mechanism.joints[joint] for joint in one.joints}
+        )
+        inside = nx.Graph()
+        for joint, (u, v) in joints.items():
+            if {u, v} != {a, b}:
+                inside.add_edge(u, v, joint=joint)
+        if one is None and self.mechanism.has_edge(a, b):
+            return []
+        if not (a in inside and b in inside and nx.has_path(inside, a, b)):
+            return []
+        path = nx.shortest_path(inside, a, b)
+        return [inside[u][v]["joint"] for u, v in nx.utils.pairwise(path)]
+
+
+def _row(one: Addendum) -> Row:
+    after = one.edit.graph
+    return (
+        one.kind,
+        *map(str, one.ends),
+        " ".join(map(str, one.through)),
+        len(after) - len(one.edit.before),
+        len(after),
+        len(after.joints),
+        len(after.centre_classes()),
+        one.mobility,
+        chain_id(nx.MultiGraph(after)),
+        dumps(after),
+    )
+
+
+@dataclass(frozen=True)
+class AddendumCountJob:
+    """The number of addenda; rows are numbers to be added.
+
+    Attributes
+    ----------
+    rows : AddendumJob
+    """
+
+    rows: AddendumJob
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "addenda", **self.rows.key}
+
+    def units(self) -> list[Unit]:
+        """Return those of the job."""
+        return self.rows.units()
+
+    def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
+        """Return the number of rows of a unit."""
+        return [(len(self.rows.work(payload)),)]

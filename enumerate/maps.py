@@ -1,0 +1,285 @@
+"""Maps: link-joint graphs drawn on the sphere; their faces, canonical codes and symmetries, compiled.
+
+Joint k has two *darts*, 2k and 2k + 1, one at each of its links; the other dart of d is ``d ^ 1``. A map is
+
+    turn : int64[2, D]
+        The next dart counter-clockwise, and clockwise, about the same link.
+    vertex : int64[D]
+        The link of each dart.
+
+A *corner* is the part of a link between a dart d and the next one counter-clockwise; it has the number d and
+lies in the face on the left of d. Open edges lie in corners.
+
+A *code* reads a map off breadth-first: from a root dart, link by link in the order in which they are met, the
+sides of each in their cyclic order, beginning with the joint by which it was met. Joints are numbered as they
+come, so every one occurs twice. A map may be read counter-clockwise or clockwise; the canonical code is the
+least over all allowed roots and both senses, and the roots that give it are the symmetries. The text form is in
+`graphs.map_identity`. Source: DESIGN, section 6. Theory: docs/theory/map-codes.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from enumerate.compiled import Bytes, Ints, compiled, doubled
+
+__all__ = ["END", "JOINT", "OPEN", "canonical_map", "decode_map", "faces_of", "from_turns", "symmetries_of_map"]
+
+OPEN, END, JOINT = 0, 1, 2
+"""Symbols of a code: an open edge, the end of a link; joint k is ``JOINT + k``."""
+
+
+@compiled
+def faces_of(turn: Ints) -> tuple[Ints, int]:
+    """Return the face on the left of each dart, and the number of faces."""
+    face = np.full(turn.shape[1], -1, np.int64)
+    count = 0
+    for first in range(turn.shape[1]):
+        d = first
+        while face[d] < 0:
+            face[d] = count
+            d = turn[1, d ^ 1]
+        count += face[first] == count
+    return face, count
+
+
+@compiled
+def from_turns(after: Ints) -> Ints:
+    """Return both rows of ``turn`` from the first."""
+    turn = np.empty((2, len(after)), np.int64)
+    for d in range(len(after)):
+        turn[0, d] = after[d]
+        turn[1, after[d]] = d
+    return turn
+
+
+@compiled
+def decode_map(code: Bytes) -> tuple[Ints, Ints, Ints]:
+    """Return the map of a code without labels, and the number of open edges in each of its corners.
+
+    The root is dart 0, and links are numbered as they come.
+
+    Returns
+    -------
+    turn, vertex : int64[2, D], int64[D]
+    open_edges : int64[D]
+    """
+    highest = np.int64(0)
+    for symbol in code:
+        highest = max(highest, np.int64(symbol))
+    darts = 2 * (highest - JOINT + 1)
+    after = np.zeros(darts, np.int64)
+    vertex = np.zeros(darts, np.int64)
+    open_edges = np.zeros(darts, np.int64)
+    known = np.zeros(darts, np.bool_)
+    link, first, last = 0, -1, -1
+    for symbol in code:
+        if symbol == END:
+            after[last] = first
+            link, first, last = link + 1, -1, -1
+        elif symbol == OPEN:
+            open_edges[last] += 1
+        else:
+            d = 2 * (np.int64(symbol) - JOINT)
+            d += known[d]
+            known[d], vertex[d] = True, link
+            if first < 0:
+                first = d
+            else:
+                after[last] = d
+            last = d
+    return from_turns(after), vertex, open_edges
+
+
+@compiled
+def _read(
+    turn: Ints,
+    vertex: Ints,
+    open_edges: Ints,
+    face: Ints,
+    labels: Ints,
+    side: int,
+    root: int,
+    best: Bytes,
+    length: int,
+    code: Bytes,
+    order: Ints,
+    work: Ints,
+) -> tuple[int, int]:
+    """Write the code of a map from a root; stop where it is seen to be greater than the best.
+
+    Parameters
+    ----------
+    side : int
+        0 to read counter-clockwise, 1 clockwise.
+    best, length : uint8[:], int
+        The least code so far, and its length; 0 where there is none.
+    code, order : uint8[:], int64[D]
+        Where to write the code and the darts in the order in which they were read.
+    work : int64[4, >= D]
+        Work space.
+
+    Returns
+    -------
+    verdict : int
+        -1 less than the best, 0 equal, 1 greater.
+    size : int
+        Length of the code.
+    """
+    verdict = -1 if length == 0 else 0
+    joint, link, start = work[0], work[1], work[2]
+    for k in range(work.shape[1]):
+        joint[k] = link[k] = -1
+    start[0], link[vertex[root]] = root, 0
+    joints, links, size, at, reads = 0, 1, 0, 0, 0
+    while at < links:
+        d = start[at]
+        while True:
+            if joint[d >> 1] < 0:
+                joint[d >> 1] = joints
+                joints += 1
+            there = vertex[d ^ 1]
+            if link[there] < 0:
+                link[there] = links
+                start[links] = d ^ 1
+                links += 1
+            order[reads] = d
+            reads += 1
+            code[size] = JOINT + joint[d >> 1]
+            verdict = _judged(verdict, code, best, size)
+            size += 1
+            for _ in range(open_edges[d if side == 0 else turn[1, d]]):
+                code[size] = OPEN
+                verdict = _judged(verdict, code, best, size)
+                size += 1
+            d = turn[side, d]
+            if d == start[at]:
+                break
+        code[size] = END
+        verdict = _judged(verdict, code, best, size)
+        if verdict > 0:
+            return verdict, size
+        size += 1
+        at += 1
+    return _read_labels(turn, face, labels, side, best, code, order, work[3], verdict, size)
+
+
+@compiled
+def _judged(verdict: int, code: Bytes, best: Bytes, place: int) -> int:
+    """Return how a code compares with the best, once it has a symbol in one place more."""
+    if verdict == 0 and code[place] != best[place]:
+        return 1 if code[place] > best[place] else -1
+    return verdict
+
+
+@compiled
+def _read_labels(
+    turn: Ints,
+    face: Ints,
+    labels: Ints,
+    side: int,
+    best: Bytes,
+    code: Bytes,
+    order: Ints,
+    seen: Ints,
+    verdict: int,
+    size: int,
+) -> tuple[int, int]:
+    """Write the labels of the faces after a code, in the order in which it met them."""
+    if len(labels):
+        for f in range(len(labels)):
+            seen[f] = 0
+        for d in order:
+            f = face[d if side == 0 else turn[1, d]]
+            if not seen[f]:
+                seen[f] = 1
+                code[size] = labels[f]
+                verdict = _judged(verdict, code, best, size)
+                size += 1
+    return verdict, size
+
+
+@compiled
+def canonical_map(
+    turn: Ints, vertex: Ints, open_edges: Ints, face: Ints, labels: Ints, key: Ints
+) -> tuple[Bytes, Ints, Ints]:
+    """Return the canonical code of a map and all readings that give it.
+
+    Parameters
+    ----------
+    turn, vertex : int64[2, D], int64[D]
+    open_edges : int64[D]
+        In each corner.
+    face : int64[D]
+        Face of each corner.
+    labels : int64[F]
+        Labels of the faces, 0 to 255, which a symmetry must keep; empty where there are none. They end the code,
+        in the order in which the faces are met.
+    key : int64[2, D]
+        Roots, of each sense, with the least key not below 0 are allowed.
+
+    Returns
+    -------
+    code : uint8[:]
+    orders : int64[k, D]
+        The darts in the order of each reading that gives the code.
+    sides : int64[k]
+        Its sense.
+    """
+    darts = len(vertex)
+    size = len(labels) + 2 * darts
+    for d in range(darts):
+        size += open_edges[d]
+    lowest = -1
+    for side in range(2):
+        for d in range(darts):
+            if key[side, d] >= 0 and (lowest < 0 or key[side, d] < lowest):
+                lowest = key[side, d]
+    best, code = np.zeros(size, np.uint8), np.zeros(size, np.uint8)
+    orders = np.zeros((4, darts), np.int64)
+    sides = np.zeros(2 * darts, np.int64)
+    order = np.zeros(darts, np.int64)
+    work = np.zeros((4, max(darts, len(labels)) + 1), np.int64)
+    found = length = 0
+    for side in range(2):
+        for root in range(darts):
+            if key[side, root] != lowest:
+                continue
+            verdict, size = _read(
+                turn, vertex, open_edges, face, labels, side, root, best, length, code, order, work
+            )
+            if verdict > 0:
+                continue
+            if verdict < 0:
+                best, code, length, found = code, best, size, 0
+            orders = doubled(orders) if found == len(orders) else orders
+            for i in range(darts):
+                orders[found, i] = order[i]
+            sides[found] = side
+            found += 1
+    return best[:length].copy(), orders[:found], sides[:found]
+
+
+@compiled
+def symmetries_of_map(turn: Ints, orders: Ints, sides: Ints) -> tuple[Ints, Ints]:
+    """Return the symmetries of a map as permutations, the identity first.
+
+    Parameters
+    ----------
+    turn : int64[2, D]
+    orders, sides : int64[k, D], int64[k]
+        As `canonical_map` returns them.
+
+    Returns
+    -------
+    darts, corners : int64[k, D]
+        Where each dart and each corner goes.
+    """
+    darts, corners = np.empty_like(orders), np.empty_like(orders)
+    for a in range(len(orders)):
+        for i in range(orders.shape[1]):
+            d, image = orders[0, i], orders[a, i]
+            darts[a, d] = image
+            # a mirror image has the corner on the other side of the dart
+            corners[a, d] = image if sides[a] == sides[0] else turn[1, image]
+    return darts, corners

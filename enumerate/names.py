@@ -1,0 +1,48 @@
+"""Chains that have names, in ``enumerate/named/chains.json``."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from importlib.resources import files
+
+from graphs.errors import InvariantError, shown
+
+__all__ = ["chain_named", "name_of"]
+
+
+@cache
+def _named() -> dict[str, str]:
+    text = files("enumerate").joinpath("named/chains.json").read_text(encoding="utf-8")
+    named: dict[str, str] = json.loads(text)
+    return named
+
+
+def name_of(chain: str) -> str:
+    """Return the name of a chain given by its id, or nothing.
+
+    Examples
+    --------
+    >>> name_of("k1:Cr")
+    'four-bar'
+    """
+    return next((name for name, code in _named().items() if code == chain), "")
+
+
+def chain_named(name: str) -> str:
+    """Return the id of a chain given by its name.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such name.
+
+    Examples
+    --------
+    >>> chain_named("four-bar")
+    'k1:Cr'
+    """
+    code = _named().get(name.lower())
+    if code is None:
+        raise InvariantError("chain", f"no chain is named {shown(name)}", " ".join(_named()))
+    return code

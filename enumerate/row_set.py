@@ -1,0 +1,52 @@
+"""Sets of rows of bytes that keep the order in which rows came, compiled."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from enumerate.compiled import Bytes, Ints, compiled, doubled
+
+__all__ = ["empty_set", "insert"]
+
+
+@compiled
+def empty_set(width: int) -> tuple[Ints, Bytes, int]:
+    """Return the table, the rows (none of them in use) and the number of rows of a new set."""
+    return np.full(256, -1, np.int64), np.empty((64, width), np.uint8), 0
+
+
+@compiled
+def _slot(table: Ints, rows: Bytes, row: Bytes) -> np.int64:
+    """Return where a row is in a hash table of rows, or the free slot where it belongs."""
+    word = np.uint64(0)
+    for byte in row:
+        word = (word ^ np.uint64(byte)) * np.uint64(0x9E3779B97F4A7C15)
+        word ^= word >> np.uint64(32)
+    slot = np.int64(word & np.uint64(len(table) - 1))
+    while table[slot] >= 0:
+        other = rows[table[slot]]
+        k = 0
+        while k < len(row) and other[k] == row[k]:
+            k += 1
+        if k == len(row):
+            return slot
+        slot = (slot + 1) & np.int64(len(table) - 1)
+    return slot
+
+
+@compiled
+def insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes, int]:
+    """Add a row to a set of rows, which may grow; return table, rows and their number."""
+    slot = _slot(table, rows, row)
+    if table[slot] >= 0:
+        return table, rows, used
+    table[slot] = used
+    for k in range(len(row)):
+        rows[used, k] = row[k]
+    used += 1
+    if used == len(rows):
+        rows = doubled(rows)
+        table = np.full(8 * used, -1, np.int64)
+        for i in range(used):
+            table[_slot(table, rows, rows[i])] = i
+    return table, rows, used

@@ -1,0 +1,238 @@
+"""The jobs of SC graph enumeration: how listing and counting are split into units."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from enumerate.compiled import Bytes, Ints
+from enumerate.contracted_maps import contracted_maps
+from enumerate.embedded import outer_faces
+from enumerate.maps import decode_map
+from enumerate.run import Row, Unit
+from enumerate.sc_listing import count_drawn, count_drawn_by_burnside, weight_of
+from enumerate.sc_query import SCQuery
+from enumerate.sc_rows import SC_COLUMNS, DrawnChains, sc_rows_of
+from graphs.errors import UnsolvableError
+
+__all__ = ["MapPart", "Maps", "SCCountJob", "SCJob", "drawn_of", "map_units", "maps_for", "sc_count_job"]
+
+UNIT_ROWS = 20_000
+"""SC graphs of a unit, about; a map with more is split."""
+
+_MAPS = 256
+"""Maps of a unit of counting."""
+
+_NOWHERE = np.zeros(0, np.int64)
+_RING: Bytes = np.zeros(0, np.uint8)
+
+
+@dataclass(frozen=True, slots=True)
+class MapPart:
+    """SC graphs of one contracted map and outer face that begin in one way; an empty code is a ring."""
+
+    code: Bytes
+    n: int
+    outer: int
+    only: int = -1
+    prefix: Ints = field(default_factory=lambda: _NOWHERE)
+
+
+Maps = tuple[MapPart, ...]
+
+
+def maps_for(query: SCQuery) -> Iterator[tuple[int, Bytes]]:
+    """Yield the contracted maps whose chains can be among those asked for, most links first."""
+    if not query.possible or query.loops < 2:
+        return
+    for n, codes in contracted_maps(query.loops):
+        if n > query.links:
+            continue
+        if query.assortment is None:
+            yield n, codes
+        else:
+            yield n, codes[[_admits(query, code, n) for code in codes]]
+
+
+def _admits(query: SCQuery, code: Bytes, n: int) -> bool:
+    degrees = Counter(np.bincount(decode_map(code)[1], minlength=n).tolist())
+    degrees[2] = query.links - n
+    return query.chains.admits_assortment(degrees)
+
+
+def map_units(query: SCQuery) -> Iterator[Unit]:
+    """Yield units whose payloads are `Maps`; their weights are numbers of drawn chains."""
+    if query.possible and query.loops == 1:
+        degrees = Counter({2: query.links})
+        low, high = query.longest_string
+        if low <= query.links <= (high or query.links) and query.chains.admits_assortment(degrees):
+            yield Unit((MapPart(_RING, 0, 0),))
+    held: list[MapPart] = []
+    weight = 0
+    for part, count in _parts(query):
+        if held and weight + count > UNIT_ROWS:
+            yield Unit(tuple(held), weight)
+            held, weight = [], 0
+        held.append(part)
+        weight += count
+    if held:
+        yield Unit(tuple(held), weight)
+
+
+def _parts(query: SCQuery) -> Iterator[tuple[MapPart, int]]:
+    """Yield parts of no more than some thousands of SC graphs, where it can be done, and their numbers."""
+    for n, codes in maps_for(query):
+        for code in codes:
+            for outer in outer_faces(code).tolist():
+                yield from _split(query, MapPart(code, n, outer))
+
+
+def number_in(query: SCQuery, part: MapPart) -> int:
+    """Return the number of drawn chains of a part."""
+    return int(weight_of(part.code, part.n, part.outer, query.links, query.chains.most, part.only, part.prefix))
+
+
+def _split(query: SCQuery, part: MapPart) -> Iterator[tuple[MapPart, int]]:
+    count = number_in(query, part)
+    if count <= 2 * UNIT_ROWS:
+        if count:
+            yield part, count
+    elif part.only < 0:
+        for only in range(query.links - part.n + 1):
+            yield from _split(query, MapPart(part.code, part.n, part.outer, only))
+    elif len(part.prefix) >= query.links - part.n:
+        yield part, count
+    else:
+        joints = (len(part.code) - part.n) // 2
+        for slot in range(part.prefix[-1] if len(part.prefix) else 0, joints):
+            prefix = np.append(part.prefix, slot)
+            yield from _split(query, MapPart(part.code, part.n, part.outer, part.only, prefix))
+
+
+def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
+    """Return the SC graphs of a part."""
+    return DrawnChains.of(query, part.code, part.n, part.outer, part.only, part.prefix)
+
+
+@dataclass(frozen=True)
+class SCJob:
+    """All SC graphs that a query asks for, as rows.
+
+    Attributes
+    ----------
+    query : SCQuery
+    """
+
+    query: SCQuery
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """Names and types of the values of a row."""
+        return SC_COLUMNS
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"enumerate": "sc", **self.query.key}
+
+    def units(self) -> list[Unit]:
+        """Units of some thousands of rows each."""
+        return list(map_units(self.query))
+
+    def work(self, payload: Maps) -> list[Row]:
+        """Return the rows of a unit."""
+        return [row for part in payload for row in sc_rows_of(self.query, drawn_of(self.query, part))]
+
+
+@dataclass(frozen=True)
+class SCCountJob:
+    """The number of SC graphs of which nothing is asked but what their chains show; rows are numbers to be added.
+
+    Attributes
+    ----------
+    query : SCQuery
+    method : {"orbits", "burnside"}
+    outside : bool
+        Whether an outer face is chosen; else embeddings in the sphere are counted.
+    """
+
+    query: SCQuery
+    method: str = "orbits"
+    outside: bool = True
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "sc", "method": self.method, "outside": self.outside, **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """Units of some hundreds of maps each."""
+        return [
+            Unit((n, codes[i : i + _MAPS]), len(codes[i : i + _MAPS]))
+            for n, codes in maps_for(self.query)
+            for i in range(0, len(codes), _MAPS)
+        ]
+
+    def work(self, payload: tuple[int, Bytes]) -> list[Row]:
+        """Return the number of SC graphs of a unit."""
+        query, low = self.query, self.query.longest_string[0]
+        count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
+
+        def number(most: int) -> int:
+            return int(count(payload[1], payload[0], query.links, most, self.outside))
+
+        return [(number(query.chains.most) - (number(low - 1) if low > 0 else 0),)]
+
+
+@dataclass(frozen=True)
+class _ListedCountJob:
+    """The number of SC graphs that have to be made to be counted."""
+
+    query: SCQuery
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "sc", **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """Return those of the listing."""
+        return list(map_units(self.query))
+
+    def work(self, payload: Maps) -> list[Row]:
+        """Return the number of SC graphs of a unit; nothing about them is worked out that is not asked for."""
+        return [(sum(len(drawn_of(self.query, part).x) for part in payload),)]
+
+
+def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | _ListedCountJob:
+    """Return the job that counts what a query asks for.
+
+    Raises
+    ------
+    UnsolvableError
+        If it can only be counted by listing, and Burnside's lemma or embeddings without outer face are asked for.
+    """
+    if query.unfiltered and query.loops > 1:
+        return SCCountJob(query, method, outside)
+    if method == "burnside" and query.loops > 1:
+        raise UnsolvableError(
+            "Burnside's lemma counts SC graphs with finite centres, by assortment and longest string; "
+            "not by centres, symmetries, spatial loops or centres at infinity"
+        )
+    if not outside and query.loops > 1:
+        raise UnsolvableError("embeddings without outer face have no centres yet to choose them by")
+    return _ListedCountJob(query)

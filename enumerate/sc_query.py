@@ -1,0 +1,116 @@
+"""Which SC graphs are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from enumerate.centre_labels import MOST_JOINTS
+from enumerate.chain_query import ChainQuery, Range
+from enumerate.contracted_maps import MOST_MAP_LOOPS
+from graphs.errors import InvariantError
+
+__all__ = ["SCQuery"]
+
+
+@dataclass(frozen=True, slots=True)
+class SCQuery:
+    """The SC graphs of N links and M degrees of freedom: drawn chains with an outer face and centres.
+
+    Attributes
+    ----------
+    links, dof : int
+        N >= 4 and M >= 1.
+    spatial : int
+        Number of loops without a centre; each takes three freedoms more than a loop with one.
+    infinite : bool
+        Also centres at infinity: every choice of classes of which no two share a joint.
+    centres : (int, int or None)
+        Limits of the number of classes of loops with one centre.
+    symmetry : (int, int or None)
+        Limits of the number of symmetries.
+    assortment : tuple of int, optional
+        Numbers of binary, ternary, ... links; missing ones are 0.
+    longest_string : (int, int or None)
+        Limits of the number of binary links in the longest row of them; a ring of N links counts N.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> SCQuery(9, 1, spatial=1).loops
+    2
+    """
+
+    links: int
+    dof: int
+    spatial: int = 0
+    infinite: bool = False
+    centres: Range = (0, None)
+    symmetry: Range = (1, None)
+    assortment: tuple[int, ...] | None = None
+    longest_string: Range = (0, None)
+
+    def __post_init__(self) -> None:
+        if self.spatial < 0:
+            raise InvariantError("spatial loops", f"{self.spatial} spatial loops", "0 or more")
+        if self.dof < 1:
+            raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
+        for name, (low, high) in {"centres": self.centres, "symmetry": self.symmetry}.items():
+            if high is not None and high < low:
+                raise InvariantError(name, f"the range {low} to {high}", "the smaller number first")
+        if self.chains.loops > MOST_MAP_LOOPS:
+            raise InvariantError(
+                "loops",
+                f"{self.links} links with M = {self.dof} have {self.loops} loops",
+                f"{MOST_MAP_LOOPS} at most",
+            )
+        if self.chains.joints > MOST_JOINTS:
+            raise InvariantError("joints", f"{self.chains.joints} joints", f"{MOST_JOINTS} at most")
+
+    @property
+    def chains(self) -> ChainQuery:
+        """The chains to be drawn: with a loop of three equations in the place of each spatial one."""
+        return ChainQuery(
+            self.links,
+            self.dof + 3 * self.spatial,
+            assortment=self.assortment,
+            longest_string=self.longest_string,
+        )
+
+    @property
+    def loops(self) -> int:
+        """Independent loops."""
+        return self.chains.loops
+
+    @property
+    def possible(self) -> bool:
+        """Whether there can be any: N - 1 - M - 3 S is even, and there are loops, S of them spatial."""
+        return self.chains.possible and self.loops >= self.spatial
+
+    @property
+    def plain(self) -> bool:
+        """Whether all loops have finite centres, so that there is one labelling."""
+        return self.spatial == 0 and not self.infinite
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The query in JSON values."""
+        return {
+            "links": self.links,
+            "dof": self.dof,
+            "spatial": self.spatial,
+            "infinite": self.infinite,
+            "centres": list(self.centres),
+            "symmetry": list(self.symmetry),
+            "assortment": None if self.assortment is None else list(self.assortment),
+            "longest_string": list(self.longest_string),
+        }
+
+    @property
+    def unfiltered(self) -> bool:
+        """Whether nothing is asked of an SC graph that its chain's placement does not show."""
+        return self.plain and self.centres == (0, None) and self.symmetry == (1, None)

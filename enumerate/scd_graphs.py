@@ -1,0 +1,177 @@
+"""SCD graphs: every valid placement of open edges on every SC graph, and on every plane tree.
+
+The thesis stops at single examples of SCD graphs (section 3.4); here are all of a size, by the rules of
+`graphs.scd_rules` and with the exact rank under the forced geometry (rule S3). Theory:
+docs/theory/scd-enumeration.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from enumerate.centre_labels import FINITE, MOST_JOINTS, OUTER
+from enumerate.map_texts import LABEL_LETTERS
+from enumerate.run import run
+from enumerate.scd_jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
+from enumerate.scd_query import PlacementQuery, SCDQuery
+from enumerate.sinks import CountSink
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.map_identity import map_code, map_id, mechanism_from_map_id
+from graphs.report import mobility_report
+from graphs.sc import SCGraph
+from graphs.scd import SCDGraph
+
+__all__ = ["all_mechanisms", "count_scd_graphs", "mechanism_of", "scd_graphs", "scd_graphs_of", "scd_rows"]
+
+_OPEN = 0
+
+
+def scd_graphs(links: int, dof: int, max_degree: int, **options: Any) -> Iterator[SCDGraph]:
+    """Yield all SCD graphs of N links and M degrees of freedom, in a fixed order.
+
+    Parameters
+    ----------
+    links, dof : int
+        With M = N - 1 open chains, else as for `enumerate.sc_graphs.sc_graphs`.
+    max_degree : int
+        The most sides of a link.
+    **options
+        Other fields of `PlacementQuery` and `SCDQuery`: ``sheets``, ``symmetric``, ``vertices``, ``spatial``,
+        ``infinite``.
+
+    Yields
+    ------
+    SCDGraph
+        Graph attributes hold the row of `scd_rows`.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> [scd.counts.vertices for scd in scd_graphs(4, 1, 4)]
+    [8, 5, 6, 7, 7, 8, 9]
+    """
+    yield from _graphs(all_mechanisms(links, dof, max_degree, **options))
+
+
+def scd_graphs_of(mechanism: SCGraph, max_degree: int, **options: Any) -> Iterator[SCDGraph]:
+    """Yield all SCD graphs of an SC graph; see `mechanism_of`.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> len(list(scd_graphs_of(four_bar, 4)))
+    7
+    """
+    yield from _graphs(mechanism_of(mechanism, max_degree, **options))
+
+
+def _graphs(mechanisms: Mechanisms) -> Iterator[SCDGraph]:
+    for row in _rows(mechanisms):
+        scd = mechanism_from_map_id(row["code"])
+        assert isinstance(scd, SCDGraph)
+        scd.graph.update(row)
+        yield scd
+
+
+def scd_rows(links: int, dof: int, max_degree: int, **options: Any) -> Iterator[dict[str, Any]]:
+    """Yield a dictionary for each SCD graph.
+
+    Keys: ``code`` (its id), ``sc`` (id of its SC graph), ``chain`` (id of the link-joint graph), ``links``,
+    ``joints``, ``dof``, ``loops``, ``spatial``, ``centres``, ``infinite`` (as for
+    `enumerate.sc_graphs.sc_rows`), ``sides`` (numbers of links with 3, 4, ... sides), ``open_edges``,
+    ``vertices`` (of the polyhedron model), ``explicit``, ``implicit`` (centres of loops), ``symmetry``,
+    ``exact_dof`` (joints minus rank, vertices placed too).
+
+    Parameters
+    ----------
+    links, dof, max_degree, **options
+        As for `scd_graphs`.
+    """
+    yield from _rows(all_mechanisms(links, dof, max_degree, **options))
+
+
+def _rows(mechanisms: Mechanisms) -> Iterator[dict[str, Any]]:
+    job = SCDJob(mechanisms)
+    for unit in job.units():
+        for row in job.work(unit.payload):
+            yield dict(zip(job.columns, row, strict=True))
+
+
+def count_scd_graphs(
+    links: int, dof: int, max_degree: int, method: str | None = None, *, workers: int = 1, **options: Any
+) -> int:
+    """Return the number of SCD graphs of N links and M degrees of freedom.
+
+    Parameters
+    ----------
+    links, dof, max_degree, **options
+        As for `scd_graphs`.
+    method : {"burnside", "orbits"}, optional
+        Two ways: ``orbits`` makes every placement and compares it with its images, ``burnside`` makes none.
+    workers : int
+        Processes.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+    UnsolvableError
+        If the method does not count what is asked for, or a number is past counting.
+
+    Examples
+    --------
+    >>> [count_scd_graphs(links, 1, 3) for links in (4, 6, 8)]
+    [1, 1, 2]
+    """
+    sink = CountSink()
+    run(scd_count_job(all_mechanisms(links, dof, max_degree, **options), method), sink, workers=workers)
+    return sink.total
+
+
+def all_mechanisms(
+    links: int, dof: int, max_degree: int, *, spatial: int = 0, infinite: bool = False, **options: Any
+) -> AllMechanisms:
+    """Return the mechanisms of a size as a source of `SCDJob`; arguments as for `scd_graphs`."""
+    query = SCDQuery(links, dof, PlacementQuery(max_degree, **options), spatial, infinite)
+    return AllMechanisms(query)
+
+
+def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMechanism:
+    """Return a mechanism as a source of `SCDJob`.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+        Its loops are the bounded faces of a drawing. Of an SCD graph, the open edges are placed anew. Names and
+        the ground link do not count.
+    max_degree, **options
+        Fields of `PlacementQuery`.
+
+    Raises
+    ------
+    UnsolvableError
+        If the loops are not faces (`graphs.map_identity.map_id`), or the mobility cannot be counted.
+    InvariantError
+        If there are too many joints.
+    """
+    query = PlacementQuery(max_degree, **options)
+    if len(mechanism.joints) + len(mechanism.loops) > MOST_JOINTS:
+        raise InvariantError(
+            "joints", f"{len(mechanism.joints)} joints and {len(mechanism.loops)} loops", f"{MOST_JOINTS} in all"
+        )
+    symbols, letters = map_code(mechanism)
+    code = np.array([symbol for symbol in symbols if symbol != _OPEN], np.uint8)
+    faces = len(mechanism.joints) - len(mechanism) + 1
+    labels = [OUTER, *(LABEL_LETTERS.index(letter) for letter in letters or faces * LABEL_LETTERS[FINITE])]
+    dof = mobility_report(mechanism).mobility
+    if dof is None:
+        raise UnsolvableError("the mobility of the mechanism cannot be counted")
+    return OneMechanism(map_id(mechanism), dof, Drawn(code[None], np.array([labels], np.int64)), query)

@@ -1,0 +1,266 @@
+"""Placements of open edges on a drawn mechanism, listed and counted, compiled.
+
+A placement is a *pattern* (`enumerate.open_edges`), a set of *explicit* faces whose corners have no open edge,
+at most one of a class, and a number of open edges in each corner that may have some. With pattern and explicit
+faces chosen, links do not depend on each other, so the placements of a mechanism are numbered: those of each
+choice follow each other, and count through the ways of the links like the digits of a number. Any range of
+numbers can be listed. Of each orbit under the symmetries the largest placement is kept. Theory:
+docs/theory/scd-enumeration.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from enumerate.compiled import Bytes, Ints, compiled, doubled
+from enumerate.embedded import code_of
+from enumerate.maps import END
+from enumerate.open_edge_choices import (
+    all_explicit,
+    corner_states,
+    drawn,
+    explicit_sets,
+    forced_mobility,
+    placements_of_choice,
+    room_of,
+    symmetries_of,
+    ways_to_lay,
+)
+from enumerate.open_edges import CLOSED, OPENED, has_centre, patterns
+
+__all__ = ["SCD_FACTS", "list_placements_of", "sides_of_all"]
+
+SCD_FACTS = ("open_edges", "vertices", "explicit", "implicit", "symmetry", "exact_dof")
+"""Columns of the facts of `list_placements_of`."""
+
+
+@compiled
+def list_placements_of(
+    code: Bytes, labels: Ints, most: int, dof: int, first: int, last: int, sheets: bool, symmetric: bool
+) -> tuple[Bytes, Ints, Ints]:
+    """List placements of open edges on a mechanism, one of each orbit, those of a range of numbers.
+
+    Parameters
+    ----------
+    code, labels, most
+        As for `enumerate.open_edge_choices.number_of_placements`.
+    dof : int
+        The rank must say so.
+    first, last : int
+        Placements with these numbers, the last excluded.
+    sheets : bool
+        Only those with an explicit centre in every bounded face.
+    symmetric : bool
+        Only those with a symmetry.
+
+    Returns
+    -------
+    codes : uint8[r, width]
+        Codes with the labels at their end, then nothing.
+    lengths : int64[r]
+    facts : int64[r, 6]
+        `SCD_FACTS`.
+    """
+    turn, vertex, face, kinds, number = drawn(code, labels)
+    symmetries = symmetries_of(turn, vertex, face, kinds)
+    sets = explicit_sets(kinds, number)
+    allowed = patterns(turn, vertex, face, kinds, number, most)
+    links = len(code) - len(vertex)
+    codes = np.zeros((64, len(vertex) + links + len(labels) + links * most), np.uint8)
+    facts = np.zeros((64, len(SCD_FACTS) + 1), np.int64)
+    used = start = 0
+    for p in range(len(allowed)):
+        mobility = -2  # not yet known
+        for explicit in sets:
+            if sheets and not all_explicit(kinds, explicit):
+                continue
+            states = corner_states(face, kinds, allowed[p], explicit)
+            size = placements_of_choice(vertex, states, most)
+            begin, end = max(first - start, 0), min(last - start, size)
+            start += size
+            if begin >= end:
+                continue
+            if mobility == -2:
+                mobility = forced_mobility(turn, face, kinds, number, allowed[p])
+            if mobility == dof:
+                codes, facts, used = _list_choice(
+                    turn, vertex, face, kinds, states, symmetries, most, begin, end, symmetric, codes, facts, used
+                )
+    for r in range(used):
+        facts[r, 5] = dof
+    return codes[:used], facts[:used, 6].copy(), facts[:used, :6].copy()
+
+
+@compiled
+def _list_choice(
+    turn: Ints,
+    vertex: Ints,
+    face: Ints,
+    kinds: Ints,
+    states: Bytes,
+    symmetries: Ints,
+    most: int,
+    begin: int,
+    end: int,
+    symmetric: bool,
+    codes: Bytes,
+    facts: Ints,
+    used: int,
+) -> tuple[Bytes, Ints, int]:
+    """Write the placements of one choice of pattern and explicit faces with numbers from begin to end."""
+    rows, offset = _tables(vertex, states, most)
+    digit = _digits(offset, begin)
+    place = _places(vertex, states, len(digit))
+    explicit, implicit, unopened = _face_facts(face, kinds, states)
+    placement = np.zeros(len(vertex), np.int64)
+    for _ in range(begin, end):
+        total = 0
+        for d in range(len(vertex)):
+            if states[d] != CLOSED:
+                placement[d] = (states[d] == OPENED) + rows[offset[vertex[d]] + digit[vertex[d]], place[d]]
+                total += placement[d]
+        fixed = _is_largest(placement, symmetries)
+        if fixed > symmetric:
+            if used == len(codes):
+                codes, facts = doubled(codes), doubled(facts)
+            text, _, _ = code_of(turn, vertex, placement, face, kinds, face[0])
+            for k in range(len(text)):
+                codes[used, k] = text[k]
+            facts[used, 0], facts[used, 1], facts[used, 2] = total, total + unopened, explicit
+            facts[used, 3], facts[used, 4], facts[used, 6] = implicit, fixed, len(text)
+            used += 1
+        _count_on(digit, offset)
+    return codes, facts, used
+
+
+@compiled
+def _tables(vertex: Ints, states: Bytes, most: int) -> tuple[Bytes, Ints]:
+    """Return the ways of all links to take open edges, one a row, and where those of each link begin."""
+    slots, low, high = room_of(vertex, states, most)
+    offset = np.zeros(len(slots) + 1, np.int64)
+    for v in range(len(slots)):
+        offset[v + 1] = offset[v] + ways_to_lay(slots[v], low[v], high[v])
+    rows = np.zeros((offset[-1], most), np.uint8)
+    for v in range(len(slots)):
+        here = _compositions(slots[v], low[v], high[v])
+        for i in range(len(here)):
+            for k in range(slots[v]):
+                rows[offset[v] + i, k] = here[i, k]
+    return rows, offset
+
+
+@compiled
+def _digits(offset: Ints, number: int) -> Ints:
+    """Return the way of each link in the placement of a number."""
+    digit = np.zeros(len(offset) - 1, np.int64)
+    for v in range(len(digit) - 1, -1, -1):
+        ways = offset[v + 1] - offset[v]
+        digit[v] = number % ways
+        number //= ways
+    return digit
+
+
+@compiled
+def _count_on(digit: Ints, offset: Ints) -> None:
+    """Go on to the next placement."""
+    v = len(digit) - 1
+    while v >= 0:
+        digit[v] += 1
+        if digit[v] < offset[v + 1] - offset[v]:
+            return
+        digit[v] = 0
+        v -= 1
+
+
+@compiled
+def _places(vertex: Ints, states: Bytes, links: int) -> Ints:
+    """Return the place of each corner among those of its link that take open edges."""
+    place = np.zeros(len(vertex), np.int64)
+    seen = np.zeros(links, np.int64)
+    for d in range(len(vertex)):
+        if states[d] != CLOSED:
+            place[d] = seen[vertex[d]]
+            seen[vertex[d]] += 1
+    return place
+
+
+@compiled
+def _face_facts(face: Ints, kinds: Ints, states: Bytes) -> tuple[int, int, int]:
+    """Return the numbers of explicit and implicit centres, and of faces without open edges."""
+    closed = np.ones(len(kinds), np.bool_)
+    for d in range(len(face)):
+        closed[face[d]] &= states[d] == CLOSED
+    explicit = centres = 0
+    for f in range(len(kinds)):
+        if has_centre(kinds[f]):
+            centres += 1
+            explicit += closed[f]
+    return explicit, centres - explicit, closed.sum()
+
+
+@compiled
+def _compositions(slots: int, low: int, high: int) -> Bytes:
+    """Return all ways to lay low to high things into slots, one a row."""
+    found = np.zeros((ways_to_lay(slots, low, high), max(slots, 1)), np.uint8)
+    if slots == 0:
+        return found
+    used = 0
+    things = np.zeros(slots, np.int64)
+    for total in range(low, high + 1):
+        for k in range(slots):
+            things[k] = 0
+        things[0] = total
+        while True:
+            for k in range(slots):
+                found[used, k] = things[k]
+            used += 1
+            k = 0
+            while k < slots and things[k] == 0:
+                k += 1
+            if k >= slots - 1:
+                break
+            held = things[k]
+            things[k] = 0
+            things[0] = held - 1
+            things[k + 1] += 1
+    return found
+
+
+@compiled
+def _is_largest(placement: Ints, symmetries: Ints) -> int:
+    """Return 0 if a symmetry makes a placement larger, else how many leave it as it is."""
+    fixed = 0
+    for a in range(len(symmetries)):
+        d = 0
+        while d < len(placement) and placement[symmetries[a, d]] == placement[d]:
+            d += 1
+        if d == len(placement):
+            fixed += 1
+        elif placement[symmetries[a, d]] > placement[d]:
+            return 0
+    return fixed
+
+
+@compiled
+def sides_of_all(codes: Bytes, lengths: Ints, labels: int, most: int) -> Ints:
+    """Return how many links have each number of sides: int64[r, most + 1].
+
+    Parameters
+    ----------
+    codes, lengths
+        As `list_placements_of` returns them.
+    labels : int
+        Number of labels at the end of each code.
+    most : int
+        The greatest link degree.
+    """
+    found = np.zeros((len(codes), most + 1), np.int64)
+    for r in range(len(codes)):
+        sides = 0
+        for k in range(lengths[r] - labels):
+            if codes[r, k] == END:
+                found[r, sides] += 1
+                sides = 0
+            else:
+                sides += 1
+    return found

@@ -1,0 +1,122 @@
+"""Which SCD graphs are asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from enumerate.chain_query import Range
+from enumerate.sc_query import SCQuery
+from graphs.errors import InvariantError
+
+__all__ = ["PlacementQuery", "SCDQuery"]
+
+_MOST_DEGREE = 60
+
+
+@dataclass(frozen=True, slots=True)
+class PlacementQuery:
+    """Which placements of open edges are asked for, on any mechanism.
+
+    Attributes
+    ----------
+    max_degree : int
+        The most sides of a link, joints and open edges together; 3 at least.
+    sheets : bool
+        Only all-explicit ones: every bounded face is a vertex of the links round it, so that the mechanism is one
+        sheet without holes.
+    symmetric : bool
+        Only those with a symmetry other than the identity.
+    vertices : (int, int or None)
+        Limits of the number of vertices of the polyhedron model.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+    """
+
+    max_degree: int
+    sheets: bool = False
+    symmetric: bool = False
+    vertices: Range = (0, None)
+
+    def __post_init__(self) -> None:
+        if not 3 <= self.max_degree <= _MOST_DEGREE:
+            raise InvariantError("max degree", f"{self.max_degree} sides", f"3 to {_MOST_DEGREE}")
+        low, high = self.vertices
+        if high is not None and high < low:
+            raise InvariantError("vertices", f"the range {low} to {high}", "the smaller number first")
+
+    @property
+    def counted(self) -> bool:
+        """Whether nothing is asked that Burnside's lemma does not count."""
+        return not self.symmetric and self.vertices == (0, None)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The query in JSON values."""
+        return {
+            "max_degree": self.max_degree,
+            "sheets": self.sheets,
+            "symmetric": self.symmetric,
+            "vertices": list(self.vertices),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class SCDQuery:
+    """The SCD graphs of N links and M degrees of freedom.
+
+    Attributes
+    ----------
+    links, dof : int
+        With M = N - 1 the mechanisms are open chains: trees of N >= 2 links.
+    placements : PlacementQuery
+    spatial, infinite
+        As for `enumerate.sc_query.SCQuery`.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> SCDQuery(4, 3, PlacementQuery(3)).tree
+    True
+    """
+
+    links: int
+    dof: int
+    placements: PlacementQuery
+    spatial: int = 0
+    infinite: bool = False
+
+    def __post_init__(self) -> None:
+        if self.tree:
+            if self.links < 2:
+                raise InvariantError("links", f"{self.links} links", "2 or more")
+        else:
+            self.sc  # noqa: B018 - its own checks
+
+    @property
+    def tree(self) -> bool:
+        """Whether the mechanisms are open chains."""
+        return self.spatial == 0 and self.dof == self.links - 1
+
+    @property
+    def sc(self) -> SCQuery:
+        """The SC graphs on which open edges are placed."""
+        return SCQuery(self.links, self.dof, spatial=self.spatial, infinite=self.infinite)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The query in JSON values."""
+        return {
+            "links": self.links,
+            "dof": self.dof,
+            "spatial": self.spatial,
+            "infinite": self.infinite,
+            **self.placements.key,
+        }

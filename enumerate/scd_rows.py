@@ -1,0 +1,88 @@
+"""Rows of SCD graphs: ids and attributes of the placements of open edges on a mechanism."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from enumerate.centre_labels import SPATIAL
+from enumerate.chain_rows import chain_ids
+from enumerate.compiled import Bytes, Ints
+from enumerate.map_texts import map_ids
+from enumerate.open_edge_choices import outline
+from enumerate.run import Row
+from enumerate.sc_rows import within_limits
+from enumerate.scd_listing import list_placements_of, sides_of_all
+from enumerate.scd_query import PlacementQuery
+
+__all__ = ["SCD_COLUMNS", "placements_on", "scd_rows_of"]
+
+SCD_COLUMNS: dict[str, type] = {
+    "code": str,
+    "sc": str,
+    "chain": str,
+    "links": int,
+    "joints": int,
+    "dof": int,
+    "loops": int,
+    "spatial": int,
+    "centres": int,
+    "infinite": int,
+    "sides": str,
+    "open_edges": int,
+    "vertices": int,
+    "explicit": int,
+    "implicit": int,
+    "symmetry": int,
+    "exact_dof": int,
+}
+
+
+def placements_on(
+    query: PlacementQuery, code: Bytes, labels: Ints, dof: int, first: int, last: int
+) -> tuple[Bytes, Ints, Ints]:
+    """Return the placements that a query asks for, as `enumerate.scd_listing.list_placements_of` does.
+
+    Parameters
+    ----------
+    query : PlacementQuery
+    code : uint8[:]
+        Code of the mechanism without open edges.
+    labels : int64[F]
+        Labels of its faces, the outer one first.
+    dof : int
+        Its degrees of freedom.
+    first, last : int
+        Numbers of the placements; the last is excluded.
+    """
+    codes, lengths, facts = list_placements_of(
+        code, labels, query.max_degree, dof, first, last, query.sheets, query.symmetric
+    )
+    if query.vertices == (0, None):
+        return codes, lengths, facts
+    kept = within_limits(facts[:, 1], *query.vertices)
+    return codes[kept], lengths[kept], facts[kept]
+
+
+def scd_rows_of(query: PlacementQuery, code: Bytes, labels: Ints, dof: int, first: int, last: int) -> list[Row]:
+    """Return the rows of the placements on a mechanism; columns are `SCD_COLUMNS`. Arguments: `placements_on`."""
+    codes, lengths, facts = placements_on(query, code, labels, dof, first, last)
+    if not len(codes):
+        return []
+    faces = len(labels)
+    text, joints, centres, infinite = outline(code, labels)
+    links = int(joints.max()) + 1
+    sc = map_ids(text[None], np.array([len(text)]), faces)[0]
+    chain = chain_ids(links, joints[None])[0][0]
+    spatial = int((labels == SPATIAL).sum())
+    common = sc, chain, links, len(joints), dof, faces - 1, spatial, centres, infinite
+    sides = sides_of_all(codes, lengths, faces, query.max_degree)[:, 3:].tolist()
+    return [
+        (code_text, *common, _numbers(degrees), *values)
+        for code_text, degrees, values in zip(map_ids(codes, lengths, faces), sides, facts.tolist(), strict=True)
+    ]
+
+
+def _numbers(counts: list[int]) -> str:
+    """Return numbers as text, without zeros at the end."""
+    last = max(i for i, count in enumerate(counts) if count)
+    return ",".join(map(str, counts[: last + 1]))

@@ -1,0 +1,90 @@
+"""Canonical codes and symmetries of mechanisms with centres, drawn or not.
+
+A mechanism becomes a coloured graph of its links, its joints, and its classes of loops with one centre, which
+bliss labels. Which loops were chosen within a class does not show. Theory: docs/theory/centre-classes.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Hashable
+from typing import Any
+
+import bliss_bind
+
+from graphs.loops import JointId, LinkId
+from graphs.sc import SCGraph
+
+__all__ = ["class_code", "symmetries_of_links"]
+
+
+def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
+    """Return the same code for two mechanisms exactly if links, joints and centre classes correspond.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    marked : collection of link ids
+        Links that must correspond to marked ones, such as those that an edit added.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    >>> one = SCGraph(4, ring, [Loop((0, 1, 2, 3))])
+    >>> class_code(one) == class_code(one.relabel({0: "a"}))
+    True
+    >>> class_code(one) == class_code(SCGraph(4, ring, [Loop((0, 1, 2, 3), "infinite")]))
+    False
+    """
+    graph, colours, edges = _coloured(sc, marked)
+    labels, _ = graph.canonical_form()
+    form = sorted(tuple(sorted((labels[a], labels[b]))) for a, b in edges)
+    return tuple(sorted(zip(labels, map(repr, colours), strict=True))), tuple(form), sc.spatial_loops
+
+
+def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
+    """Return permutations of the links that generate the symmetries of a mechanism.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> len(symmetries_of_links(four_bar)) > 0
+    True
+    """
+    found: list[list[int]] = []
+    graph, _, _ = _coloured(sc, ())
+    graph.find_automorphisms(lambda moved: found.append(list(moved)))
+    links = list(sc.nodes)
+    return [{link: links[moved[i]] for i, link in enumerate(links)} for moved in found]
+
+
+def _coloured(
+    sc: SCGraph, marked: Collection[LinkId]
+) -> tuple[bliss_bind.Graph, list[tuple[Any, ...]], list[tuple[int, int]]]:
+    """Return the coloured graph, links first in their order, the colours of its nodes and its edges."""
+    colours: list[tuple[Any, ...]] = []
+    edges: list[tuple[int, int]] = []
+    number: dict[tuple[str, Hashable], int] = {}
+
+    def node(kind: str, thing: LinkId | JointId | int, *colour: object) -> None:
+        number[kind, thing] = len(colours)
+        colours.append((kind, *colour))
+
+    for link in sc.nodes:
+        node("link", link, link == sc.ground, link in marked)
+    for joint, ends in sc.joints.items():
+        node("joint", joint)
+        edges += [(number["joint", joint], number["link", end]) for end in ends]
+    for k, one in enumerate(sc.centre_classes()):
+        closing = sum(loop >= len(sc.loops) for loop in one.loops)
+        node("class", k, one.centre.value, len(one.loops), closing)
+        edges += [(number["class", k], number["joint", joint]) for joint in one.joints]
+    palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
+    graph = bliss_bind.Graph()
+    graph.set_splitting_heuristic(bliss_bind.Graph.SplittingHeuristic.shs_fm)
+    for colour in colours:
+        graph.add_vertex(palette[colour])
+    for a, b in edges:
+        graph.add_edge(a, b)
+    return graph, colours, edges

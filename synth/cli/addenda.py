@@ -1,0 +1,51 @@
+"""``synth enumerate addenda``: what can be added to a mechanism."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from synth.cli.output import about
+from synth.cli.runner import RunOptions, run_count, run_rows, runner_options
+
+__all__ = ["addenda"]
+
+
+@click.command(short_help="All ways to add a loop to a mechanism.")
+@click.option("--of", "file", required=True, metavar="FILE", help="The mechanism.")
+@click.option(
+    "--delta-dof",
+    type=click.IntRange(min=-2),
+    default=0,
+    show_default=True,
+    metavar="K",
+    help="Change of mobility.",
+)
+@click.option("--count", "only_count", is_flag=True, help="Print the number only.")
+@runner_options
+def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
+    """List all ways to add a ride-along, a dyad, a spherical or a spatial loop to a mechanism (Wiener, 4.2).
+
+    A chain of K + 2 new links (K + 5 in a spatial loop) is put between two links, so that the mobility changes
+    by K and the mechanism itself stays as general as it was; the exact rank confirms each. Of those that a
+    symmetry of the mechanism exchanges, one is listed. A folder as output gets a file for each.
+
+    \b
+    Examples:
+      synth enumerate addenda --of data/wiener/watt.json
+      synth enumerate addenda --of data/wiener/watt.json --delta-dof 1 -o addenda
+    """
+    options = RunOptions.taken_from(rest)
+    from enumerate.addenda import AddendumCountJob, AddendumJob
+    from graphs.conversion import to_sc
+    from graphs.files.formats import read
+    from graphs.sc import SCGraph
+
+    thing = read(file)
+    with about(file):
+        job = AddendumJob(thing if isinstance(thing, SCGraph) else to_sc(thing), delta_dof)
+    if only_count:
+        run_count(AddendumCountJob(job), options)
+    else:
+        run_rows(job, options)

@@ -1,0 +1,80 @@
+"""``synth enumerate sc``: SC graphs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from synth.cli.chains import assortment, say_if_odd
+from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+
+__all__ = ["sc"]
+
+
+@click.command(short_help="SC graphs: planar chains drawn on the sphere, with their centres.")
+@click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
+@click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
+@click.option("--centres", type=Limits(), metavar="K", help="Number of distinct centres: 2, 1..2, 2..")
+@click.option("--spatial", type=click.IntRange(min=0), default=0, metavar="S", help="Hybrids: S spatial loops.")
+@click.option("--infinite", is_flag=True, help="Also centres at infinity (planar loops).")
+@click.option("--symmetry", type=Limits(), metavar="K", help="Number of symmetries: 1, 2.., 2..4")
+@click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
+@click.option("--longest-string", type=Limits(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
+@click.option("--per-chain", is_flag=True, help="One row a chain: its most general form, with the most centres.")
+@click.option("--embeddings", is_flag=True, help="With --count: embeddings in the sphere, without outer face.")
+@click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
+@click.option(
+    "--method", type=click.Choice(["orbits", "burnside"]), help="How --count counts: two ways that must agree."
+)
+@runner_options
+def sc(
+    links: int,
+    dof: int,
+    only_count: bool,
+    per_chain: bool,
+    embeddings: bool,
+    method: str | None,
+    centres: tuple[int, int | None] | None,
+    symmetry: tuple[int, int | None] | None,
+    longest_string: tuple[int, int | None] | None,
+    **rest: Any,
+) -> None:
+    """List or count all SC graphs of N links and M degrees of freedom.
+
+    An SC graph is a planar kinematic chain drawn on the sphere, with a face outside; each other face is a loop
+    with a centre, shared with another loop only where their joints force it (Wiener, 3.3). Mirror images count
+    once. With --spatial, loops without a centre: hybrids that the exact rank says are mechanisms in which every
+    joint moves.
+
+    \b
+    Examples:
+      synth enumerate sc --links 6 --dof 1
+      synth enumerate sc --links 8 --dof 1 --centres 3 --json
+      synth enumerate sc --links 6 --dof 1 --per-chain
+      synth enumerate sc --links 12 --dof 1 --count
+      synth enumerate sc --links 9 --dof 1 --spatial 1 -o hybrids
+      synth enumerate sc --links 12 --dof 1 -o sc.sqlite
+    """
+    options = RunOptions.taken_from(rest)
+    if not only_count and (method is not None or embeddings):
+        raise click.UsageError("--method and --embeddings say how --count counts; add --count")
+    from enumerate.sc_forms import FormJob
+    from enumerate.sc_jobs import SCJob, sc_count_job
+    from enumerate.sc_query import SCQuery
+
+    query = SCQuery(
+        links,
+        dof,
+        **rest,
+        centres=centres or (0, None),
+        symmetry=symmetry or (1, None),
+        longest_string=longest_string or (0, None),
+    )
+    say_if_odd(links, dof, query.spatial)
+    if only_count and per_chain:
+        raise click.UsageError("--count counts SC graphs; for chains: synth enumerate chains --planar --count")
+    if only_count:
+        run_count(sc_count_job(query, method or "orbits", outside=not embeddings), options)
+    else:
+        run_rows(FormJob(query) if per_chain else SCJob(query), options)
