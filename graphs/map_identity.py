@@ -215,6 +215,8 @@ def mechanism_from_map_id(code: str) -> SCGraph:
     if not joints or list(joints) != list(range(len(joints))):
         raise InvariantError("id", f"the joints of {shown(code)} are {list(joints)}", "all from the first on")
     faces, left_of = trace_faces(joints, rotation)
+    if len(rotation) - len(joints) + len(faces) != 2:
+        raise InvariantError("id", f"{shown(code)} is not drawn on one sphere", "one drawing, in one piece")
     loops = _loops(code, labels, rotation, faces, left_of)
     if any(None in sides for sides in rotation.values()):
         outer = (0, "left") if len(faces) > 1 else None

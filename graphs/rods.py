@@ -12,13 +12,16 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
+from itertools import combinations
 from typing import Any
 
 from flint import nmod_mat
 
+from graphs.centres import centre_classes
 from graphs.errors import NumericalError, UnsolvableError
 from graphs.exact import ExactMobility
 from graphs.fields import PRIMES, Field, PrimeField, null_vectors
+from graphs.loops import Loop
 from graphs.polyhedron import GROUND, PolyhedronModel, VertexId
 
 __all__ = ["exact_mobility_of_model", "place_model", "velocity_constraints"]
@@ -91,61 +94,82 @@ def place_model(model: PolyhedronModel, field: Field) -> dict[VertexId, Place]:
     UnsolvableError
         If that does not succeed in any of the orders tried.
     """
+    spans = _spans(model)
     order = list(model.nodes)
-    meeting = list(_meeting_pairs(model))
+    centres = [point for point in spans if point not in model]
     for _ in range(_ATTEMPTS):
-        placed = _place_in_order(model, order, meeting, field)
+        placed = _place_in_order(model, [*centres, *order], spans, field)
         if placed is not None:
             return placed
         order = order[1:] + order[:1]
     raise UnsolvableError("not realised: the vertices could not be placed as lines, planes and remote centres ask")
 
 
-def _meeting_pairs(model: PolyhedronModel) -> Iterator[tuple[Hashable, VertexId, VertexId]]:
-    """Yield the pairs of vertices whose lines pass through a centre, with the centre's name."""
-    for index, centre in enumerate(model.centres):
-        if centre.rods:
-            yield from ((("centre", index), a, b) for a, b in centre.rods)
-        elif not model.scissors:
-            raise UnsolvableError(f"remote centre {index} does not say which rods meet there")
-    if model.scissors and any(not centre.rods for centre in model.centres):
-        # Spherical scissors: the pairs at the two ends of every element point to one centre.
-        ends = {pair for a, b, c, d in model.scissors for pair in ((a, b), (c, d))}
-        yield from ((("centre", "scissors"), a, b) for a, b in sorted(ends, key=str))
-
-
-def _place_in_order(
-    model: PolyhedronModel,
-    order: Sequence[VertexId],
-    meeting: Sequence[tuple[Hashable, VertexId, VertexId]],
-    field: Field,
-) -> dict[VertexId, Place] | None:
-    centres = {name: _random_point(field) for name, _, _ in meeting}
-    placed: dict[Hashable, list[Any]] = {name: [*point, 1] for name, point in centres.items()}
-    spans: dict[VertexId, list[tuple[Hashable, ...]]] = defaultdict(list)
-    for name, a, b in meeting:
-        spans[a].append((name, b))
-        spans[b].append((name, a))
+def _spans(model: PolyhedronModel) -> dict[Hashable, list[tuple[Hashable, ...]]]:
+    """Return for each vertex and centre the points whose line or plane it must lie on."""
+    spans: dict[Hashable, list[tuple[Hashable, ...]]] = defaultdict(list)
+    for line in _lines_through_centres(model):
+        for point in line:
+            spans[point] += combinations([other for other in line if other != point], 2)
     for one in (*model.on_line, *model.on_plane):
         if one.of != GROUND:
             spans[one.vertex].append(tuple(one.of))
     for a, b, c, d in model.scissors:
         for vertex, others in ((a, (b, c, d)), (b, (a, c, d)), (c, (a, b, d)), (d, (a, b, c))):
             spans[vertex].append(others)
-    for vertex in order:
+    return spans
+
+
+def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
+    """Yield the points on the line of each rod that passes through a centre: its ends, and the centres.
+
+    Two points that two lines share are one (`graphs.centres`): two remote centres, or a remote centre and a vertex.
+    """
+    lines = [[frozenset(rod) for rod in centre.rods] for centre in model.centres if centre.rods]
+    if len(lines) < len(model.centres):
+        if not model.scissors:
+            silent = next(i for i, centre in enumerate(model.centres) if not centre.rods)
+            raise UnsolvableError(f"remote centre {silent} does not say which rods meet there")
+        # Spherical scissors: the pairs at the two ends of every element point to one centre.
+        lines.append([frozenset(pair) for a, b, c, d in model.scissors for pair in ((a, b), (c, d))])
+    rods = sorted({rod for line in lines for rod in line}, key=lambda rod: sorted(map(str, rod)))
+    at_vertex = {v: [rod for rod in rods if v in rod] for v in model.nodes}
+    several = [v for v, here in at_vertex.items() if len(here) > 1]
+    meeting = [*lines, *(at_vertex[v] for v in several)]
+    points = [Loop(tuple(dict.fromkeys(here))) for here in meeting]
+    on: dict[frozenset[VertexId], list[Hashable]] = {rod: list(rod) for rod in rods}
+    for number, one in enumerate(centre_classes(points)):
+        vertices = [several[i - len(lines)] for i in one.loops if i >= len(lines)]
+        name: Hashable = vertices[0] if vertices else ("centre", number)
+        for rod in one.joints:
+            assert isinstance(rod, frozenset)
+            if name not in on[rod]:
+                on[rod].append(name)
+    yield from on.values()
+
+
+def _place_in_order(
+    model: PolyhedronModel,
+    order: Sequence[Hashable],
+    spans: Mapping[Hashable, list[tuple[Hashable, ...]]],
+    field: Field,
+) -> dict[VertexId, Place] | None:
+    """Place points one by one, each on what earlier ones span; None if one has no place."""
+    placed: dict[Hashable, list[Any]] = {}
+    for point in order:
         planes: list[list[Any]] = []
-        for span in spans[vertex]:
-            if all(point in placed for point in span):
-                planes += null_vectors([placed[point] for point in span], field)
+        for span in spans.get(point, ()):
+            if all(other in placed for other in span):
+                planes += null_vectors([placed[other] for other in span], field)
         choices = null_vectors(planes, field) if planes else [[int(i == j) for j in range(4)] for i in range(4)]
         if not choices:
             return None
         weights = [field.random() for _ in choices]
-        point = [field.reduce(sum(w * c[k] for w, c in zip(weights, choices, strict=True))) for k in range(4)]
-        if field.is_zero(point[3]):
+        place = [field.reduce(sum(w * c[k] for w, c in zip(weights, choices, strict=True))) for k in range(4)]
+        if field.is_zero(place[3]):
             return None
-        scale = field.inverse(point[3])
-        placed[vertex] = [field.reduce(value * scale) for value in point[:3]] + [1]
+        scale = field.inverse(place[3])
+        placed[point] = [field.reduce(value * scale) for value in place[:3]] + [1]
     return (
         {vertex: (p[0], p[1], p[2]) for vertex, p in placed.items() if vertex in model}
         if _fits(placed, spans, field)
@@ -154,7 +178,7 @@ def _place_in_order(
 
 
 def _fits(
-    placed: Mapping[Hashable, list[Any]], spans: Mapping[VertexId, list[tuple[Hashable, ...]]], field: Field
+    placed: Mapping[Hashable, list[Any]], spans: Mapping[Hashable, list[tuple[Hashable, ...]]], field: Field
 ) -> bool:
     """Tell whether every vertex lies in the spans it should: some were placed before what they lie on."""
     for vertex, here in spans.items():

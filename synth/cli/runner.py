@@ -205,6 +205,9 @@ class _Printer:
         """Print the table, if there is one to print; what is the same in all rows goes above it."""
         if self._streaming:
             return
+        if not self._kept:
+            click.echo("none")
+            return
         common = [
             i
             for i in range(1, len(self._columns))

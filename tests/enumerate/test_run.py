@@ -96,7 +96,10 @@ def test_ctrl_c_at_the_command_line(tmp_path, name, words):
         str(tmp_path / name),
     ]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    time.sleep(6)
+    deadline = time.monotonic() + 120
+    while sum(path.stat().st_size for path in tmp_path.iterdir()) < 100_000:  # some units have been written
+        assert time.monotonic() < deadline
+        time.sleep(0.2)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 130

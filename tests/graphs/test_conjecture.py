@@ -1,12 +1,10 @@
 """Wampler's conjecture, M = J - 3 L for every spherical system: all SC graphs of chains without rigid parts."""
 
-import networkx as nx
 import pytest
-from embeddings import spherical_embeddings
+from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
 from graphs.class_identity import class_code
-from graphs.identity import chain_id
 from graphs.loops import Loop
 from graphs.overconstraint import diagnose
 from graphs.sc import SCGraph
@@ -54,18 +52,6 @@ def test_number_of_sc_graphs(links, dof, count):
             for outer in range(len(faces)):
                 codes.add(face_code(links, joints, faces, outer))
     assert len(codes) == count
-
-
-def face_code(links, joints, faces, outer):
-    """A canonical label of an embedding with its outer face: faces as coloured nodes on their links and joints."""
-    code = nx.Graph()
-    for i, (a, b) in enumerate(joints):
-        code.add_edges_from([(("l", a), ("j", i)), (("j", i), ("l", b))])
-    for k, face in enumerate(faces):
-        code.add_edges_from((("f", k), ("j", j)) for j in face)
-        # pendant nodes tell faces from links, and the outer face from the others
-        code.add_edges_from((("f", k), ("p", k, n)) for n in range(2 + (k == outer)))
-    return chain_id(code)
 
 
 def test_canonical_codes_tell_no_more_than_the_loops():

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from itertools import permutations, product
 
+import networkx as nx
+
+from graphs.identity import chain_id
+
 
 def spherical_embeddings(graph):
     """Yield the faces of each embedding, as tuples of edge indices, each set of faces once."""
@@ -46,3 +50,15 @@ def traced(edges, after):
             left.remove((node, edge))
         faces.append(tuple(face))
     return faces
+
+
+def face_code(links, joints, faces, outer):
+    """A canonical label of an embedding with its outer face: faces as coloured nodes on their links and joints."""
+    code = nx.Graph()
+    for i, (a, b) in enumerate(joints):
+        code.add_edges_from([(("l", a), ("j", i)), (("j", i), ("l", b))])
+    for k, face in enumerate(faces):
+        code.add_edges_from((("f", k), ("j", j)) for j in face)
+        # pendant nodes tell faces from links, and the outer face from the others
+        code.add_edges_from((("f", k), ("p", k, n)) for n in range(2 + (k == outer)))
+    return chain_id(code)

@@ -11,6 +11,7 @@ from commands import run
 from enumerate.store import read_rows
 from graphs.files.formats import read
 from graphs.identity import chain_id
+from graphs.map_identity import map_id
 
 
 def test_enumerate_strings(tmp_path):
@@ -60,7 +61,9 @@ def test_enumerate_chains(tmp_path):
     assert json.loads(run(*base, "--json", *filters).stdout) == [
         row for row in rows if row["symmetry"] >= 4 and row["longest_string"] <= 2 and row["planar"]
     ]
-    assert re.search(r"k1:\S+ +8 +10 +1 +3 +4,4 +\d +\d+ +\d +yes +no", run(*base).stdout)
+    printed = run(*base).stdout
+    assert printed.startswith("links 8  joints 10  dof 1  loops 3  planar yes  fractionated no")
+    assert re.search(r"k1:\S+ +4,4 +\d +\d+ +\d ", printed)
     many = run("enumerate", "chains", "--links", 12, "--dof", 1).stdout.splitlines()
     assert len(many) == 6857
     assert many[0].startswith("code\tlinks\tjoints")
@@ -126,3 +129,83 @@ def test_numbers_that_no_chain_has():
     result = run("enumerate", "chains", "--links", 8, "--dof", 2, "--count")
     assert result.stdout == "0\n"
     assert "N - 1 and M must be both even or both odd" in result.stderr
+
+
+def test_enumerate_sc(tmp_path):
+    base = ("enumerate", "sc", "--links", 8, "--dof", 1)
+    rows = json.loads(run(*base, "--json").stdout)
+    assert len(rows) == 54
+    assert list(rows[0]) == ["code", "chain", "links", "joints", "dof", "loops", "spatial", "centres", "infinite",
+                             "assortment", "loop_sizes", "outer_size", "symmetry", "reduced", "exact_dof"]  # fmt: skip
+    assert run(*base, "--count").stdout == run(*base, "--count", "--method", "burnside").stdout == "54\n"
+    assert run(*base, "--count", "--embeddings").stdout == "20\n"
+    assert json.loads(run(*base, "--count", "--centres", "2..", "--json").stdout) == {"count": 10}
+    assert json.loads(run(*base, "--centres", 3, "--json").stdout) == [row for row in rows if row["centres"] == 3]
+    files = {name: tmp_path / name for name in ("c.jsonl", "c.sqlite", "c.parquet", "folder")}
+    for file in files.values():
+        assert run(*base, "-o", file).output == ""
+    assert [json.loads(line) for line in files["c.jsonl"].read_text().splitlines()] == rows
+    assert list(read_rows(files["c.sqlite"])) == [tuple(row.values()) for row in rows]
+    assert pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist() == rows
+    assert [map_id(read(file)) for file in sorted(files["folder"].iterdir())] == [row["code"] for row in rows]
+    assert "graph6 has no place for a drawing" in run(*base, "-o", tmp_path / "c.g6", code=2).stderr
+    forms = run("enumerate", "sc", "--links", 6, "--dof", 1, "--per-chain").stdout
+    assert re.search(r"watt +2 +1", forms)
+    assert re.search(r"stephenson +1 +2", forms)
+    hybrids = json.loads(run("enumerate", "sc", "--links", 9, "--dof", 1, "--spatial", 1, "--json").stdout)
+    assert len(hybrids) == 6
+    nothing = run("enumerate", "sc", "--links", 7, "--dof", 1)
+    assert (nothing.stdout, "N - 1 and M must be both even or both odd" in nothing.stderr) == ("none\n", True)
+
+
+def test_enumerate_scd(tmp_path, data):
+    base = ("enumerate", "scd", "--links", 4, "--dof", 1, "--max-degree", 4)
+    rows = json.loads(run(*base, "--json").stdout)
+    assert len(rows) == 7
+    assert {"code", "sc", "chain", "sides", "vertices", "explicit", "implicit", "exact_dof"} <= rows[0].keys()
+    assert run(*base, "--count").stdout == run(*base, "--count", "--method", "orbits").stdout == "7\n"
+    assert [row["vertices"] for row in json.loads(run(*base, "--vertices", "..6", "--json").stdout)] == [5, 6]
+    sheets = json.loads(run(*base, "--all-explicit", "--symmetric", "--json").stdout)
+    assert sheets == [row for row in rows if row["explicit"] == 1 and row["symmetry"] > 1]
+    run(*base, "-o", tmp_path / "folder")
+    models = sorted((tmp_path / "folder").iterdir())
+    assert [map_id(read(file)) for file in models] == [row["code"] for row in rows]
+    for file in models:
+        run("reconstruct", file, "-o", tmp_path / "model.json")
+        [report] = json.loads(run("mobility", "--json", tmp_path / "model.json").stdout)
+        assert report["exact"]["mobility"] == 1
+    watt = data / "wiener" / "watt.json"
+    assert run("enumerate", "scd", "--of", watt, "--max-degree", 4, "--count").stdout == "27\n"
+    open_chains = json.loads(run("enumerate", "scd", "--links", 4, "--dof", 3, "--max-degree", 3, "--json").stdout)
+    assert [row["loops"] for row in open_chains] == [0, 0, 0]
+
+
+def test_enumerate_addenda(tmp_path, data):
+    base = ("enumerate", "addenda", "--of", data / "wiener" / "watt.json")
+    rows = json.loads(run(*base, "--json").stdout)
+    assert len(rows) == 13
+    assert {row["exact_dof"] for row in rows} == {1}
+    assert run(*base, "--count", "--delta-dof", 1).stdout == "13\n"
+    assert "mechanism" not in run(*base).stdout
+    run(*base, "-o", tmp_path / "folder")
+    reports = json.loads(run("mobility", "--json", *sorted((tmp_path / "folder").iterdir())).stdout)
+    assert [report["mobility"] for report in reports] == [1] * 13
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["sc", "--links", 8, "--dof", 1, "--embeddings"], "add --count"),
+        (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma counts"),
+        (["sc", "--links", 22, "--dof", 1], "9 at most"),
+        (["sc", "--links", 8, "--dof", 1, "--per-chain", "--count"], "synth enumerate chains --planar"),
+        (["scd", "--max-degree", 4], "give --links and --dof, or --of FILE"),
+        (["scd", "--max-degree", 2, "--links", 4, "--dof", 1], "2 is not in the range"),
+        (["scd", "--max-degree", 4, "--of", "nowhere.json"], "nowhere.json"),
+        (["scd", "--max-degree", 4, "--of", "nowhere.json", "--links", 4], "give --of, or --links"),
+        (["addenda", "--of", "nowhere.json"], "nowhere.json"),
+        (["addenda", "--of", "x.json", "--delta-dof", -5], "-5 is not in the range"),
+    ],
+)  # fmt: skip
+def test_types_that_cannot_be_listed(words, message):
+    assert message in run("enumerate", *words, code=2).stderr

@@ -1,0 +1,211 @@
+import pytest
+from rigidity import chains_by_geng
+from scd_oracle import code, scd_codes
+
+from enumerate import scd_jobs
+from enumerate.run import run
+from enumerate.scd_graphs import (
+    all_mechanisms,
+    count_scd_graphs,
+    mechanism_of,
+    scd_graphs,
+    scd_graphs_of,
+    scd_rows,
+)
+from enumerate.scd_jobs import SCDJob, scd_count_job
+from enumerate.scd_query import PlacementQuery, SCDQuery
+from enumerate.sinks import CountSink, RowSink
+from graphs.conversion import to_sc
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.exact import exact_mobility
+from graphs.files.formats import read
+from graphs.files.native import dumps
+from graphs.loops import Centre, Loop
+from graphs.map_identity import map_id, mechanism_from_map_id
+from graphs.reconstruction import reconstruct
+from graphs.rods import exact_mobility_of_model
+from graphs.sc import SCGraph
+from graphs.scd import FaceKind
+
+COUNTS = [
+    (4, 1, 3, 1),
+    (4, 1, 4, 7),
+    (4, 1, 5, 42),
+    (6, 1, 3, 1),
+    (6, 1, 4, 27),
+    (8, 1, 3, 2),
+    (8, 1, 4, 260),
+    (10, 1, 3, 6),
+    (7, 2, 4, 81),
+    (2, 1, 3, 1),
+    (4, 3, 3, 3),
+]
+
+
+@pytest.mark.parametrize("method", ["orbits", "burnside"])
+@pytest.mark.parametrize(("links", "dof", "most", "count"), COUNTS)
+def test_counts(links, dof, most, count, method):
+    assert count_scd_graphs(links, dof, most, method) == count
+
+
+@pytest.mark.parametrize(
+    ("links", "dof", "most", "options"),
+    [(4, 1, 7, {}), (6, 1, 6, {}), (8, 1, 5, {}), (9, 2, 4, {}), (10, 1, 4, {}), (6, 5, 5, {}), (8, 7, 4, {}), (10, 9, 3, {}),
+     (8, 1, 5, {"sheets": True}), (9, 1, 4, {"spatial": 1}), (6, 1, 5, {"infinite": True})],
+    ids=str,
+)  # fmt: skip
+def test_both_methods_agree(links, dof, most, options):
+    found = [count_scd_graphs(links, dof, most, method, **options) for method in ("orbits", "burnside")]
+    assert found[0] == found[1] > 0
+
+
+@pytest.mark.parametrize(
+    ("links", "dof", "most"),
+    [(4, 1, 3), (4, 1, 4), (4, 1, 5), (5, 2, 4), (6, 1, 3), (6, 1, 4), (7, 2, 3), (8, 1, 3),
+     pytest.param(6, 1, 5, marks=pytest.mark.slow), pytest.param(7, 2, 4, marks=pytest.mark.slow),
+     pytest.param(9, 2, 3, marks=pytest.mark.slow), pytest.param(10, 1, 3, marks=pytest.mark.slow)],
+)  # fmt: skip
+def test_against_all_placements(links, dof, most):
+    """The oracle: nauty's chains, every rotation, outer face and placement that the constructor lets through."""
+    expected = set()
+    for graph in chains_by_geng(links, dof):
+        expected |= scd_codes(list(graph.edges()), most)
+    assert {code(scd) for scd in scd_graphs(links, dof, most)} == expected
+
+
+@pytest.mark.parametrize(
+    ("links", "most", "joints"),
+    [(2, 4, [(0, 1)]), (3, 4, [(0, 1), (1, 2)]), (4, 3, None), (4, 4, None), (5, 3, None)],
+)
+def test_trees_against_all_placements(links, most, joints):
+    trees = [joints] if joints else _trees(links)
+    expected = set().union(*(scd_codes(tree, most) for tree in trees))
+    assert {code(scd) for scd in scd_graphs(links, links - 1, most)} == expected
+
+
+def _trees(links):
+    import networkx as nx
+
+    return [list(tree.edges()) for tree in nx.nonisomorphic_trees(links)]
+
+
+def check(row, scd, tmp_path=None):
+    """It reads back, it reconstructs, and by both roads it has the mobility it should have."""
+    assert map_id(scd) == row["code"]
+    assert not scd.loops or map_id(scd.sc_graph()) == row["sc"]
+    result = exact_mobility(scd)
+    assert (result.mobility, result.forced) == (row["exact_dof"], True)
+    assert row["exact_dof"] == row["dof"]
+    model = reconstruct(scd)
+    assert exact_mobility_of_model(model).mobility == row["dof"]
+    assert len(model) == scd.counts.vertices == row["vertices"]
+    kinds = [scd.kind_of_face(face.index) for face in scd.faces]
+    assert (kinds.count(FaceKind.EXPLICIT), kinds.count(FaceKind.IMPLICIT)) == (row["explicit"], row["implicit"])
+    assert scd.counts.open_edges == row["open_edges"]
+    degrees = [len(sides) for sides in scd.rotation.values()]
+    assert row["sides"] == ",".join(str(degrees.count(d)) for d in range(3, max(degrees) + 1))
+    if tmp_path is not None:
+        file = tmp_path / "scd.json"
+        file.write_text(dumps(scd), encoding="utf-8")
+        assert read(file).is_identical(scd)
+
+
+@pytest.mark.parametrize(
+    ("links", "dof", "most", "every", "options"),
+    [
+        (4, 1, 4, 1, {}),
+        (4, 1, 6, 5, {}),
+        (6, 1, 4, 1, {}),
+        (6, 1, 5, 10, {}),
+        (6, 1, 6, 100, {}),
+        (8, 1, 3, 1, {}),
+        (8, 1, 4, 4, {}),
+        (10, 1, 3, 1, {}),
+        (10, 1, 4, 150, {}),
+        (7, 2, 4, 3, {}),
+        (10, 3, 4, 60, {}),
+        (9, 1, 3, 1, {"spatial": 1}),
+        (9, 1, 4, 4000, {"spatial": 1}),
+        (12, 1, 3, 4, {"spatial": 2}),
+        (4, 1, 5, 3, {"infinite": True}),
+        (6, 1, 4, 5, {"infinite": True}),
+        (5, 4, 4, 20, {}),
+        (7, 6, 3, 3, {}),
+    ],
+    ids=str,
+)
+def test_every_graph_reads_back_and_reconstructs(links, dof, most, every, options, tmp_path):
+    codes = set()
+    for number, row in enumerate(scd_rows(links, dof, most, **options)):
+        codes.add(row["code"])
+        if number % every == 0:
+            check(row, mechanism_from_map_id(row["code"]), tmp_path)
+    assert len(codes) == number + 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("links", "dof", "most"), [(8, 1, 4), (10, 1, 4), (6, 1, 6), (10, 3, 4)])
+def test_every_single_graph_reads_back_and_reconstructs(links, dof, most):
+    for row in scd_rows(links, dof, most):
+        check(row, mechanism_from_map_id(row["code"]))
+
+
+def test_filters():
+    rows = list(scd_rows(6, 1, 4))
+    for options, keep in [
+        ({"sheets": True}, lambda row: row["implicit"] == 0),
+        ({"symmetric": True}, lambda row: row["symmetry"] > 1),
+        ({"vertices": (8, 9)}, lambda row: 8 <= row["vertices"] <= 9),
+    ]:
+        expected = [row for row in rows if keep(row)]
+        assert 0 < len(expected) < len(rows)
+        assert list(scd_rows(6, 1, 4, **options)) == expected
+        assert count_scd_graphs(6, 1, 4, **options) == len(expected)
+
+
+def test_units_of_ranges(monkeypatch):
+    """A mechanism with more placements than fit a unit is taken in ranges of their numbers."""
+    expected = list(scd_rows(6, 1, 5))
+    monkeypatch.setattr(scd_jobs, "_PLACEMENTS", 20)
+    job = SCDJob(all_mechanisms(6, 1, 5))
+    assert len(job.units()) > 30
+    found = []
+    run(job, RowSink(lambda columns, rows: found.extend(rows)), workers=2)
+    assert found == [tuple(row.values()) for row in expected]
+
+
+def test_of_a_mechanism(data):
+    watt = read(data / "wiener" / "watt.json")
+    every = [row["code"] for row in scd_rows(6, 1, 4)]
+    found = [scd.graph["code"] for scd in scd_graphs_of(watt, 4)]
+    assert len(set(found)) == len(found) == 27
+    assert set(found) <= set(every)
+    strange = watt.relabel({0: "a", 1: "zz"}, {3: "crease"})
+    assert [scd.graph["code"] for scd in scd_graphs_of(strange, 4)] == found
+    again = [scd.graph["code"] for scd in scd_graphs_of(next(scd_graphs_of(watt, 4)), 4)]
+    assert again == found
+    miura = to_sc(read(data / "wiener" / "miura-2x3.fold"))
+    counted, listed = CountSink(), []
+    run(scd_count_job(mechanism_of(miura, 5)), counted)
+    run(SCDJob(mechanism_of(miura, 5)), RowSink(lambda columns, rows: listed.extend(rows)))
+    assert counted.total == len(listed) == 621
+    planar = watt.with_loops([Loop(loop.joints, Centre.INFINITE) for loop in watt.loops])
+    assert all(row.graph["explicit"] == 0 for row in scd_graphs_of(planar, 5))
+
+
+def test_what_cannot_be():
+    for bad in ({"max_degree": 2}, {"max_degree": 90}, {"max_degree": 4, "vertices": (9, 3)}):
+        with pytest.raises(InvariantError):
+            PlacementQuery(**bad)
+    with pytest.raises(InvariantError, match="links"):
+        SCDQuery(1, 0, PlacementQuery(3))
+    with pytest.raises(UnsolvableError, match="Burnside"):
+        count_scd_graphs(6, 1, 4, "burnside", symmetric=True)
+    with pytest.raises(UnsolvableError, match="placements of open edges"):
+        list(scd_rows(16, 13, 60))
+    ring = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)]
+    with pytest.raises(UnsolvableError, match="faces of a drawing"):
+        mechanism_of(SCGraph(4, ring, [Loop((0, 1, 4))]), 4)
+    big = SCGraph(70, [(i, (i + 1) % 70) for i in range(70)], [Loop(range(70))])
+    with pytest.raises(InvariantError, match="64 in all"):
+        mechanism_of(big, 4)
