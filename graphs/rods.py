@@ -123,7 +123,7 @@ def _spans(model: PolyhedronModel) -> dict[Hashable, list[tuple[Hashable, ...]]]
 def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
     """Yield the points on the line of each rod that passes through a centre: its ends, and the centres.
 
-    Two points that two lines share are one (`graphs.centres`): two remote centres, or a remote centre and a vertex.
+    Two points that two lines share are one (`graphs.centres`): remote centres, or a remote centre and a vertex.
     """
     lines = [[frozenset(rod) for rod in centre.rods] for centre in model.centres if centre.rods]
     if len(lines) < len(model.centres):
