@@ -145,6 +145,12 @@ def test_centres_of_the_design():
         assert count_sc_graphs(8, 1, centres=(centres, centres)) == count
 
 
+@pytest.mark.slow
+def test_centres_of_all_twelve_link_graphs():
+    for row in sc_rows(12, 1):
+        assert len(mechanism_from_map_id(row["code"]).centre_classes()) == row["centres"]
+
+
 def test_most_general_forms():
     forms = {links: list(chain_forms(links, 1)) for links in (4, 6, 8, 10)}
     assert [(row["name"], row["centres"]) for row in forms[6]] == [("watt", 2), ("stephenson", 1)]
@@ -198,7 +204,10 @@ def test_hybrids_of_the_design():
     assert count_sc_graphs(8, 1, spatial=1) == count_sc_graphs(10, 1, spatial=1) == 0
 
 
-@pytest.mark.parametrize(("links", "joints", "dof", "spatial"), [(8, 9, 0, 1), (10, 11, 2, 1), (12, 13, 1, 2)])
+@pytest.mark.parametrize(
+    ("links", "joints", "dof", "spatial"),
+    [(7, 8, 0, 1), (10, 11, 2, 1), (12, 13, 1, 2), pytest.param(11, 13, 1, 1, marks=pytest.mark.slow)],
+)
 def test_hybrids_against_all_labellings(links, joints, dof, spatial):
     moving = {
         code
