@@ -22,7 +22,7 @@ from enumerate.labelling import canonical_labels
 from enumerate.row_set import empty_set, insert
 from graphs.errors import InvariantError
 
-__all__ = ["MOST_LOOPS", "contracted_graphs", "cubic_graphs", "decode", "graph_key"]
+__all__ = ["MOST_LOOPS", "cheapest_degree", "contracted_graphs", "cubic_graphs", "decode", "graph_key"]
 
 MOST_LOOPS = 11
 """20 links at most, so that a place in the matrix fits a byte, and the conditions on placements their counters."""
@@ -154,7 +154,7 @@ def _contract_all(parents: Bytes, n: int) -> Bytes:
             for v in range(u):
                 if adjacency[u, v] != 1 or (degree[u] != 3 and degree[v] != 3):
                     continue
-                if degree[u] + degree[v] - 2 != _cheapest_degree(degree, u, v):
+                if degree[u] + degree[v] - 2 != cheapest_degree(degree, u, v, False):
                     continue
                 if not _is_first(u, v, automorphisms) or not _stays_connected(adjacency, n, u, v):
                     continue
@@ -166,8 +166,11 @@ def _contract_all(parents: Bytes, n: int) -> Bytes:
 
 
 @compiled
-def _cheapest_degree(degree: Ints, u: int, v: int) -> int:
-    """Return the degree, above 3, whose links can be split in the fewest ways once u and v are one link."""
+def cheapest_degree(degree: Ints, u: int, v: int, drawn: bool) -> int:
+    """Return the degree, above 3, whose links can be split in the fewest ways once u and v are one link.
+
+    A graph's link is split by any two of its joints, a drawn one by two joints beside each other.
+    """
     count = np.zeros(64, np.int64)
     for w in range(len(degree)):
         if w not in (u, v):
@@ -175,7 +178,8 @@ def _cheapest_degree(degree: Ints, u: int, v: int) -> int:
     count[degree[u] + degree[v] - 2] += 1
     best, fewest = 0, 0
     for d in range(4, 64):
-        ways = count[d] * (3 if d == 4 else d * (d - 1) // 2)
+        splits = d if drawn else d * (d - 1) // 2
+        ways = count[d] * (splits // 2 if d == 4 else splits)
         if ways and (best == 0 or ways < fewest):
             best, fewest = d, ways
     return best

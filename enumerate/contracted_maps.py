@@ -14,6 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from enumerate.compiled import Bytes, Ints, compiled
+from enumerate.contracted import cheapest_degree
 from enumerate.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from enumerate.row_set import empty_set, insert
 from graphs.errors import InvariantError
@@ -193,27 +194,11 @@ def _contract_all(parents: Bytes, links: int) -> Bytes:
             )
             for f in range(faces):
                 common += meets[f, u] and meets[f, v]
-            if common == 2 and degree[u] + degree[v] - 2 == _cheapest(degree, u, v):
+            if common == 2 and degree[u] + degree[v] - 2 == cheapest_degree(degree, u, v, True):
                 after, ends = _contracted(turn, vertex, d)
                 code, _, _ = _canonical(from_turns(after), ends)
                 table, rows, used = insert(table, rows, used, code)
     return rows[:used].copy()
-
-
-@compiled
-def _cheapest(degree: Ints, u: int, v: int) -> int:
-    """Return the degree above 3 with the fewest ways to split off a ternary link, once u and v are one link."""
-    count = np.zeros(64, np.int64)
-    for w in range(len(degree)):
-        if w not in (u, v):
-            count[degree[w]] += 1
-    count[degree[u] + degree[v] - 2] += 1
-    best, fewest = 0, 0
-    for d in range(4, 64):
-        ways = count[d] * (2 if d == 4 else d)
-        if ways and (best == 0 or ways < fewest):
-            best, fewest = d, ways
-    return best
 
 
 @compiled
