@@ -149,7 +149,7 @@ def measured_dihedral_angles(axes: npt.ArrayLike) -> Array:
     --------
     >>> corner = np.eye(3)
     >>> np.degrees(measured_dihedral_angles(corner)).tolist()
-    [90.0, 90.0, 90.0]
+    [-90.0, -90.0, -90.0]
     """
     e = np.asarray(axes, dtype=float)
     before, after = np.roll(e, 1, axis=-2), np.roll(e, -1, axis=-2)

@@ -31,7 +31,7 @@ _NEWTON = 60
 
 @dataclass(frozen=True, slots=True)
 class QuadrilateralSolutions:
-    """Solutions of Eq. 6 for many quadrilaterals, open ones first, in units of the ground link; nan where there is none.
+    """Solutions of Eq. 6 for many quadrilaterals, open ones first, in units of the ground link; else nan.
 
     Attributes
     ----------
@@ -203,9 +203,9 @@ def polygons_by_coordinates(sides: npt.ArrayLike, largest: float = np.inf) -> Po
 
     Examples
     --------
-    >>> found = polygons_by_coordinates([1, 1, 1, 1, 1])
-    >>> found.radius.round(6).tolist()
-    [0.525731, 0.850651]
+    >>> found = polygons_by_coordinates([4, 3, 5, 1])
+    >>> (4 * found.radius).round(4).tolist()
+    [2.5361, 2.5909]
     """
     given = np.asarray(sides, dtype=float)
     unit = given / given[0]
