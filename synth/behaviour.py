@@ -95,8 +95,8 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 
     Examples
     --------
-    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle, a link next to the longest as
-    ground.
+    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle, a link next to the longest
+    as ground.
 
     >>> from graphs.sc import SCGraph
     >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
@@ -143,7 +143,7 @@ def behaviour_of_motion(
 
 
 def _outward_ranges(motions: Array, arcs: Array) -> Array:
-    """Return least and greatest outward rate over arcs: it is A sin(t - t_I), with t_I the direction of the ICRL."""
+    """Return least and greatest outward rate over arcs: it is A sin(t - t_I), with t_I the azimuth of the ICRL."""
     size = np.hypot(motions[..., 0], motions[..., 2])
     node = np.arctan2(motions[..., 0], motions[..., 2])
     begin, length = arcs[..., 0] - node, arcs[..., 1]
@@ -227,7 +227,7 @@ def icrl(motions: npt.ArrayLike) -> Array:
 
 
 def instant_centres(motions: npt.ArrayLike) -> Array:
-    """Return the instant centres of links with respect to the ground, in radii: where pole axes meet the circle's plane.
+    """Return the instant centres of links with respect to the ground: where pole axes meet the circle's plane.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ def instant_centres(motions: npt.ArrayLike) -> Array:
     Returns
     -------
     float[..., N, 2]
-        Coordinates in the plane of the circle: the point at azimuth t is (sin t, cos t). Infinite where a link
+        In radii, in the plane of the circle: the point at azimuth t is (sin t, cos t). Infinite where a link
         does not turn.
 
     Examples
@@ -287,6 +287,6 @@ def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         )
 
     centre = np.zeros_like(o)
-    # ground and coupler are in the double wedge that holds the middle of the coupler, unless the side links cross between
+    # the coupler lies in one double wedge, and the ground link in the same one
     coupler = side(o, a, b) * side(b, c, a)
     return np.asarray(side(o, a, centre) * side(b, c, centre) * coupler < 0)

@@ -253,14 +253,14 @@ def _newton(points: Array, centre: float, unit: Array) -> tuple[Array, float, fl
     """Solve for corners 2 to n - 1 and K: squared lengths of sides, and the circle through all corners."""
     n = len(unit)
     x = np.concatenate([points[2:].ravel(), [centre]])
-    residual = np.inf
+    residual = float("inf")
     for _ in range(_NEWTON):
         corners = np.concatenate([[[0.0, 0.0], [1.0, 0.0]], x[:-1].reshape(-1, 2)])
         sides = np.roll(corners, -1, axis=0) - corners
         lengths = (sides**2).sum(axis=1) - unit**2
         circle = (corners**2).sum(axis=1) - corners[:, 0] - 2 * x[-1] * corners[:, 1]
         values = np.concatenate([lengths[1:], circle[2:]])
-        residual = float(np.abs(values).max())
+        residual = float(np.abs(values).max(initial=0.0))
         matrix = np.zeros((len(values), len(x)))
         for i in range(1, n):
             for corner, side in ((i, -sides[i]), ((i + 1) % n, sides[i])):
@@ -270,8 +270,8 @@ def _newton(points: Array, centre: float, unit: Array) -> tuple[Array, float, fl
             row = n - 1 + i - 2
             matrix[row, 2 * i - 4 : 2 * i - 2] = 2 * corners[i] - [1.0, 2 * x[-1]]
             matrix[row, -1] = -2 * corners[i, 1]
-        step = np.linalg.lstsq(matrix, values, rcond=None)[0]
-        x = x - step
-        if np.abs(step).max() < 1e-15 * (1 + np.abs(x).max()):
+        change = np.linalg.lstsq(matrix, values, rcond=None)[0]
+        x = x - change
+        if np.abs(change).max() < 1e-15 * (1 + np.abs(x).max()):
             break
     return np.concatenate([[[0.0, 0.0], [1.0, 0.0]], x[:-1].reshape(-1, 2)]), float(x[-1]), residual

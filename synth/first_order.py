@@ -219,7 +219,7 @@ def _gap(values: Array, counted: npt.NDArray[np.bool_]) -> Array:
 
 
 def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
-    """Return the angular velocities of links on cones: their directions are the pole axes (Hyatt et al. 2020, section 4).
+    """Return the angular velocities of links on cones, along their pole axes (Hyatt et al. 2020, section 4).
 
     Parameters
     ----------
