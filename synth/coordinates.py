@@ -220,9 +220,9 @@ def polygons_by_coordinates(sides: npt.ArrayLike, largest: float = np.inf) -> Po
             kept.append(i)
     kept.sort(key=lambda i: abs(found[i][1]))
     points = np.array([found[i][0] for i in kept]).reshape(-1, len(unit), 2)
-    centre = np.array([found[i][1] for i in kept])
-    points[..., 1] *= np.where(centre < 0, -1.0, 1.0)[:, np.newaxis]
-    return PolygonSolutions(points, np.abs(centre), np.hypot(0.5, centre), np.array([found[i][2] for i in kept]))
+    centres = np.array([found[i][1] for i in kept])
+    points[..., 1] *= np.where(centres < 0, -1.0, 1.0)[:, np.newaxis]
+    return PolygonSolutions(points, np.abs(centres), np.hypot(0.5, centres), np.array([found[i][2] for i in kept]))
 
 
 def _starts(unit: Array, largest: float) -> tuple[list[tuple[Array, float]], list[Array]]:
