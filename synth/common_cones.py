@@ -1,4 +1,4 @@
-"""Link angles of linkages of several loops: the cones that all loops have in common (Hyatt et al. 2020, section 7).
+"""Link angles of linkages of several loops: the cones that all loops share (Hyatt et al. 2020, section 7).
 
 A loop has a few cones, and all loops must have one in common, with the same sign for a link that two of them
 use. A link of three joints or more whose angles are all given is a loop of its own, and fixes the cone by
