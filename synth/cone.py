@@ -243,7 +243,7 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
     if four:
         kind, solutions = kind_of_spherical(given), solution_class(given)
     why = "" if cones or families else _why_not(given, bool(flat))
-    if why and four and spherical_differences(given)[3] < 0:
+    if why and four and spherical_differences(given)[3] < 0 and given.max() < np.pi - _FLAT:
         supplement = map_to_cones(minimal_supplementary(given))
     return ConeMap(tuple(given.tolist()), cones, flat, families, kind, solutions, why, supplement)
 

@@ -1,11 +1,10 @@
-"""Pictures of a linkage at its conformed position: the circle with ICRL and shadow, the cone with its links as strips.
+"""Pictures of a linkage at its conformed position: circle with ICRL and shadow, cone with the links as strips.
 
 Static pictures; Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ _WAYS = {
 
 
 def draw_conformed(
-    chain: ConformedChain, places: Sequence[float], cone_angle: float | None = None, title: str = ""
+    chain: ConformedChain, places: npt.ArrayLike, cone_angle: float | None = None, title: str = ""
 ) -> Any:
     """Return a picture of a linkage on its circle and, with a cone angle, on its cone.
 

@@ -116,6 +116,7 @@ def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple
         )
     end = float(reach.min())
     interval = (0.0, _size(end, 1)) if base else (_size(end, 0), np.inf)
+    found.sort(key=lambda one: one.size)
     return tuple(found), tuple(
         FamilyOfCircles(
             interval, str(circuits(2.0 * np.array(s) * half_steps(end / 2, reach, base)).names()), s, 0
