@@ -299,7 +299,8 @@ def test_memberships_of_fig_11_by_brute_force():
 
     ends = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 2)]
     fits = sum(
-        all(set(ends[a]) & set(ends[b]) for a, b in zip(run, run[1:], strict=False)) for run in permutations(range(7))
+        all(set(ends[a]) & set(ends[b]) for a, b in zip(run, run[1:], strict=False))
+        for run in permutations(range(7))
     )
     assert fits == 15 * 4
 
