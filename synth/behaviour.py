@@ -32,6 +32,8 @@ __all__ = [
 Array = npt.NDArray[np.float64]
 _STILL = 1e-10
 """Outward rates below this part of the fastest in the linkage are zero."""
+_NO_TURN = 1e-13
+"""Rates of turning below this part of a link's motion are zero."""
 
 
 class Way(IntEnum):
@@ -246,8 +248,9 @@ def instant_centres(motions: npt.ArrayLike) -> Array:
     [[2.0, 0.0]]
     """
     w = np.asarray(motions, dtype=float)
+    turning = np.where(np.abs(w[..., 1:2]) > _NO_TURN * np.abs(w).max(axis=-1, keepdims=True), w[..., 1:2], 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(w[..., ::2] / w[..., 1:2])
+        return np.asarray(w[..., ::2] / turning)
 
 
 def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:

@@ -98,7 +98,7 @@ def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple
         roots.signs, roots.turns, roots.size, roots.residual, roots.double, strict=True
     ):
         half = np.flatnonzero(reach - z <= _SAME * (base + reach))
-        if (signs[half] < 0).any() or _ends_a_family(signs, half, families):
+        if _listed_otherwise(signs, half) or _ends_a_family(signs, half, families):
             continue
         steps = 2.0 * signs * half_steps(z, reach, base)
         found.append(
@@ -127,6 +127,12 @@ def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple
 
 def _size(z: float, base: Base) -> float:
     return float(np.arctan(np.sqrt(z))) if base else float(0.5 / np.sqrt(z))
+
+
+def _listed_otherwise(signs: npt.NDArray[np.int8], half: npt.NDArray[np.intp]) -> bool:
+    """Tell whether other signs of half turns, or those of the mirror image, are the ones to list."""
+    rest = np.delete(signs, half)
+    return bool((signs[half] < 0).any() or (0 in half and len(rest) and rest[0] < 0))
 
 
 def _ends_a_family(
