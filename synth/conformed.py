@@ -91,20 +91,21 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
     Returns
     -------
     float[..., n]
-        Angle about the outward joint axis, right-handed, from the plane of link i - 1 to that of link i, in (-pi, pi].
+        Right-handed about the outward joint axis, from the plane of link i - 1 to that of link i, in (-pi, pi].
 
     Notes
     -----
-    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of a + b, and the sign is
-    that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of the three axes, 4 sin(lambda) cos(lambda)^2
-    sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no digits are lost.
+    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of
+    a + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of
+    the three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no
+    digits are lost.
 
     Examples
     --------
     >>> theta = dihedral_angles(np.radians([40, 60, -100]), np.radians(20))
     >>> float(np.degrees(theta[1]).round(6))
     161.733801
-    """  # noqa: E501
+    """
     b = np.asarray(steps, dtype=float)
     a = np.roll(b, 1, axis=-1)
     lam = checked_cone_angle(cone_angle)[..., np.newaxis]

@@ -107,7 +107,21 @@ def _draw(
     for number, signs in enumerate(special):
         sums = np.degrees(loop_sum(size, reach, np.array(signs), base))
         name = "".join("+" if sign > 0 else "−" for sign in signs) if number < _MOST_NAMED else None
-        axes.plot(along, sums, color=COLOURS[number % len(COLOURS)], linewidth=1.8, label=name, zorder=3)
+        # families lie on one another: their dashes take turns
+        dashes = (
+            (7 * families.index(signs), (7, 7 * (len(families) - 1)))
+            if len(families) > 1 and signs in families
+            else "-"
+        )
+        axes.plot(
+            along,
+            sums,
+            color=COLOURS[number % len(COLOURS)],
+            linewidth=1.8,
+            label=name,
+            linestyle=dashes,
+            zorder=3,
+        )
     for number, signs in enumerate(special):
         points = [(place, 360 * turns) for mine, place, turns in roots if mine == signs]
         if points:

@@ -25,6 +25,8 @@ __all__ = ["LoopSteps", "Pair", "link_pairs", "loop_steps", "places_of_steps"]
 Array = npt.NDArray[np.float64]
 Pair = tuple[JointId, JointId]
 """Two joints of one link."""
+_HALF_TURN = 1e-9
+"""Steps this near to half a turn (radians) are half turns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +45,11 @@ class LoopSteps:
     joints: tuple[JointId, ...]
     steps: Array
     circuits: Circuits
+
+    @property
+    def half_turns(self) -> npt.NDArray[np.bool_]:
+        """Return which steps are half a turn and have no sign, though they are listed as +: bool[..., n]."""
+        return np.asarray(np.pi - np.abs(self.steps) < _HALF_TURN)
 
     def angles(self, cone_angle: npt.ArrayLike) -> Array:
         """Return the link angles on cones: float[..., n] (Eq. 5).

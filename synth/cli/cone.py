@@ -12,7 +12,7 @@ from synth.cli.output import about, print_json
 __all__ = ["cone_group"]
 
 
-@click.group("cone", short_help="Map spherical linkages to right cones; say which way links move.")
+@click.group("cone", short_help="Map spherical linkages to cones; say which way links go.")
 def cone_group() -> None:
     """Map spherical linkages to right cones, and say which way their links move there.
 

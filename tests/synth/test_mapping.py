@@ -211,6 +211,22 @@ def test_half_turns_have_no_sign():
     assert [one.circuit for one in map_to_cones(np.radians([120, 50, 120, 50])).cones] == ["open"]
 
 
+def test_angles_near_180_degrees_are_told_apart():
+    """Their reaches are squares of small numbers."""
+    steps = np.array([np.pi - 1e-3, 1e-3 - np.pi + 4e-4, 0.5, -0.5 - 4e-4])
+    angles = link_angles(steps, 1e-3)
+    found = map_to_cones(angles)
+    assert not found.families
+    assert min(abs(one.size - 1e-3) for one in found.cones) < 1e-9
+
+
+def test_a_step_that_is_nearly_half_a_turn_has_a_sign():
+    angles = link_angles(np.radians([60, -180 + 1e-5, 50, 70 - 1e-5]), 0.5)
+    (one,) = [one for one in map_to_cones(angles).cones if one.signs == (1, -1, 1, 1)]
+    assert (one.half_turns, one.turns) == ((), 0)
+    assert abs(one.size - 0.5) < 1e-9
+
+
 def test_angles_over_180_are_the_other_way_round():
     assert map_to_cones(np.radians([300, 60, 60])).angles == pytest.approx(np.radians([60, 60, 60]))
 

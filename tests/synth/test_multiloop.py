@@ -158,6 +158,12 @@ def test_memberships_need_a_name_for_each_joint():
         assert all({a, b} in pairs for a, b in zip("OABCDE", "ABCDEF", strict=True))
 
 
+def test_half_turns_are_marked():
+    (loop,) = loop_steps(FOUR_BAR, np.radians([[0, 180, 230, 300], [0, 179, 230, 300]]))
+    assert loop.half_turns.tolist() == [[True, False, False, False], [False] * 4]
+    assert np.degrees(loop.steps[0, 0]) == 180
+
+
 def test_azimuths_must_be_those_of_the_joints():
     with pytest.raises(InvariantError, match="azimuths of 3 joints; expected those of the 4"):
         loop_steps(FOUR_BAR, [0.0, 1.0, 2.0])
