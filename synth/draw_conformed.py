@@ -124,8 +124,8 @@ def _circle(axes: Any, chain: ConformedChain, t: Array) -> None:
     axes.set(aspect="equal", xlim=(-1.6, 1.6), ylim=(-1.6, 1.6))
     axes.axis("off")
     axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=2, fontsize=9)
-    told = ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * (len(chain.links) == 4)
-    axes.set_title(", ".join(told), fontsize=10)
+    notes = ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * (len(chain.links) == 4)
+    axes.set_title(", ".join(notes), fontsize=10)
 
 
 def _name_joints(axes: Any, chain: ConformedChain, t: Array) -> None:
