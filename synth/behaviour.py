@@ -9,7 +9,7 @@ side links. Theory: docs/theory/behaviour.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
@@ -67,6 +67,7 @@ class Behaviour:
     ranges : float[..., N, 2]
         Least and greatest outward rate over each link, per unit distance from the apex or axis.
     motion : FirstOrder
+        In the same sense.
     """
 
     ways: npt.NDArray[np.int8]
@@ -141,7 +142,8 @@ def behaviour_of_motion(
     ways = np.where(known[..., np.newaxis], ways, np.int8(Way.UNKNOWN))
     one_way = known & one_sided.any(axis=-1) & np.isin(ways, (Way.STILL, Way.OUTWARD)).all(axis=-1)
     ranges = np.where((turn == -1)[..., np.newaxis], -ranges[..., ::-1], ranges)
-    return Behaviour(ways, one_way, _tangent(chain, t, motion, small), ranges, motion)
+    turned = replace(motion, rates=motion.rates * turn, motions=motion.motions * turn[..., np.newaxis])
+    return Behaviour(ways, one_way, _tangent(chain, t, motion, small), ranges, turned)
 
 
 def _outward_ranges(motions: Array, arcs: Array) -> Array:

@@ -164,7 +164,7 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
     at_once = max(1, _ROWS // len(patterns))
     parts = [
         _roots_of_chunk(reaches[start : start + at_once], patterns, start, base)
-        for start in range(0, len(reaches), at_once)
+        for start in range(0, max(len(reaches), 1), at_once)
     ]
     joined = [np.concatenate([part[i] for part in parts]) for i in range(6)]
     families = np.concatenate([part[6] for part in parts])

@@ -13,7 +13,7 @@ from synth.cone import cone_reach, link_angles, map_to_cones, projected_angles, 
 from synth.conformed import check_pose
 from synth.coordinates import cone_angles_by_coordinates, polygons_by_coordinates, quadrilaterals_by_coordinates
 from synth.cyclic import circumradii, cone_angles
-from synth.cylinder import cylinder_reach, map_to_cylinders
+from synth.cylinder import central_angles, chords, cylinder_reach, map_to_cylinders
 from synth.fourbar import can_close, planar_differences, spherical_differences
 from synth.loopsum import MOST_LINKS, half_steps, loop_roots, loop_sum, sign_patterns
 
@@ -114,6 +114,28 @@ def test_loops_drawn_on_cones_are_found_again(links, count, rng):
     ).all(1)
     assert set(found.loop[hit].tolist()) == set(range(count))
     assert np.abs(found.residual).max() < 1e-7
+
+
+@pytest.mark.parametrize(("links", "count"), [(3, 1000), (4, 4000), (5, 2000), (6, 1000), (8, 100)])
+def test_loops_drawn_on_cylinders_are_found_again(links, count, rng):
+    """Radius 1; other circles of the same loop close too."""
+    _, steps, _, _ = random_linkages(rng, count, links)
+    lengths = chords(steps, 1.0)
+    found = loop_roots(cylinder_reach(lengths), 0)
+    radius = 0.5 / np.sqrt(found.size)
+    signs = np.sign(steps) * np.sign(steps[:, :1])
+    hit = (np.abs(radius - 1) < 1e-6) & (found.signs == signs[found.loop]).all(1)
+    assert set(found.loop[hit].tolist()) == set(range(count))
+    psi = central_angles(lengths[found.loop], np.maximum(radius, lengths[found.loop].max(1) / 2)[:, None])
+    gap = (found.signs * psi).sum(axis=1) - 2 * np.pi * found.turns
+    assert np.abs(gap).max() < 1e-6
+    assert np.isfinite(radius).all()
+
+
+def test_no_loops_have_no_circles():
+    found = loop_roots(np.zeros((0, 4)), 1)
+    assert found.size.shape == (0,)
+    assert found.signs.shape == (0, 4)
 
 
 @pytest.mark.parametrize("links", [5, 6])
@@ -271,6 +293,7 @@ def test_cylinders_have_no_unit(scale):
         ([150, 150, 150], "cannot close: they are too long for the sphere"),
         ([10, 20], "2 link angles; expected three or more"),
         ([10, float("nan"), 20], "not all numbers"),
+        ([10, 10, 1e-200], "link angle 3 is 1e-200 degrees; expected one that can be told from 0"),
     ],
 )
 def test_link_angles_that_no_loop_has(angles, message):
@@ -281,7 +304,12 @@ def test_link_angles_that_no_loop_has(angles, message):
 
 @pytest.mark.parametrize(
     ("lengths", "message"),
-    [([1, -2, 2], "length 2 is -2"), ([1, 2, 4], "1, 2, 4 cannot close"), ([1, 0, 1], "length 2 is 0")],
+    [
+        ([1, 1, 1e-200], "length 3 is 1e-200, the longest 1; expected lengths within"),
+        ([1, -2, 2], "length 2 is -2"),
+        ([1, 2, 4], "1, 2, 4 cannot close"),
+        ([1, 0, 1], "length 2 is 0"),
+    ],
 )
 def test_lengths_that_no_loop_has(lengths, message):
     with pytest.raises(InvariantError) as error:
