@@ -279,8 +279,8 @@ def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     Notes
     -----
     Four vectors lie in an open hemisphere unless a combination of them with weights >= 0 vanishes. In space the
-    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where they
-    do not, in a linkage that lies flat, the answer is no.
+    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where
+    they do not, in a linkage that lies flat, the answer is no.
 
     Examples
     --------
