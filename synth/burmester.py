@@ -3,8 +3,8 @@
 The four conditions G . (M_i - M_1) W = 0 are bilinear in the directions G and W. Multiplied by the three
 components of G they are twelve linear equations in the eighteen products G_a G_b W_j. At every solution (G, W) the
 vector of these products is in the kernel, which has six dimensions; cut into its three blocks (j = 1, 2, 3) the
-kernel becomes a matrix pencil of size six whose eigenvectors are the solutions. That the pencil is regular whenever
-the solutions are finitely many, so that none is missed, is shown in docs/theory/dyads.md.
+kernel becomes a matrix pencil of size six whose eigenvectors are the solutions. The pencil is regular whenever the
+solutions are finitely many, so that none is missed: docs/theory/dyads.md.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Spherical RR dyads that guide a body through orientations.
 
 A dyad has a fixed axis G and a moving axis W of the body; it guides the body through orientations M_1, ..., M_n if
-the angle between G and M_i W, that of its link, stays the same: G . (M_i - M_1) W = 0. Of three orientations the fixed
-axis may be chosen; four leave a curve (``synth.centre_axes``), five at most six dyads (``synth.burmester``), and more
-are met by least squares (``synth.dyad_fit``). Theory: docs/theory/dyads.md.
+the angle between G and M_i W, that of its link, stays the same: G . (M_i - M_1) W = 0. Of three orientations the
+fixed axis may be chosen; four leave a curve (``synth.centre_axes``), five at most six dyads (``synth.burmester``),
+and more are met by least squares (``synth.dyad_fit``). Theory: docs/theory/dyads.md.
 """
 
 from __future__ import annotations
@@ -39,6 +39,8 @@ class Dyad:
         Largest |G . (M_i - M_1) W|, of unit vectors.
     link_angle : float
         Mean angle between the axes, radians.
+    misfit : float
+        Largest difference between that angle at an orientation and its mean, radians.
     crank_angles : float[n]
         From orientation 1, counter-clockwise about G, radians in [0, 2 pi).
     direction : "ccw", "cw" or None
@@ -49,6 +51,7 @@ class Dyad:
     moving: Floats
     residual: float
     link_angle: float
+    misfit: float
     crank_angles: Floats
     direction: Direction | None
 
@@ -83,12 +86,14 @@ def dyad_of(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayL
     """
     g, w = signed(unit_vector(fixed, "fixed axis")), signed(unit_vector(moving, "moving axis"))
     cosines = orientations.matrices @ w @ g
+    link_angles = np.arccos(np.clip(cosines, -1.0, 1.0))
     angles = crank_angles(orientations, g, w)
     return Dyad(
         g,
         w,
         float(np.abs(cosines - cosines[0]).max()),
-        float(np.arccos(np.clip(cosines, -1.0, 1.0)).mean()),
+        float(link_angles.mean()),
+        float(np.abs(link_angles - link_angles.mean()).max()),
         angles,
         order_by_crank_angles(angles),
     )
