@@ -79,9 +79,9 @@ def _starts(orientations: Orientations) -> Floats:
 
     grid = fibonacci_sphere(2 * _GRID)
     grid = grid[grid[:, 2] > 0.0]
-    seen = np.einsum("nij,mi->mnj", orientations.matrices, grid)
-    seen -= seen.mean(axis=1, keepdims=True)
-    errors = np.linalg.eigvalsh(np.einsum("mni,mnj->mij", seen, seen))[:, 0]
+    apart = orientations.matrices - orientations.matrices.mean(axis=0)
+    moments = np.tensordot(apart, apart, axes=(0, 0))  # no array grows with both grid and orientations
+    errors = np.linalg.eigvalsh(np.einsum("ma,ajbk,mb->mjk", grid, moments, grid))[:, 0]
     both_ends = np.concatenate([grid, -grid])
     _, near = cKDTree(both_ends).query(grid, _NEIGHBOURS)
     return np.asarray(grid[errors <= errors[near % len(grid)].min(axis=1)])

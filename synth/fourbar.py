@@ -316,7 +316,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Arra
 
     Examples
     --------
-    >>> checked_link_angles(np.radians([10, 20, 30, 100]))
+    >>> checked_link_angles(np.radians([10, 20, 30, 100]))  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ...
     graphs.errors.InvariantError: the link angles 10, 20, 30, 100 cannot close: ...
@@ -324,9 +324,8 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Arra
     given = _listed(angles, "link angles", links)
     for place, angle in enumerate(given):
         if not 0.0 < angle < 2.0 * np.pi:
-            raise InvariantError(
-                "link angle", f"link angle {place + 1} is {_degrees(angle)} degrees", "between 0 and 360", ("angles", place)
-            )  # fmt: skip
+            told = f"link angle {place + 1} is {_degrees(angle)} degrees"
+            raise InvariantError("link angle", told, "between 0 and 360", ("angles", place))
     made = np.where(given > np.pi, 2.0 * np.pi - given, given)
     if not can_close(made):
         longest = made.max() > made.sum() - made.max()

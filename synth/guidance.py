@@ -2,7 +2,7 @@
 
 One dyad is driven (link alpha, fixed axis G_1, moving axis W_1), the other follows (beta, G_2, W_2); the ground is
 gamma, the body is the coupler eta. The angle theta of the driver is counted about G_1 from the plane of G_1 and
-G_2. The linkage closes where the angle d between G_2 and W_1 is from |beta - eta| to beta + eta (or 2 pi less that),
+G_2. The linkage closes where the angle d between G_2 and W_1 is from |beta - eta| to beta + eta (or 2 pi less it),
 and cos d is linear in cos theta: circuits and branches follow in closed form. Theory: docs/theory/guidance.md.
 """
 
@@ -48,6 +48,9 @@ class GuidedFourBar:
         The branch: within one the driver can take the linkage along. 0 to 3.
     direction : "ccw" or "cw" or None
         How the driver turns to take the orientations in their order within its range, if it can.
+    in_order_on_circuit : bool
+        Whether the linkage, moved along its circuit one way, takes the orientations in their order, if need be
+        past dead points of the driver, which something else must then help over.
     transmission : float
         Least angle, radians, at W_2 between coupler and follower or its supplement: from orientation 1 to n if
         there is no defect, else at the orientations only.
@@ -61,6 +64,7 @@ class GuidedFourBar:
     circuits: tuple[int, ...]
     branches: tuple[int, ...]
     direction: Direction | None
+    in_order_on_circuit: bool
     transmission: float
 
     @property
@@ -159,6 +163,7 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
         circuits,
         branches,
         direction,
+        len(set(circuits)) == 1 and order_by_crank_angles(_along_circuit(angles, sides, low, high)) is not None,
         _least_transmission(links, passed),
     )
 
@@ -250,6 +255,14 @@ def _direction(angles: Floats, low: float, high: float) -> Direction | None:
     if np.all(steps > 0.0):
         return DIRECTIONS[0]
     return DIRECTIONS[1] if np.all(steps < 0.0) else None
+
+
+def _along_circuit(angles: Floats, sides: npt.NDArray[np.int64], low: float, high: float) -> Floats:
+    """Return how far round its circuit each orientation is, 0 to 2 pi: along the arc on one side, and back."""
+    if low <= -1.0 and high >= 1.0:
+        return angles
+    counted = np.mod(angles + np.pi, _TURN) if high >= 1.0 else angles
+    return np.where(sides == 1, counted / 2.0, _TURN - counted / 2.0)
 
 
 def _unwrapped(angles: Floats, direction: Direction) -> Floats:

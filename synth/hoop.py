@@ -24,6 +24,7 @@ __all__ = [
     "Crossing",
     "Direction",
     "Hoop",
+    "direction_words",
     "hoop",
     "hoop_sequence",
     "pair_name",
@@ -116,6 +117,17 @@ def pair_name(pair: Pair) -> str:
     """
     i, j = pair
     return f"S{i}{j}" if j < 10 else f"S{i},{j}"
+
+
+def direction_words(direction: Direction | None) -> str:
+    """Return a direction in words.
+
+    Examples
+    --------
+    >>> direction_words("cw"), direction_words(None)
+    ('clockwise', 'neither way')
+    """
+    return "neither way" if direction is None else {"ccw": "counter-clockwise", "cw": "clockwise"}[direction]
 
 
 def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> Hoop:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import FileError, InvariantError
+from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.native_orientations import orientation_rows, orientations_document
 from graphs.files.source import json_text, write_text
 
@@ -40,9 +40,10 @@ _NORM_TOLERANCE = 1e-3
 """Printed quaternions have five digits or so; more is a mistake and not rounding (DESIGN, section 4)."""
 
 _EQUAL = 1e-8
-"""Sine of half the angle between two orientations, below which they are one."""
+"""Half the angle between two orientations, radians, below which they are one."""
 
 _FEWEST = 3
+_MOST_IN_PAIRS = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,14 +91,17 @@ class Orientations:
         self._check_different()
 
     def _check_different(self) -> None:
-        i, j = np.triu_indices(len(self), 1)
-        half_sines = np.linalg.norm(_between(self.quaternions[i], self.quaternions[j])[:, 1:], axis=1)
-        for k in np.flatnonzero(half_sines < _EQUAL):
+        from scipy.spatial import cKDTree
+
+        n = len(self)
+        both_signs = cKDTree(np.concatenate([self.quaternions, -self.quaternions]))
+        pairs = sorted(sorted((i % n, j % n)) for i, j in both_signs.query_pairs(_EQUAL))
+        for i, j in pairs:
             raise InvariantError(
                 "different orientations",
-                f"orientations {i[k] + 1} and {j[k] + 1} are equal",
+                f"orientations {i + 1} and {j + 1} are equal",
                 "different ones",
-                ("item", int(j[k])),
+                ("item", j),
             )
 
     def __len__(self) -> int:
@@ -221,8 +225,21 @@ class Orientations:
         return np.asarray(part / np.linalg.norm(part))
 
     def relative_axes(self) -> dict[Pair, Floats]:
-        """Return the relative rotation axes S_ij of all pairs."""
-        return {(i, j): self.relative_axis(i, j) for i, j in self.pairs()}
+        """Return the relative rotation axes S_ij of all pairs.
+
+        Raises
+        ------
+        UnsolvableError
+            If there are more than 2000 orientations: two million pairs.
+        """
+        if len(self) > _MOST_IN_PAIRS:
+            raise UnsolvableError(
+                f"{len(self)} orientations have too many pairs; at most {_MOST_IN_PAIRS} will do"
+            )
+        i, j = np.triu_indices(len(self), 1)
+        parts = _between(self.quaternions[i], self.quaternions[j])[:, 1:]
+        axes = parts / np.linalg.norm(parts, axis=1, keepdims=True)
+        return dict(zip(zip((i + 1).tolist(), (j + 1).tolist(), strict=True), axes, strict=True))
 
     def subset(self, numbers: Sequence[int]) -> Orientations:
         """Return some of the orientations, numbered from 1, in the order asked for."""
@@ -270,15 +287,21 @@ def read_orientations(path: str | Path) -> Orientations:
         raise FileError(path, place, error.offender, error.expected) from None
 
 
-def write_orientations(orientations: Orientations, path: str | Path) -> None:
+def write_orientations(quaternions: Floats, path: str | Path) -> None:
     """Write a file of orientations, as quaternions.
+
+    Parameters
+    ----------
+    quaternions : float[n, 4]
+        Unit quaternions, scalar first.
+    path : str or Path
 
     Raises
     ------
     FileError
         If it cannot be written.
     """
-    write_text(Path(path), json_text(orientations_document(orientations.quaternions.tolist())))
+    write_text(Path(path), json_text(orientations_document(quaternions.tolist())))
 
 
 def _between(first: Floats, second: Floats) -> Floats:

@@ -21,6 +21,9 @@ _COMMANDS = {
     "enumerate": "synth.cli.enumerate:enumerate_group",
     "convert": "synth.cli.convert:convert",
     "reconstruct": "synth.cli.reconstruct:reconstruct",
+    "order": "synth.cli.order:order",
+    "dyads": "synth.cli.dyads:dyads",
+    "fourbar": "synth.cli.guided:fourbar",
 }
 """Name of a subcommand to where it is."""
 
