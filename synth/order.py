@@ -206,7 +206,9 @@ def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.A
     g = unit_vector(fixed, "fixed axis")
     w = orientations.matrices @ unit_vector(moving, "moving axis")
     start = w[0] - (w[0] @ g) * g
-    return np.asarray(np.mod(np.arctan2(w @ np.cross(g, start), w @ start), 2.0 * np.pi))
+    angles = np.mod(np.arctan2(w @ np.cross(g, start), w @ start), 2.0 * np.pi)
+    angles[0] = 0.0  # rounding may have made it a whole turn
+    return np.asarray(angles)
 
 
 def order_by_crank_angles(angles: npt.ArrayLike) -> Direction | None:
