@@ -28,12 +28,14 @@ Numbers = npt.NDArray[Any]
 _SOLUTIONS = 6
 _RANK_GAP = 1e-11
 """Relative size of the twelfth singular value below which the solutions are infinitely many."""
-_SOLVED = 1e-12
-"""Largest |G . (M_i - M_1) W| of a solution, of unit vectors."""
-_NEARLY_REAL = 1e-6
+_SOLVED = 1e-13
+"""Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors."""
+_NEARLY_REAL = 1e-5
 """Imaginary part, of unit vectors, below which a real solution is looked for nearby: two that nearly coincide come
 out of an eigenvalue problem as a complex pair, the root of the rounding error apart."""
-_DISTINCT = 1e-9
+_DISTINCT = 1e-6
+"""Sine of the angle between axes below which two solutions are one: rounding of the orientations moves two that
+nearly coincide by the root of the rounding error, 1e-8, and more."""
 _TRIES = 8
 _NEWTON_STEPS = 30
 _SQUARES = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
@@ -48,11 +50,11 @@ class DyadsOfFive:
     Attributes
     ----------
     dyads : tuple of Dyad
-        The real ones, by ascending components of the fixed axis.
+        The real ones, by ascending components of the fixed axis. Two that are one to within 1e-6 are told once.
     complex_solutions : int
-        How many of the six are complex. A double one counts twice.
+        How many of the six are complex.
     residual : float
-        Largest |G . (M_i - M_1) W| of all six, complex ones included.
+        Largest |G . (M_i - M_1) W| / |M_i - M_1| of all six, complex ones included.
     smallest_singular_value : float
         The twelfth of the twelve equations, relative to the first: zero if the dyads were infinitely many.
     """
@@ -95,6 +97,7 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
         raise UnsolvableError(f"{len(orientations)} orientations do not have six dyads; 5 do")
     m = orientations.matrices
     conditions = m[1:] - m[0]
+    conditions /= np.linalg.norm(conditions, axis=(1, 2), keepdims=True)  # small turns weigh as much as large ones
     kernel, gap = _kernel(conditions)
     if gap < _RANK_GAP:
         raise UnsolvableError(
@@ -103,9 +106,9 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
         )
     fixed, moving = _six(conditions, kernel)
     residual = float(max(_misses(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
-    real = _real_ones(conditions, fixed, moving)
+    real, number = _real_ones(conditions, fixed, moving)
     dyads = sorted((dyad_of(orientations, g, w) for g, w in real), key=lambda dyad: dyad.fixed.tolist())
-    return DyadsOfFive(tuple(dyads), _SOLUTIONS - len(dyads), residual, gap)
+    return DyadsOfFive(tuple(dyads), _SOLUTIONS - number, residual, gap)
 
 
 def _kernel(conditions: Floats) -> tuple[Floats, float]:
@@ -132,7 +135,7 @@ def _six(conditions: Floats, kernel: Floats) -> tuple[Complexes, Complexes]:
         products = np.einsum("ki,kj->kij", fixed, moving).reshape(_SOLUTIONS, 9)
         overlap = np.abs(products.conj() @ products.T) - np.eye(_SOLUTIONS)
         closest = float(np.sqrt(max(0.0, 1.0 - overlap.max())))
-        double = max(_condition(conditions, g, w) for g, w in found) > 1.0 / np.sqrt(_DISTINCT)
+        double = max(_condition(conditions, g, w) for g, w in found) > 0.01 / _DISTINCT
         if worst < _SOLVED and (closest > _DISTINCT or double):
             return fixed, moving
     raise NumericalError(
@@ -190,20 +193,25 @@ def _misses(conditions: Floats, g: Numbers, w: Numbers) -> float:
     return float(np.abs(np.einsum("i,kij,j->k", g, conditions, w)).max())
 
 
-def _real_ones(conditions: Floats, fixed: Complexes, moving: Complexes) -> list[tuple[Floats, Floats]]:
-    """Return the real solutions, each once."""
+def _real_ones(conditions: Floats, fixed: Complexes, moving: Complexes) -> tuple[list[tuple[Floats, Floats]], int]:
+    """Return the real solutions, each once, and how many of the six are real."""
     real: list[tuple[Floats, Floats]] = []
+    number = 0
     for g, w in zip(map(_turned, fixed), map(_turned, moving), strict=True):
-        apart = float(np.hypot(np.linalg.norm(g.imag), np.linalg.norm(w.imag)))
+        apart = max(np.linalg.norm(g.imag), np.linalg.norm(w.imag))
         if apart > _NEARLY_REAL:
             continue
-        for side in (0.0,) if apart < _DISTINCT else (1.0, -1.0):
+        near = []
+        for side in (0.0,) if apart < _DISTINCT / 100.0 else (1.0, -1.0):
             start = g.real + side * g.imag, w.real + side * w.imag
             one = _polished(conditions, *start)
-            moved = max(np.linalg.norm(np.cross(a, b)) for a, b in zip(one, start, strict=True))
-            if _misses(conditions, *one) < _SOLVED and moved < 10.0 * _NEARLY_REAL:
-                _add_once(real, one)
-    return real[:_SOLUTIONS]
+            if _misses(conditions, *one) < _SOLVED and _apart(one, start) < 10.0 * _NEARLY_REAL:
+                near.append(one)
+        number += bool(near)
+        for one in near:
+            if all(_apart(one, other) > _DISTINCT for other in real):
+                real.append(one)
+    return real, number
 
 
 def _turned(axis: Complexes) -> Complexes:
@@ -212,8 +220,5 @@ def _turned(axis: Complexes) -> Complexes:
     return axis if phase == 0.0 else axis * (phase.conjugate() / abs(phase))
 
 
-def _add_once(real: list[tuple[Floats, Floats]], one: tuple[Floats, Floats]) -> None:
-    for other in real:
-        if max(np.linalg.norm(np.cross(a, b)) for a, b in zip(one, other, strict=True)) < _DISTINCT:
-            return
-    real.append(one)
+def _apart(one: tuple[Floats, Floats], other: tuple[Floats, Floats]) -> float:
+    return float(max(np.linalg.norm(np.cross(a, b)) for a, b in zip(one, other, strict=True)))
