@@ -20,13 +20,13 @@ CORRECTED = [*PRINTED[:2], (0.0078934, -0.041131, 0.085164, -0.99549), *PRINTED[
 def crank_rocker() -> list[list[float]]:
     """Return five orientations of the coupler of a crank-rocker: ground 60, crank 20, coupler 55, rocker 50 degrees.
 
-    The crank turns about z, at 0, 25, 55, 90 and 130 degrees from the ground, which lies along x; the rocker stays to
+    The crank turns about z, at 10, 35, 65, 100 and 140 degrees from the ground, which lies along x; the rocker stays to
     the left. The coupler's x axis is along the crank's moving axis, its y axis towards that of the rocker.
     """
     ground, crank, coupler, rocker = np.radians([60.0, 20.0, 55.0, 50.0])
     pivot = np.array([np.sin(ground), 0.0, np.cos(ground)])
     made = []
-    for turn in np.radians([0.0, 25.0, 55.0, 90.0, 130.0]):
+    for turn in np.radians([10.0, 35.0, 65.0, 100.0, 140.0]):
         w = np.array([np.sin(crank) * np.cos(turn), np.sin(crank) * np.sin(turn), np.cos(crank)])
         k = w @ pivot
         # the follower's axis in terms of the pivot, the crank's axis and their normal
