@@ -2,7 +2,7 @@
 
 As Figs. 3 to 6 of Tipparthi and Larochelle 2011: orientations, relative axes, the hoop and its crossings. The
 sphere is seen from far away (orthographic); the maps show all of it, equal areas as equal areas (Hammer).
-:func:`synth.picture.save_picture` writes the pictures.
+:func:`synth.draw_figure.save_figure` writes the pictures.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
 from synth.centre_axes import AxisCurve
+from synth.draw_figure import new_figure
 from synth.dyads import Dyad
 from synth.hoop import Crossing, Hoop, direction_words, pair_name
 from synth.labels import spread
 from synth.order import order_verdicts
 from synth.orientations import Floats, Orientations, unit_vector
-from synth.picture import new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Fi
         raise UnsolvableError(
             f"a picture of {len(orientations)} orientations shows nothing; {_MOST_DRAWN} at most"
         )
-    figure = new_figure(8.0, 9.6)
+    figure: Figure = new_figure(8.0, 9.6)
     sphere, strip = figure.subplots(2, 1, height_ratios=[5, 1])
     start = orientations.relative_axis(1, 2)
     start = start - (start @ g) * g
@@ -118,7 +118,7 @@ def draw_map(
     from matplotlib.colors import to_rgba
     from matplotlib.patches import Patch
 
-    figure = new_figure(10.0, 6.0)
+    figure: Figure = new_figure(10.0, 6.0)
     plane = figure.subplots()
     x = np.linspace(-2.0 * np.sqrt(2.0), 2.0 * np.sqrt(2.0), width)
     y = np.linspace(-np.sqrt(2.0), np.sqrt(2.0), width // 2)
@@ -244,7 +244,7 @@ def _draw_flat_marks(
     axes: Axes, lines: Sequence[tuple[Floats, str, str]], numbered: Sequence[tuple[Floats, str, str]]
 ) -> None:
     every = [*lines, *numbered]
-    x, y = hammer(np.array([point for point, _, _ in every]))
+    x, y = hammer(np.array([point for point, _, _ in every]).reshape(-1, 3))
     places = spread(np.stack([x, y], axis=1), reach=0.13, gap=0.13)
     for k, ((tx, ty), (_, name, colour)) in enumerate(zip(places, every, strict=True)):
         marker, size = ("o", 3) if k < len(lines) else ("*", 10)

@@ -32,10 +32,14 @@ def spread(points: Floats, reach: float, gap: float, only_x: bool = False) -> Fl
     >>> bool(np.linalg.norm(places[0] - places[1]) > 0.09)
     True
     """
+    if not len(points):
+        return points
     random = np.random.default_rng(7)  # to part points that are one
     away = points - points.mean(axis=0) + 1e-3 * random.normal(size=points.shape)
     away /= np.linalg.norm(away, axis=1, keepdims=True)
-    places = points + reach * away + (1e-3 * gap * random.normal(size=points.shape) if only_x else 0.0)
+    places = points + max(reach, 1e-3 * gap) * away
+    if only_x:
+        places[:, 1] = points[:, 1]
     for _ in range(_ROUNDS):
         push = _pushes(places, places, gap)
         if not only_x:

@@ -77,7 +77,8 @@ class Orientations:
             raise InvariantError("quaternions", f"an array of shape {q.shape}", "finite numbers, n by 4")
         if len(q) < _FEWEST:
             raise InvariantError("orientations", f"{len(q)} orientation(s)", f"{_FEWEST} or more", ("whole", 0))
-        norms = np.linalg.norm(q, axis=1)
+        with np.errstate(over="ignore"):
+            norms = np.linalg.norm(q, axis=1)
         for i in np.flatnonzero(np.abs(norms - 1.0) > _NORM_TOLERANCE):
             raise InvariantError(
                 "unit quaternion",
@@ -131,7 +132,8 @@ class Orientations:
         m = np.array(matrices, dtype=float)
         if m.ndim != 3 or m.shape[1:] != (3, 3) or not np.isfinite(m).all():
             raise InvariantError("matrices", f"an array of shape {m.shape}", "finite numbers, n by 3 by 3")
-        u, sizes, v = np.linalg.svd(m)
+        far = np.abs(m).max(axis=(1, 2), initial=0.0) > 2.0
+        u, sizes, v = np.linalg.svd(np.where(far[:, None, None], 0.0, m))
         nearest = u @ v
         bad = (np.abs(sizes - 1.0).max(axis=1) > _NORM_TOLERANCE) | (np.linalg.det(nearest) < 0.0)
         for i in np.flatnonzero(bad):

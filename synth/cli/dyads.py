@@ -63,10 +63,6 @@ def dyads(
     """
     from synth.orientations import read_orientations
 
-    if picture is not None:
-        from synth.picture import check_suffix
-
-        check_suffix(picture)
     orientations = read_orientations(file)
     with about(file):
         found, evidence = synthesised(orientations, axes, samples)
@@ -132,8 +128,8 @@ def told(dyad: Dyad) -> dict[str, Any]:
 
 
 def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> None:
+    from synth.draw_figure import save_figure
     from synth.draw_sphere import draw_map
-    from synth.picture import save_picture
 
     if len(orientations) == 4:
         from synth.centre_axes import centre_axes
@@ -141,7 +137,7 @@ def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> 
         figure = draw_map(orientations, (), centre_axes(orientations, 720))
     else:
         figure = draw_map(orientations, found)
-    save_picture(figure, picture)
+    save_figure(figure, picture)
 
 
 def _table(found: tuple[Dyad, ...]) -> Any:

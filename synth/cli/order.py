@@ -69,18 +69,14 @@ def order(
     from synth.order import analyse_order
     from synth.orientations import read_orientations
 
-    if picture is not None:
-        from synth.picture import check_suffix
-
-        check_suffix(picture)
     orientations = read_orientations(file)
     with about(file):
         found = analyse_order(orientations, axis, direction)
     if picture is not None:
+        from synth.draw_figure import save_figure
         from synth.draw_sphere import draw_hoop
-        from synth.picture import save_picture
 
-        save_picture(draw_hoop(orientations, axis, found.hoop), picture)
+        save_figure(draw_hoop(orientations, axis, found.hoop), picture)
     if as_json:
         print_json(_told(file, axis, found))
     else:

@@ -329,7 +329,9 @@ def test_overconstraint_is_located(data):
     assert "17 joint(s) cannot move" in out
 
 
-@pytest.mark.parametrize("command", ["mobility", "reduce", "edit", "enumerate", "convert", "reconstruct"])
+@pytest.mark.parametrize(
+    "command", ["mobility", "reduce", "edit", "enumerate", "convert", "reconstruct", "order", "dyads", "fourbar"]
+)
 def test_every_help_text_has_an_example(command):
     out = run(command, "--help").stdout
     assert re.search(rf"Examples?:\n +synth {command} ", out)
@@ -375,4 +377,7 @@ def test_shell_completion_knows_the_commands():
         "enumerate",
         "convert",
         "reconstruct",
+        "order",
+        "dyads",
+        "fourbar",
     }
