@@ -289,7 +289,7 @@ def _draw_strip(axes: Axes, deciding: Sequence[Crossing], others: Sequence[Cross
             axes.plot([angle, angle, x], [0.0, 0.35 * sign, 0.75 * sign], color=colour, linewidth=0.9)
             axes.text(x, 0.85 * sign, f"{name}\n{angle:.1f}", color=colour, fontsize=8, ha="center",
                       va="bottom" if sign > 0 else "top")  # fmt: skip
-    axes.set_xlim(-6.0, 186.0)
+    axes.set_xlim(-13.0, 193.0)
     axes.set_ylim(-2.4, 2.4)
     axes.set_xticks(range(0, 181, 30))
     axes.set_yticks([])

@@ -26,6 +26,7 @@ __all__ = ["fourbar"]
     "--best", type=click.IntRange(min=1), default=12, show_default=True, metavar="K", help="How many to list."
 )
 @click.option("--usable", is_flag=True, help="Only those without defects.")
+@click.option("--cones", is_flag=True, help="Map each one listed to cones: can it be made of one?")
 @click.option(
     "--motion", metavar="OUT.json", help="Write the motion of the best one without defects, as orientations."
 )
@@ -38,6 +39,7 @@ def fourbar(
     samples: int,
     best: int,
     usable: bool,
+    cones: bool,
     motion: str | None,
     steps: int,
     as_json: bool,
@@ -47,10 +49,12 @@ def fourbar(
     Each pair is told twice, with either dyad as driver. A circuit defect: the orientations cannot be reached
     without taking the linkage apart. A branch defect: the driver would have to pass a dead point. An order defect:
     the driver, turning one way within its range, takes them in another order. Three orientations need two axes.
+    With --cones each one listed is mapped to cones, by either end of each of its axes.
 
     \b
-    Example:
+    Examples:
       synth fourbar --orientations data/orientations/tipparthi.json --best 5
+      synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
     """
     from synth.guidance import four_bars
     from synth.orientations import read_orientations
@@ -69,7 +73,7 @@ def fourbar(
             {
                 "file": file,
                 "orientations": len(orientations),
-                "fourbars": list(map(_told, listed)),
+                "fourbars": [_told(one, cones) for one in listed],
                 "found": len(found),
                 "usable": len(good),
                 "motion": None if motion is None else {"file": motion, "frames": frames},
@@ -79,6 +83,8 @@ def fourbar(
     out = console()
     out.print(f"{len(orientations)} orientations: {len(found)} four-bar(s), {len(good)} without defects")
     out.print(_table(listed))
+    if cones:
+        out.print(_table_of_cones(listed))
     if motion is not None:
         out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
 
@@ -95,7 +101,7 @@ def _write_motion(orientations: Orientations, good: list[GuidedFourBar], motion:
     return len(made.quaternions)
 
 
-def _told(one: GuidedFourBar) -> dict[str, Any]:
+def _told(one: GuidedFourBar, cones: bool) -> dict[str, Any]:
     from math import degrees
 
     return {
@@ -111,7 +117,54 @@ def _told(one: GuidedFourBar) -> dict[str, Any]:
         "in_order_on_circuit": one.in_order_on_circuit,
         "defects": list(one.defects),
         "transmission_deg": degrees(one.transmission),
+        **(_told_cones(one) if cones else {}),
     }
+
+
+def _told_cones(one: GuidedFourBar) -> dict[str, Any]:
+    """Return every cone, and interval of cones, on which a four-bar can lie."""
+    from math import degrees
+
+    from synth.conical_form import conical_forms
+
+    forms = conical_forms(one)
+    return {
+        "cones": [
+            {
+                "link_angles_deg": [degrees(angle) for angle in form.link_angles],
+                "lambda_deg": degrees(cone.size),
+                "circuit": cone.circuit,
+                "signs": list(cone.signs),
+                "k": cone.turns,
+            }
+            for form in forms
+            for cone in form.cones
+        ],
+        "families": [
+            {
+                "link_angles_deg": [degrees(angle) for angle in form.link_angles],
+                "interval_deg": [degrees(end) for end in family.interval],
+                "circuit": family.circuit,
+                "signs": list(family.signs),
+            }
+            for form in forms
+            for family in form.families
+        ],
+    }
+
+
+def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
+    rows = table("row", "ground driver coupler follower", "cone angle", "circuit", numbers=["row", "cone angle"])
+    for number, one in enumerate(listed, start=1):
+        told_ = _told_cones(one)
+        found = [(cone, f"{cone['lambda_deg']:.4f}") for cone in told_["cones"]]
+        found += [(family, "{:.4f} to {:.4f}".format(*family["interval_deg"])) for family in told_["families"]]
+        if not found:
+            rows.add_row(str(number), "on no cone", "", "")
+        for cone, size in found:
+            links = " ".join(f"{angle:7.2f}" for angle in cone["link_angles_deg"])
+            rows.add_row(str(number), links, size, cone["circuit"])
+    return rows
 
 
 def _table(listed: Sequence[GuidedFourBar]) -> Any:

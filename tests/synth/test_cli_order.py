@@ -125,6 +125,17 @@ def test_four_bars_of_three_and_four(some):
     assert ranks == sorted(ranks)
 
 
+def test_four_bars_on_cones(data):
+    given = data / "orientations" / "crank-rocker.json"
+    told = json.loads(run("fourbar", "--orientations", given, "--usable", "--best", 2, "--cones", "--json").stdout)
+    for one in told["fourbars"]:
+        assert one["families"] == []
+        assert one["cones"][0].keys() == {"link_angles_deg", "lambda_deg", "circuit", "signs", "k"}
+        assert one["cones"][0]["link_angles_deg"] == pytest.approx(one["link_angles_deg"])
+    out = run("fourbar", "--orientations", given, "--usable", "--best", 1, "--cones").stdout
+    assert re.search(r"1 +60\.00 +20\.00 +55\.00 +50\.00 +55\.0986 +open", out)
+
+
 def test_without_a_usable_four_bar_there_is_no_motion(corrected, tmp_path):
     result = run("fourbar", "--orientations", corrected, "--motion", tmp_path / "m.json", code=2)
     assert result.stderr == f"{corrected}: no four-bar without defects: there is no motion to write\n"
@@ -202,8 +213,9 @@ def test_without_matplotlib_a_picture_is_one_line(printed, tmp_path, monkeypatch
 
 
 @pytest.mark.parametrize("command", ["order", "dyads", "fourbar"])
-def test_the_examples_of_the_help_texts_run(command, data, monkeypatch):
-    monkeypatch.chdir(data.parent)
+def test_the_examples_of_the_help_texts_run(command, data, monkeypatch, tmp_path):
+    (tmp_path / "data").symlink_to(data)
+    monkeypatch.chdir(tmp_path)
     text = run(command, "--help").stdout
     examples = re.findall(r"^ +synth (.*)$", text, re.MULTILINE)
     assert examples
