@@ -27,6 +27,11 @@ __all__ = [
 ]
 
 
+_BLOCK = 1 << 15
+"""Axes that are checked together: what they need stays in the processor's cache."""
+_ROUNDING = 1e-15
+
+
 @dataclass(frozen=True, slots=True)
 class OrderAnalysis:
     """The order of orientations about a fixed axis, with three verdicts.
@@ -147,7 +152,7 @@ def order_verdicts(orientations: Orientations, axes: npt.ArrayLike) -> npt.NDArr
     Raises
     ------
     InvariantError
-        If the axes are not m by 3.
+        If the axes are not m by 3, or one has no direction.
 
     Examples
     --------
@@ -162,12 +167,10 @@ def order_verdicts(orientations: Orientations, axes: npt.ArrayLike) -> npt.NDArr
         raise InvariantError("axes", f"an array of shape {g.shape}", "m by 3")
     start = orientations.relative_axis(1, 2)
     lines = np.array([orientations.relative_axis(*pair) for pair in required_sequence(len(orientations))])
-    from_start = _clean_sign(g @ np.cross(start, lines).T)
-    between = _clean_sign(g @ np.cross(lines[:-1], lines[1:]).T)
-    signs = from_start[:, :-1] * between * from_start[:, 1:]
-    kept: npt.NDArray[np.int8] = (signs == 1).all(axis=1).astype(np.int8) - (signs == -1).all(axis=1).astype(
-        np.int8
-    )
+    normals = np.cross(start, lines).T, np.cross(lines[:-1], lines[1:]).T
+    kept = np.empty(len(g), dtype=np.int8)
+    for first in range(0, len(g), _BLOCK):
+        kept[first : first + _BLOCK] = _verdicts(g[first : first + _BLOCK], first, *normals)
     return kept
 
 
@@ -231,6 +234,16 @@ def order_by_crank_angles(angles: npt.ArrayLike) -> Direction | None:
     return None
 
 
-def _clean_sign(values: Floats) -> npt.NDArray[np.int8]:
-    """Return signs, zero for what is rounding only."""
-    return (values > 1e-15).astype(np.int8) - (values < -1e-15).astype(np.int8)
+def _verdicts(axes: Floats, first: int, from_start: Floats, between: Floats) -> npt.NDArray[np.int8]:
+    """Return the verdicts of a block of axes; ``first`` is the number of its first one, for messages."""
+    lengths = np.sqrt(np.einsum("ij,ij->i", axes, axes))
+    bad = np.flatnonzero(~(np.isfinite(lengths) & (lengths > 0.0)))
+    if len(bad):
+        raise InvariantError("axes", f"axis {first + bad[0] + 1} has no direction", "finite numbers, not all zero")
+    unit = axes / lengths[:, None]
+    ahead, apart = unit @ from_start, unit @ between
+    products = ahead[:, :-1] * apart * ahead[:, 1:]
+    lowest, highest = products.min(axis=1), products.max(axis=1)
+    kept = (lowest > 0.0).astype(np.int8) - (highest < 0.0).astype(np.int8)
+    kept[np.minimum(np.abs(ahead).min(axis=1), np.abs(apart).min(axis=1)) < _ROUNDING] = 0
+    return np.asarray(kept)

@@ -63,6 +63,7 @@ def main() -> None:
       synth reduce mechanism.json -o reduced.json
       synth convert crease-pattern.fold mechanism.json
       synth reconstruct mechanism.json -o model.json
+      synth dyads --orientations orientations.json
 
     Exit status: 0 done, 1 the answer is no, 2 bad input or usage.
     """

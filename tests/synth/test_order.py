@@ -133,3 +133,16 @@ def test_axes_that_are_none():
             ask(given, (0, 0, 0))
     with pytest.raises(InvariantError, match="expected m by 3"):
         order_verdicts(given, [1, 2, 3])
+    for bad in (0.0, np.nan, np.inf):
+        axes = np.ones((40_000, 3))
+        axes[39_998] = bad
+        with pytest.raises(InvariantError, match="axis 39999 has no direction"):
+            order_verdicts(given, axes)
+
+
+def test_the_length_of_an_axis_does_not_matter():
+    rng = np.random.default_rng(17)
+    given = random_orientations(5, rng)
+    axes = rng.normal(size=(500, 3))
+    for size in (1e-100, 1e100):
+        assert np.array_equal(order_verdicts(given, size * axes), order_verdicts(given, axes))
