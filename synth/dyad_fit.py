@@ -18,6 +18,8 @@ __all__ = ["dyads_by_least_squares", "fibonacci_sphere"]
 _GRID = 2000
 _NEIGHBOURS = 7
 _SAME = 1e-6
+_MOST_STARTS = 100
+_NO_ERROR = 1e-13
 _MOST = 12
 """How many dyads are given; those that fit worse are left out."""
 
@@ -37,7 +39,8 @@ def dyads_by_least_squares(orientations: Orientations) -> tuple[Dyad, ...]:
     Raises
     ------
     UnsolvableError
-        If there are fewer than five: those have infinitely many dyads without error.
+        If there are fewer than five, which have infinitely many dyads without error, or if more have as many (as
+        where all are turns about one axis).
 
     Examples
     --------
@@ -82,9 +85,12 @@ def _starts(orientations: Orientations) -> Floats:
     apart = orientations.matrices - orientations.matrices.mean(axis=0)
     moments = np.tensordot(apart, apart, axes=(0, 0))  # no array grows with both grid and orientations
     errors = np.linalg.eigvalsh(np.einsum("ma,ajbk,mb->mjk", grid, moments, grid))[:, 0]
+    if np.median(errors) < _NO_ERROR * np.trace(np.einsum("ajbj->ab", moments)):
+        raise UnsolvableError("infinitely many dyads take these orientations (are they turns about one axis?)")
     both_ends = np.concatenate([grid, -grid])
     _, near = cKDTree(both_ends).query(grid, _NEIGHBOURS)
-    return np.asarray(grid[errors <= errors[near % len(grid)].min(axis=1)])
+    lowest = np.flatnonzero(errors <= errors[near % len(grid)].min(axis=1))
+    return np.asarray(grid[lowest[np.argsort(errors[lowest])][:_MOST_STARTS]])
 
 
 def _fitted(orientations: Orientations, start: Floats) -> tuple[float, Dyad]:

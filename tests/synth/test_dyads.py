@@ -157,6 +157,13 @@ def test_a_fit_is_a_local_minimum():
     assert max(numbers) > 1
 
 
+@pytest.mark.parametrize("n", [5, 6, 40])
+def test_turns_about_one_axis_fit_dyads_without_number(n):
+    given = Orientations.from_axis_angles([(1, 2, 3)] * n, np.linspace(0.0, 2.0, n))
+    with pytest.raises(UnsolvableError, match="infinitely many dyads take these orientations"):
+        dyads_by_least_squares(given)
+
+
 def test_least_squares_need_five():
     with pytest.raises(UnsolvableError, match="4 orientations have dyads without error"):
         dyads_by_least_squares(random_orientations(4, np.random.default_rng(1)))
