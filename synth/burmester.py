@@ -101,7 +101,7 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
     kernel, gap = _kernel(conditions)
     if gap < _RANK_GAP:
         raise UnsolvableError(
-            "infinitely many dyads take these orientations (are they turns about one axis?): "
+            "infinitely many dyads take these orientations (are most of them turns about one axis?): "
             f"the relative singular value is {gap:.0e}"
         )
     fixed, moving = _six(conditions, kernel)

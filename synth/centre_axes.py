@@ -25,6 +25,10 @@ _UNIT = 1e-6
 """How far from the unit circle a root may lie to be tried as an end of an interval; trying one too many does no
 harm."""
 _HALVINGS = 20
+_POLISHINGS = 2
+_EIGHTHS: Floats = np.linspace(0.0, np.pi, 8, endpoint=False)
+_DEGENERATE = 1e-10
+"""Relative size of coefficients below which they are rounding only."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +68,7 @@ def centre_axes(orientations: Orientations, samples: int = 360) -> tuple[AxisCur
     -------
     tuple of AxisCurve
         One or two closed curves (on the sphere with opposite points taken as one); more pieces if the cone crosses
-        itself.
+        itself, as it does where it holds a plane (orientations of high symmetry).
 
     Raises
     ------
@@ -84,10 +88,10 @@ def centre_axes(orientations: Orientations, samples: int = 360) -> tuple[AxisCur
     if len(orientations) != 4:
         raise UnsolvableError(f"{len(orientations)} orientations have no curve of dyads; 4 have")
     pencil = _Pencil(orientations)
-    curves = [
-        _sampled(piece, samples) for start, end in pencil.intervals() for piece in _pieces(pencil, start, end)
-    ]
-    return tuple(_curve(orientations, _followed(points)) for points in curves)
+    pieces = [piece for start, end in pencil.intervals() for piece in _pieces(pencil, start, end)]
+    pieces += [_great_circle(*plane) for plane in pencil.whole_planes()]
+    curves = [_sampled(piece, samples) for piece in pieces]
+    return tuple(_curve(orientations, _followed(points)) for points in curves if len(points) > 1)
 
 
 def dyads_of_four(orientations: Orientations, samples: int = 36) -> tuple[Dyad, ...]:
@@ -117,6 +121,8 @@ class _Pencil:
         self._conditions = (m[1:] - m[0]).transpose(0, 2, 1)
         self._base = orientations.relative_axis(1, 2)
         self._across = np.linalg.svd(self._base[None])[2][1:]
+        *forms, _ = self._coefficients(_EIGHTHS)
+        self._size = float(np.abs(forms).max())  # the largest coefficient, about
 
     def _coefficients(self, turns: Floats) -> tuple[Floats, Floats, Floats, Floats]:
         u = np.stack([np.cos(turns), np.sin(turns)], axis=1) @ self._across
@@ -124,6 +130,25 @@ class _Pencil:
         _, b_base, c_base = (np.broadcast_to(condition @ self._base, u.shape) for condition in self._conditions)
         q1 = _determinants(a, b_base, c) + _determinants(a, b, c_base)
         return _determinants(a, b_base, c_base), q1, _determinants(a, b, c), u
+
+    def whole_planes(self) -> list[tuple[Floats, Floats]]:
+        """Return the planes through S_12 that lie on the cone whole, each as two directions at right angles.
+
+        There all coefficients vanish. They are forms of degree one, two and three in cos and sin of the plane's
+        angle: the common roots are among those of the first that is not zero everywhere.
+        """
+        small = _DEGENERATE * self._size
+        forms = [*self._coefficients(_EIGHTHS)[:3]]
+        degree = next((k for k, q in enumerate(forms, start=1) if np.abs(q).max() > small), 0)
+        if not degree:
+            return []
+        powers = [np.cos(_EIGHTHS) ** (degree - k) * np.sin(_EIGHTHS) ** k for k in range(degree + 1)]
+        form = np.linalg.lstsq(np.stack(powers, axis=1), forms[degree - 1], rcond=None)[0]
+        roots = [np.pi / 2.0] if abs(form[-1]) < small else []
+        roots += [float(np.arctan(root.real)) for root in np.roots(form[::-1]) if abs(root.imag) < _UNIT]
+        *there, directions = self._coefficients(np.array(roots))
+        whole = np.max(np.abs(there), axis=0) < np.sqrt(_DEGENERATE) * self._size
+        return [(self._base, u) for u in directions[whole]]
 
     def _discriminant(self, turns: Floats) -> Floats:
         q0, q1, q2, _ = self._coefficients(turns)
@@ -134,12 +159,13 @@ class _Pencil:
 
         The discriminant is a form of degree four in cos and sin of the angle, so it has five Fourier terms.
         """
-        terms = np.fft.fft(self._discriminant(np.linspace(0.0, np.pi, 8, endpoint=False))) / 8.0
-        largest = float(np.abs(terms).max())
-        if largest < 1e-20:
+        terms = np.fft.fft(self._discriminant(_EIGHTHS)) / 8.0
+        if self._size < 1e-10:
             raise UnsolvableError(
                 "every axis is that of a dyad of these orientations (are they turns about one axis?)"
             )
+        if np.abs(terms).max() < (_DEGENERATE * self._size) ** 2:  # the two lines are one in every plane
+            return [(0.0, np.pi)]
         roots = np.roots(terms[[2, 1, 0, -1, -2]])
         ends = np.sort(np.angle(roots[np.abs(np.abs(roots) - 1.0) < _UNIT]) / 2.0)
         if not len(ends):
@@ -148,14 +174,18 @@ class _Pencil:
         return [(a, b) for a, b in spans if self._discriminant(np.array([(a + b) / 2.0]))[0] > 0.0 and a < b]
 
     def points(self, turns: Floats, sheet: Floats) -> Floats:
-        """Return one of the two lines in each plane, by the sign of the root: float[m, 3], unit vectors."""
+        """Return one of the two lines in each plane, by the sign of the root: float[m, 3], unit vectors.
+
+        They are nan where the whole plane is on the cone.
+        """
         q0, q1, q2, u = self._coefficients(turns)
         root = sheet * np.sqrt(np.maximum(q1 * q1 - 4.0 * q0 * q2, 0.0))
         one, other = np.stack([root - q1, 2.0 * q0]), np.stack([2.0 * q2, -q1 - root])
         # The same ratio s : t twice; the larger pair has not lost its digits.
         s, t = np.where(np.hypot(*one) > np.hypot(*other), one, other)
-        lines = s[:, None] * self._base + t[:, None] * u
-        return np.asarray(lines / np.linalg.norm(lines, axis=1, keepdims=True))
+        sizes = np.hypot(s, t)
+        sizes[sizes < _DEGENERATE * self._size] = np.nan
+        return np.asarray((s[:, None] * self._base + t[:, None] * u) / sizes[:, None])
 
 
 def _pieces(pencil: _Pencil, start: float, end: float) -> list[Callable[[Floats], Floats]]:
@@ -173,17 +203,26 @@ def _pieces(pencil: _Pencil, start: float, end: float) -> list[Callable[[Floats]
     return [there_and_back]
 
 
+def _great_circle(base: Floats, across: Floats) -> Callable[[Floats], Floats]:
+    return lambda t: np.outer(np.cos(np.pi * t), base) + np.outer(np.sin(np.pi * t), across)
+
+
 def _sampled(curve: Callable[[Floats], Floats], samples: int) -> Floats:
-    """Return points of a closed curve, closer where it runs fast."""
+    """Return points of a closed curve, closer where it runs fast, without repeating any."""
     t = np.linspace(0.0, 1.0, samples + 1)
     for _ in range(_HALVINGS):
         points = curve(t)
+        there = ~np.isnan(points[:, 0])
+        t, points = t[there], points[there]
         steps = np.linalg.norm(np.cross(points[1:], points[:-1]), axis=1)
         wide = np.flatnonzero(steps > np.sin(min(4.0 * np.pi / samples, np.pi / 2.0)))
         if not len(wide):
             break
         t = np.insert(t, wide + 1, (t[wide] + t[wide + 1]) / 2.0)
-    return curve(t[:-1])
+    points = curve(t[t < 1.0])
+    points = points[~np.isnan(points[:, 0])]
+    moved = np.linalg.norm(np.cross(points[1:], points[:-1]), axis=1) > _UNIT**2
+    return np.asarray(points[np.concatenate([[True], moved])[: len(points)]])
 
 
 def _determinants(a: Floats, b: Floats, c: Floats) -> Floats:
@@ -200,6 +239,20 @@ def _followed(points: Floats) -> Floats:
 def _curve(orientations: Orientations, fixed: Floats) -> AxisCurve:
     m = orientations.matrices
     seen = np.einsum("nij,mi->mnj", m, fixed)
-    moving = _followed(np.linalg.svd(seen - seen.mean(axis=1, keepdims=True))[2][:, -1])
-    residuals = np.abs(np.einsum("mi,nij,mj->mn", fixed, m[1:] - m[0], moving)).max(axis=1)
-    return AxisCurve(fixed, moving, residuals, order_verdicts(orientations, fixed))
+    moving = np.linalg.svd(seen - seen.mean(axis=1, keepdims=True))[2][:, -1]
+    conditions = m[1:] - m[0]
+    for _ in range(_POLISHINGS):
+        fixed, moving = _polished(conditions, fixed, moving)
+    residuals = np.abs(np.einsum("mi,nij,mj->mn", fixed, conditions, moving)).max(axis=1)
+    return AxisCurve(fixed, _followed(moving), residuals, order_verdicts(orientations, fixed))
+
+
+def _polished(conditions: Floats, fixed: Floats, moving: Floats) -> tuple[Floats, Floats]:
+    """Move axes to fulfil the conditions, as little as can be; where curves cross, half the digits were lost."""
+    by_fixed, by_moving = np.einsum("nij,mj->mni", conditions, moving), np.einsum("mi,nij->mnj", fixed, conditions)
+    values = np.einsum("mni,mi->mn", by_fixed, fixed)
+    inverse = np.linalg.pinv(np.concatenate([by_fixed, by_moving], axis=2), rcond=1e-6)
+    steps = np.einsum("mkn,mn->mk", inverse, values)
+    made = fixed - steps[:, :3], moving - steps[:, 3:]
+    unit = [axes / np.linalg.norm(axes, axis=1, keepdims=True) for axes in made]
+    return unit[0], unit[1]

@@ -99,6 +99,31 @@ def test_dyads_sampled_from_the_curves_are_dyads():
     assert min(lines_apart(dyad.fixed, made.fixed) for dyad in found) < 0.05
 
 
+def test_the_curves_of_quarter_turns():
+    """Rotations of a cube: the cone may hold planes and cross itself, and is found whole all the same."""
+    rng = np.random.default_rng(41)
+    cube = Rotation.create_group("O")
+    turn = np.linspace(0.0, np.pi, 1001)[:, None]
+    pieces = set()
+    for _ in range(60):
+        four = Orientations.from_rotation(cube[rng.choice(24, 4, replace=False)])
+        m = four.matrices
+        turns_about_one = np.linalg.matrix_rank(np.array(list(four.relative_axes().values())), tol=1e-9) == 1
+        if turns_about_one:
+            continue
+        curves = centre_axes(four)
+        pieces.add(len(curves))
+        assert max(curve.residuals.max() for curve in curves) < 1e-12
+        points = np.concatenate([curve.fixed for curve in curves])
+        for _ in range(5):
+            a, b = np.linalg.qr(rng.normal(size=(3, 2)))[0].T
+            circle = np.cos(turn) * a + np.sin(turn) * b
+            cubic = np.linalg.det(np.stack([circle @ (m[k] - m[0]) for k in (1, 2, 3)], axis=1))
+            for place in np.flatnonzero(cubic[:-1] * cubic[1:] < 0.0):
+                assert nearest(points, circle[place]) < 0.05
+    assert len(pieces) > 2
+
+
 def test_four_turns_about_one_axis_have_no_curve():
     given = Orientations.from_axis_angles([(1, 2, 3)] * 4, [0.0, 0.3, 0.9, 1.4])
     with pytest.raises(UnsolvableError, match="every axis is that of a dyad"):
