@@ -27,7 +27,7 @@ Numbers = npt.NDArray[Any]
 
 _SOLUTIONS = 6
 _RANK_GAP = 1e-11
-"""Relative size of the twelfth singular value below which the solutions are infinitely many."""
+"""Relative size of a singular value below which it is zero, and the solutions are infinitely many."""
 _SOLVED = 1e-13
 """Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors."""
 _NEARLY_REAL = 1e-5
@@ -56,7 +56,8 @@ class DyadsOfFive:
     residual : float
         Largest |G . (M_i - M_1) W| / |M_i - M_1| of all six, complex ones included.
     smallest_singular_value : float
-        The twelfth of the twelve equations, relative to the first: zero if the dyads were infinitely many.
+        The least of those that are zero where dyads are infinitely many: of the twelve equations, relative to the
+        largest, and of the conditions on the other axis at each solution, but one.
     """
 
     dyads: tuple[Dyad, ...]
@@ -100,11 +101,12 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
     conditions /= np.linalg.norm(conditions, axis=(1, 2), keepdims=True)  # small turns weigh as much as large ones
     kernel, gap = _kernel(conditions)
     if gap < _RANK_GAP:
-        raise UnsolvableError(
-            "infinitely many dyads take these orientations (are most of them turns about one axis?): "
-            f"the relative singular value is {gap:.0e}"
-        )
-    fixed, moving = _six(conditions, kernel)
+        raise _without_number(gap)
+    forms = _forms(kernel)
+    fixed, moving = _six(conditions, kernel, forms)
+    gap = min(gap, *(_second_smallest(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
+    if gap < _RANK_GAP:
+        raise _without_number(gap)
     residual = float(max(_misses(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
     real, number = _real_ones(conditions, fixed, moving)
     dyads = sorted((dyad_of(orientations, g, w) for g, w in real), key=lambda dyad: dyad.fixed.tolist())
@@ -121,15 +123,43 @@ def _kernel(conditions: Floats) -> tuple[Floats, float]:
     return rows[12:].T.reshape(6, 3, 6), float(sizes[11] / sizes[0])
 
 
-def _six(conditions: Floats, kernel: Floats) -> tuple[Complexes, Complexes]:
+def _without_number(gap: float) -> UnsolvableError:
+    return UnsolvableError(
+        "infinitely many dyads, complex ones counted, take these orientations (are most of them turns about one "
+        f"axis, or about axes of symmetry?): a singular value is {gap:.0e}"
+    )
+
+
+def _forms(kernel: Floats) -> Floats:
+    """Return pairs of linear forms in W, taken at random, that make a regular pencil: float[tries, 2, 3].
+
+    Raises
+    ------
+    UnsolvableError
+        If every one is singular: then the solutions are infinitely many.
+    """
+    forms = np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
+    sizes = np.linalg.svd(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1], compute_uv=False)
+    ratios = sizes[:, -1] / sizes[:, 0]
+    if ratios.max() < _RANK_GAP:
+        raise _without_number(float(ratios.max()))
+    return np.asarray(forms[np.argsort(-ratios)])
+
+
+def _second_smallest(conditions: Floats, g: Numbers, w: Numbers) -> float:
+    """Return zero if one of the axes of a solution leaves the other a whole plane."""
+    by_w, by_g = np.einsum("i,kij->kj", g, conditions), conditions @ w
+    return float(min(np.linalg.svd(rows, compute_uv=False)[1] for rows in (by_w, by_g)))
+
+
+def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, Complexes]:
     """Return the six solutions as unit vectors: complex[6, 3] each.
 
-    Two forms in W, taken at random, make the pencil; where two solutions are not told apart another pair is tried.
+    Where two solutions are not told apart by one pencil another one is tried.
     """
-    random = np.random.default_rng(20110802)
     closest, worst = 0.0, np.inf
-    for _ in range(_TRIES):
-        found = [_polished(conditions, *pair) for pair in _eigenpairs(kernel, random.normal(size=(2, 3)))]
+    for pair_of_forms in forms:
+        found = [_polished(conditions, *pair) for pair in _eigenpairs(kernel, pair_of_forms)]
         fixed, moving = (np.array(axes) for axes in zip(*found, strict=True))
         worst = max(_misses(conditions, g, w) for g, w in found)
         products = np.einsum("ki,kj->kij", fixed, moving).reshape(_SOLUTIONS, 9)

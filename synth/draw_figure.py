@@ -31,7 +31,7 @@ def new_figure(width: float, height: float) -> Any:
 
     Examples
     --------
-    >>> new_figure(4, 3).get_figwidth()
+    >>> float(new_figure(4, 3).get_figwidth())
     4.0
     """
     try:

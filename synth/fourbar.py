@@ -34,6 +34,8 @@ __all__ = [
 Array = npt.NDArray[np.float64]
 _FOLDS = 1e-12
 """A difference this small (of pi, or of the sum of the lengths) is zero: the linkage folds."""
+_SMALLEST = 1e-9
+"""Smallest link angle, radians, and smallest length, of the longest, that a loop sum can be told of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,7 +279,8 @@ def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     Notes
     -----
     Four vectors lie in an open hemisphere unless a combination of them with weights >= 0 vanishes. In space the
-    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space.
+    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where
+    they do not, in a linkage that lies flat, the answer is no.
 
     Examples
     --------
@@ -326,6 +329,9 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Arra
         if not 0.0 < angle < 2.0 * np.pi:
             told = f"link angle {place + 1} is {_degrees(angle)} degrees"
             raise InvariantError("link angle", told, "between 0 and 360", ("angles", place))
+        if min(angle, 2.0 * np.pi - angle) < _SMALLEST:
+            told = f"link angle {place + 1} is {np.degrees(angle):.12g} degrees"
+            raise InvariantError("link angle", told, "one that can be told from 0 and 360", ("angles", place))
     made = np.where(given > np.pi, 2.0 * np.pi - given, given)
     if not can_close(made):
         longest = made.max() > made.sum() - made.max()
@@ -359,6 +365,9 @@ together; expected lengths of a closed loop [closed loop]
             raise InvariantError(
                 "link length", f"length {place + 1} is {length:.12g}", "a length above 0", ("lengths", place)
             )
+        if length < _SMALLEST * given.max():
+            told = f"length {place + 1} is {length:.12g}, the longest {given.max():.12g}"
+            raise InvariantError("link length", told, "lengths within a factor of 1e9", ("lengths", place))
     longest = given.max()
     if longest - (given.sum() - longest) > 1e-12 * longest:
         told = ", ".join(f"{length:.12g}" for length in given[:20])

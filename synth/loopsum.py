@@ -164,7 +164,7 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
     at_once = max(1, _ROWS // len(patterns))
     parts = [
         _roots_of_chunk(reaches[start : start + at_once], patterns, start, base)
-        for start in range(0, len(reaches), at_once)
+        for start in range(0, max(len(reaches), 1), at_once)
     ]
     joined = [np.concatenate([part[i] for part in parts]) for i in range(6)]
     families = np.concatenate([part[6] for part in parts])
@@ -215,7 +215,9 @@ def _merged(signs: Array, reach: Array, base: Base) -> tuple[Array, Array]:
     """Put the signs of equal reaches together; return weights (0 where a neighbour took them) and reaches."""
     weights, reach = signs.copy(), reach.copy()
     for i in range(1, signs.shape[1]):
-        same = reach[:, i] - reach[:, i - 1] <= _SAME * (base + reach[:, i])
+        # of angles near 180 degrees the reach is the square of what they lack, and the root tells them apart
+        scale = np.maximum(reach[:, i], np.sqrt(reach[:, i])) if base else reach[:, i]
+        same = reach[:, i] - reach[:, i - 1] <= _SAME * scale
         reach[:, i] = np.where(same, reach[:, i - 1], reach[:, i])
         weights[:, i] += np.where(same, weights[:, i - 1], 0.0)
         weights[:, i - 1] = np.where(same, 0.0, weights[:, i - 1])

@@ -93,11 +93,12 @@ def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple
     """
     roots = loop_roots(reach, base)
     families = {tuple(signs.tolist()) for signs in roots.family_signs}
+    end = float(reach.min())
     found = []
     for signs, turns, z, residual, double in zip(
         roots.signs, roots.turns, roots.size, roots.residual, roots.double, strict=True
     ):
-        half = np.flatnonzero(reach - z <= _SAME * (base + reach))
+        half = np.flatnonzero((z == end) & (reach - z <= _SAME * np.maximum(reach, np.sqrt(reach))))
         if _listed_otherwise(signs, half) or _ends_a_family(signs, half, families):
             continue
         steps = 2.0 * signs * half_steps(z, reach, base)
@@ -114,7 +115,6 @@ def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple
                 tuple(half.tolist()),
             )
         )
-    end = float(reach.min())
     interval = (0.0, _size(end, 1)) if base else (_size(end, 0), np.inf)
     found.sort(key=lambda one: one.size)
     return tuple(found), tuple(

@@ -151,8 +151,39 @@ def test_two_dyads_that_nearly_coincide_are_both_found():
     assert 1e-6 < min(distances) < 1e-5
 
 
+def test_quarter_turns_are_all_solved_or_refused():
+    """Rotations of a cube: often infinitely many dyads. Where not, least squares find no dyad that is not among all."""
+    rng = np.random.default_rng(30)
+    cube, refused, compared = Rotation.create_group("O"), 0, 0
+    for _ in range(60):
+        given = Orientations.from_rotation(cube[rng.choice(24, 5, replace=False)])
+        try:
+            found = dyads_of_five(given)
+        except UnsolvableError as error:
+            assert "infinitely many dyads" in str(error)
+            refused += 1
+            continue
+        assert found.smallest_singular_value > 1e-4
+        assert max((dyad.residual for dyad in found.dyads), default=0.0) < 1e-12
+        for dyad in dyads_by_least_squares(given):
+            if dyad.misfit < 1e-8:
+                assert min(distance(one, dyad.fixed, dyad.moving) for one in found.dyads) < 1e-3
+                compared += 1
+    assert refused > 3
+    assert compared > 100
+
+
+def test_four_of_five_turns_about_one_axis_have_dyads_without_number():
+    turns = Rotation.from_rotvec(np.outer([0.0, 0.3, 0.9, 1.4], [1, 2, 3]))
+    given = Orientations.from_rotation(Rotation.concatenate([turns, Rotation.from_rotvec([0.4, -0.2, 1.0])]))
+    with pytest.raises(UnsolvableError, match="infinitely many dyads"):
+        dyads_of_five(given)
+
+
 def test_turns_about_one_axis_have_dyads_without_number():
-    with pytest.raises(UnsolvableError, match="infinitely many dyads take these orientations"):
+    with pytest.raises(
+        UnsolvableError, match="infinitely many dyads, complex ones counted, take these orientations"
+    ):
         dyads_of_five(Orientations.from_axis_angles([(1, 2, 3)] * 5, [0.0, 0.3, 0.9, 1.4, 2.2]))
 
 

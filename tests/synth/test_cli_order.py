@@ -191,7 +191,7 @@ def test_bad_files_are_one_line(command, tmp_path, data):
 
 
 def test_turns_about_one_axis_are_a_plain_error(tmp_path):
-    for n, message in ((4, "every axis is that of a dyad"), (5, "infinitely many dyads take these orientations")):
+    for n, message in ((4, "every axis is that of a dyad"), (5, "infinitely many dyads, complex ones counted")):
         half = np.linspace(0, 1, n)
         path = tmp_path / f"{n}.json"
         write_orientations(np.stack([np.cos(half), 0 * half, 0 * half, np.sin(half)], axis=1), path)
