@@ -29,3 +29,6 @@ show cone behaviour --angles 120,95,45,85
 
 say "All chains of panels with six creases between two bodies"
 show enumerate strings --dof 6
+
+say "Which cranks guide a body through five orientations, and which of them keep their order?"
+show dyads --orientations data/orientations/tipparthi.json

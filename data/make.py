@@ -1,4 +1,4 @@
-"""Make every file under data/ but golden.json: the mechanisms of the source papers, and crease patterns.
+"""Make every file under data/ but golden.json: mechanisms of the source papers, crease patterns, orientations.
 
 ``make data`` runs it; a test checks that the files are what it makes. The figures themselves are not at
 hand: mechanisms are built from the text of the papers and from golden.json, and where the text leaves a
@@ -11,12 +11,15 @@ import json
 from pathlib import Path
 
 import linkages_on_surfaces
+import orientation_tasks
 import patterns
 import surfaces
 import wampler_2007
 import wiener_2016
 
 from graphs.files.formats import write
+from graphs.files.native_orientations import orientations_document
+from graphs.files.source import json_text
 
 HERE = Path(__file__).resolve().parent
 
@@ -25,7 +28,7 @@ ENTRIES = [*wiener_2016.ENTRIES, *wampler_2007.ENTRIES, *linkages_on_surfaces.EN
 
 
 def main(folder: Path = HERE) -> None:
-    """Write the mechanisms, the crease patterns and index.json into a folder."""
+    """Write the mechanisms, the crease patterns, the orientations and index.json into a folder."""
     index = []
     for entry in ENTRIES:
         (folder / entry.file).parent.mkdir(exist_ok=True)
@@ -35,6 +38,9 @@ def main(folder: Path = HERE) -> None:
     for name, sheet in {"bird-base": patterns.bird_base(), "four-bar-vertex": patterns.fourbar_vertex()}.items():
         write(sheet, folder / "patterns" / f"{name}.fold")
     surfaces.write_surfaces(folder / "surfaces")
+    (folder / "orientations").mkdir(exist_ok=True)
+    for name, quaternions in orientation_tasks.TASKS.items():
+        (folder / "orientations" / f"{name}.json").write_text(json_text(orientations_document(quaternions)))
     rows = ",\n".join("  " + json.dumps(row) for row in index)
     (folder / "index.json").write_text(f"[\n{rows}\n]\n", encoding="utf-8")
 

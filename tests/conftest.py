@@ -36,6 +36,13 @@ def data() -> Path:
 
 
 @pytest.fixture(scope="session")
+def mechanisms(data: Path) -> list[Path]:
+    """The project's own mechanisms, crease patterns included."""
+    rows = json.loads((data / "index.json").read_text(encoding="utf-8"))
+    return sorted([*(data / row["file"] for row in rows), *(data / "patterns").iterdir()])
+
+
+@pytest.fixture(scope="session")
 def golden(data: Path) -> dict:
     """The checked numbers of the source papers."""
     return json.loads((data / "golden.json").read_text(encoding="utf-8"))

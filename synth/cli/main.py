@@ -23,6 +23,9 @@ _COMMANDS = {
     "cylinder": "synth.cli.cylinder:cylinder_group",
     "convert": "synth.cli.convert:convert",
     "reconstruct": "synth.cli.reconstruct:reconstruct",
+    "order": "synth.cli.order:order",
+    "dyads": "synth.cli.dyads:dyads",
+    "fourbar": "synth.cli.guided:fourbar",
 }
 """Name of a subcommand to where it is."""
 
@@ -62,6 +65,7 @@ def main() -> None:
       synth reduce mechanism.json -o reduced.json
       synth convert crease-pattern.fold mechanism.json
       synth reconstruct mechanism.json -o model.json
+      synth dyads --orientations orientations.json
 
     Exit status: 0 done, 1 the answer is no, 2 bad input or usage.
     """

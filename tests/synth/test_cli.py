@@ -330,7 +330,20 @@ def test_overconstraint_is_located(data):
 
 
 @pytest.mark.parametrize(
-    "command", ["mobility", "reduce", "edit", "enumerate", "cone", "cylinder", "convert", "reconstruct"]
+    "command",
+    [
+        "mobility",
+        "reduce",
+        "edit",
+        "enumerate",
+        "cone",
+        "cylinder",
+        "convert",
+        "reconstruct",
+        "order",
+        "dyads",
+        "fourbar",
+    ],
 )
 def test_every_help_text_has_an_example(command):
     out = run(command, "--help").stdout
@@ -379,4 +392,7 @@ def test_shell_completion_knows_the_commands():
         "cylinder",
         "convert",
         "reconstruct",
+        "order",
+        "dyads",
+        "fourbar",
     }

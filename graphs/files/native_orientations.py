@@ -1,0 +1,103 @@
+"""Orientations of a body as native documents: what a linkage is to guide its coupler through.
+
+The format is published as ``graphs/schema/orientations.schema.json``; DESIGN, section 4. Guide: docs/files.md.
+What is read here is checked for its form; :func:`synth.orientations.read_orientations` makes orientations of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from graphs.errors import FileError, shown
+from graphs.files.names import VERSION, head
+from graphs.files.source import Checker, load_json
+
+__all__ = ["KIND", "Rows", "orientation_rows", "orientations_document", "rows_from_document"]
+
+KIND = "synthedra/orientations"
+
+Rows = tuple[tuple[float, ...], ...]
+"""Quaternions, four numbers each, or matrices, nine numbers each, row by row."""
+
+
+def orientation_rows(path: str | Path) -> tuple[str, Rows]:
+    """Return what a file of orientations lists.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    key : str
+        ``"quaternions"`` (scalar first) or ``"matrices"`` (nine numbers, row by row).
+    rows : tuple of tuple of float
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read or does not have this form. That quaternions and matrices are those of rotations
+        is not checked here.
+
+    Examples
+    --------
+    >>> orientation_rows("no such file.json")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: no such file.json: no such file; expected a file
+    """
+    path = Path(path)
+    return rows_from_document(load_json(path), path)
+
+
+def rows_from_document(value: Any, path: Path) -> tuple[str, Rows]:
+    """Return what a parsed document of orientations lists; see :func:`orientation_rows`.
+
+    Examples
+    --------
+    >>> doc = {"format": "synthedra/orientations", "version": 1, "quaternions": [[1, 0, 0, 0], [0, 0, 0, 1]]}
+    >>> rows_from_document(doc, Path("two.json"))
+    ('quaternions', ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)))
+    """
+    check = Checker(path)
+    check.mapping(value, "", ("format", "version"), ("quaternions", "matrices"))
+    if value["format"] != KIND:
+        raise FileError(path, "format", shown(value["format"]), KIND)
+    if value["version"] != VERSION or isinstance(value["version"], bool):
+        raise FileError(path, "version", shown(value["version"]), str(VERSION))
+    if ("quaternions" in value) == ("matrices" in value):
+        found = "both" if "quaternions" in value else "neither"
+        raise FileError(path, "", f"{found} of 'quaternions' and 'matrices'", "one of them")
+    if "quaternions" in value:
+        listed = check.list(value["quaternions"], "quaternions", what="a list of quaternions")
+        return "quaternions", tuple(_numbers(q, f"quaternions[{i}]", 4, check) for i, q in enumerate(listed))
+    listed = check.list(value["matrices"], "matrices", what="a list of matrices")
+    return "matrices", tuple(_matrix(m, f"matrices[{i}]", check) for i, m in enumerate(listed))
+
+
+def orientations_document(quaternions: Sequence[Sequence[float]]) -> dict[str, Any]:
+    """Return the native document of orientations.
+
+    Parameters
+    ----------
+    quaternions : sequence of four numbers each
+        Scalar first.
+
+    Examples
+    --------
+    >>> orientations_document([(1, 0, 0, 0)])["quaternions"]
+    [[1.0, 0.0, 0.0, 0.0]]
+    """
+    return head("orientations") | {"quaternions": [[float(x) for x in q] for q in quaternions]}
+
+
+def _numbers(value: Any, place: str, size: int, check: Checker) -> tuple[float, ...]:
+    words = {3: "three numbers", 4: "four numbers, the scalar first"}[size]
+    return tuple(check.number(x, f"{place}[{k}]") for k, x in enumerate(check.list(value, place, size, words)))
+
+
+def _matrix(value: Any, place: str, check: Checker) -> tuple[float, ...]:
+    rows = check.list(value, place, 3, "three rows")
+    return tuple(x for k, row in enumerate(rows) for x in _numbers(row, f"{place}[{k}]", 3, check))

@@ -1,0 +1,254 @@
+"""Five orientations: all RR dyads that guide a body through them, real and complex, six in all.
+
+The four conditions G . (M_i - M_1) W = 0 are bilinear in the directions G and W. Multiplied by the three
+components of G they are twelve linear equations in the eighteen products G_a G_b W_j. At every solution (G, W) the
+vector of these products is in the kernel, which has six dimensions; cut into its three blocks (j = 1, 2, 3) the
+kernel becomes a matrix pencil of size six whose eigenvectors are the solutions. The pencil is regular whenever the
+solutions are finitely many, so that none is missed: docs/theory/dyads.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import NumericalError, UnsolvableError
+from synth.dyads import Dyad, dyad_of
+from synth.orientations import Floats, Orientations
+
+__all__ = ["DyadsOfFive", "dyads_of_five"]
+
+Complexes = npt.NDArray[np.complex128]
+Numbers = npt.NDArray[Any]
+"""Real or complex."""
+
+_SOLUTIONS = 6
+_RANK_GAP = 1e-11
+"""Relative size of a singular value below which it is zero, and the solutions are infinitely many."""
+_SOLVED = 1e-13
+"""Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors."""
+_NEARLY_REAL = 1e-5
+"""Imaginary part, of unit vectors, below which a real solution is looked for nearby: two that nearly coincide come
+out of an eigenvalue problem as a complex pair, the root of the rounding error apart."""
+_DISTINCT = 1e-6
+"""Sine of the angle between axes below which two solutions are one: rounding of the orientations moves two that
+nearly coincide by the root of the rounding error, 1e-8, and more."""
+_TRIES = 8
+_NEWTON_STEPS = 30
+_SQUARES = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
+"""The products G_a G_b, in the order of the unknowns."""
+_PLACE = {pair: k for k, (a, b) in enumerate(_SQUARES) for pair in ((a, b), (b, a))}
+
+
+@dataclass(frozen=True, slots=True)
+class DyadsOfFive:
+    """All dyads of five orientations, with evidence.
+
+    Attributes
+    ----------
+    dyads : tuple of Dyad
+        The real ones, by ascending components of the fixed axis. Two that are one to within 1e-6 are told once.
+    complex_solutions : int
+        How many of the six are complex.
+    residual : float
+        Largest |G . (M_i - M_1) W| / |M_i - M_1| of all six, complex ones included.
+    smallest_singular_value : float
+        The least of those that are zero where dyads are infinitely many: of the twelve equations, relative to the
+        largest, and of the conditions on the other axis at each solution, but one.
+    """
+
+    dyads: tuple[Dyad, ...]
+    complex_solutions: int
+    residual: float
+    smallest_singular_value: float
+
+
+def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
+    """Return all RR dyads that guide a body through five orientations.
+
+    Parameters
+    ----------
+    orientations : Orientations
+        Five of them.
+
+    Raises
+    ------
+    UnsolvableError
+        If there are not five, or if infinitely many dyads take them (as where all are turns about one axis).
+    NumericalError
+        If six solutions could not be told apart.
+
+    Examples
+    --------
+    A crank about z with the moving axis x is among the dyads of its own orientations:
+
+    >>> from scipy.spatial.transform import Rotation
+    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
+    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
+    >>> found = dyads_of_five(orientations)
+    >>> len(found.dyads) + found.complex_solutions
+    6
+    >>> [dyad.direction for dyad in found.dyads if np.allclose(dyad.fixed, (0, 0, 1))]
+    ['ccw']
+    """
+    if len(orientations) != 5:
+        raise UnsolvableError(f"{len(orientations)} orientations do not have six dyads; 5 do")
+    m = orientations.matrices
+    conditions = m[1:] - m[0]
+    conditions /= np.linalg.norm(conditions, axis=(1, 2), keepdims=True)  # small turns weigh as much as large ones
+    kernel, gap = _kernel(conditions)
+    if gap < _RANK_GAP:
+        raise _without_number(gap)
+    forms = _forms(kernel)
+    fixed, moving = _six(conditions, kernel, forms)
+    gap = min(gap, *(_second_smallest(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
+    if gap < _RANK_GAP:
+        raise _without_number(gap)
+    residual = float(max(_misses(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
+    real, number = _real_ones(conditions, fixed, moving)
+    dyads = sorted((dyad_of(orientations, g, w) for g, w in real), key=lambda dyad: dyad.fixed.tolist())
+    return DyadsOfFive(tuple(dyads), _SOLUTIONS - number, residual, gap)
+
+
+def _kernel(conditions: Floats) -> tuple[Floats, float]:
+    """Return the kernel of the twelve equations, float[6, 3, 6]: by G_a G_b, by W_j, by vector of the kernel."""
+    equations = np.zeros((4, 3, 6, 3))
+    for i in range(3):
+        for times in range(3):
+            equations[:, times, _PLACE[i, times]] += conditions[:, i]
+    _, sizes, rows = np.linalg.svd(equations.reshape(12, 18))
+    return rows[12:].T.reshape(6, 3, 6), float(sizes[11] / sizes[0])
+
+
+def _without_number(gap: float) -> UnsolvableError:
+    return UnsolvableError(
+        "infinitely many dyads, complex ones counted, take these orientations (are most of them turns about one "
+        f"axis, or about axes of symmetry?): a singular value is {gap:.0e}"
+    )
+
+
+def _forms(kernel: Floats) -> Floats:
+    """Return pairs of linear forms in W, taken at random, that make a regular pencil: float[tries, 2, 3].
+
+    Raises
+    ------
+    UnsolvableError
+        If every one is singular: then the solutions are infinitely many.
+    """
+    forms = np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
+    sizes = np.linalg.svd(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1], compute_uv=False)
+    ratios = sizes[:, -1] / sizes[:, 0]
+    if ratios.max() < _RANK_GAP:
+        raise _without_number(float(ratios.max()))
+    return np.asarray(forms[np.argsort(-ratios)])
+
+
+def _second_smallest(conditions: Floats, g: Numbers, w: Numbers) -> float:
+    """Return zero if one of the axes of a solution leaves the other a whole plane."""
+    by_w, by_g = np.einsum("i,kij->kj", g, conditions), conditions @ w
+    return float(min(np.linalg.svd(rows, compute_uv=False)[1] for rows in (by_w, by_g)))
+
+
+def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, Complexes]:
+    """Return the six solutions as unit vectors: complex[6, 3] each.
+
+    Where two solutions are not told apart by one pencil another one is tried.
+    """
+    closest, worst = 0.0, np.inf
+    for pair_of_forms in forms:
+        found = [_polished(conditions, *pair) for pair in _eigenpairs(kernel, pair_of_forms)]
+        fixed, moving = (np.array(axes) for axes in zip(*found, strict=True))
+        worst = max(_misses(conditions, g, w) for g, w in found)
+        products = np.einsum("ki,kj->kij", fixed, moving).reshape(_SOLUTIONS, 9)
+        overlap = np.abs(products.conj() @ products.T) - np.eye(_SOLUTIONS)
+        closest = float(np.sqrt(max(0.0, 1.0 - overlap.max())))
+        double = max(_condition(conditions, g, w) for g, w in found) > 0.01 / _DISTINCT
+        if worst < _SOLVED and (closest > _DISTINCT or double):
+            return fixed, moving
+    raise NumericalError(
+        f"six dyads could not be told apart: residual {worst:.0e}, two of them {closest:.0e} from each other"
+    )
+
+
+def _eigenpairs(kernel: Floats, forms: Floats) -> list[tuple[Complexes, Complexes]]:
+    """Return G and W of the eigenvectors of the pencil that two linear forms in W make of the kernel.
+
+    A kernel vector that belongs to a solution is the product of the squares of G and of W: a matrix of rank one.
+    """
+    from scipy.linalg import eig
+
+    first, second = np.einsum("fj,ajk->fak", forms, kernel)
+    _, vectors = eig(first, second)
+    pairs = []
+    for vector in vectors.T:
+        u, _, v = np.linalg.svd(kernel @ vector)
+        square = u[[_PLACE[a, b] for a in range(3) for b in range(3)], 0].reshape(3, 3)
+        pairs.append((square[np.argmax(np.linalg.norm(square, axis=1))], v[0]))
+    return pairs
+
+
+def _polished(conditions: Floats, g: Numbers, w: Numbers) -> tuple[Numbers, Numbers]:
+    """Return a solution by Newton's method from one that is nearly right, as unit vectors.
+
+    Steps are orthogonal to G and to W: a solution is a pair of directions, lengths are free.
+    """
+    g, w = g / np.linalg.norm(g), w / np.linalg.norm(w)
+    for _ in range(_NEWTON_STEPS):
+        jacobian, value = _linearised(conditions, g, w)
+        step = np.linalg.lstsq(jacobian, -np.concatenate([value, [0.0, 0.0]]), rcond=None)[0]
+        g, w = g + step[:3], w + step[3:]
+        g, w = g / np.linalg.norm(g), w / np.linalg.norm(w)
+        if np.linalg.norm(step) < 1e-15:
+            break
+    return g, w
+
+
+def _linearised(conditions: Floats, g: Numbers, w: Numbers) -> tuple[Numbers, Numbers]:
+    """Return derivatives, complex[6, 6], and values, complex[4], of the conditions at a pair of unit vectors."""
+    by_w = np.einsum("i,kij->kj", g, conditions)
+    by_g = conditions @ w
+    lengths = np.zeros((2, 6), dtype=np.result_type(g, w))
+    lengths[0, :3], lengths[1, 3:] = g.conj(), w.conj()
+    return np.vstack([np.hstack([by_g, by_w]), lengths]), by_w @ w
+
+
+def _condition(conditions: Floats, g: Numbers, w: Numbers) -> float:
+    return float(np.linalg.cond(_linearised(conditions, g, w)[0]))
+
+
+def _misses(conditions: Floats, g: Numbers, w: Numbers) -> float:
+    return float(np.abs(np.einsum("i,kij,j->k", g, conditions, w)).max())
+
+
+def _real_ones(conditions: Floats, fixed: Complexes, moving: Complexes) -> tuple[list[tuple[Floats, Floats]], int]:
+    """Return the real solutions, each once, and how many of the six are real."""
+    real: list[tuple[Floats, Floats]] = []
+    number = 0
+    for g, w in zip(map(_turned, fixed), map(_turned, moving), strict=True):
+        apart = max(np.linalg.norm(g.imag), np.linalg.norm(w.imag))
+        if apart > _NEARLY_REAL:
+            continue
+        near = []
+        for side in (0.0,) if apart < _DISTINCT / 100.0 else (1.0, -1.0):
+            start = g.real + side * g.imag, w.real + side * w.imag
+            one = _polished(conditions, *start)
+            if _misses(conditions, *one) < _SOLVED and _apart(one, start) < 10.0 * _NEARLY_REAL:
+                near.append(one)
+        number += bool(near)
+        for one in near:
+            if all(_apart(one, other) > _DISTINCT for other in real):
+                real.append(one)
+    return real, number
+
+
+def _turned(axis: Complexes) -> Complexes:
+    """Return a complex direction times the number that makes it as real as it can be."""
+    phase = np.sqrt(axis @ axis)
+    return axis if phase == 0.0 else axis * (phase.conjugate() / abs(phase))
+
+
+def _apart(one: tuple[Floats, Floats], other: tuple[Floats, Floats]) -> float:
+    return float(max(np.linalg.norm(np.cross(a, b)) for a, b in zip(one, other, strict=True)))

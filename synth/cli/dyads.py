@@ -1,0 +1,157 @@
+"""``synth dyads``: RR dyads that guide a body through orientations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from synth.cli.order import AXIS, ORIENTATIONS
+from synth.cli.output import about, console, plain, print_json, table
+
+if TYPE_CHECKING:
+    from synth.dyads import Dyad
+    from synth.orientations import Orientations
+
+__all__ = ["AXES", "dyads", "samples_option", "synthesised", "told"]
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+AXES = click.option(
+    "--axis",
+    "axes",
+    type=AXIS,
+    multiple=True,
+    metavar="X,Y,Z",
+    help="Fixed axis to take, for three orientations; again for more.",
+)
+
+
+def samples_option(most: int) -> Callable[[_Command], _Command]:
+    """Return the option for how many dyads to take from the curves of four orientations."""
+    return click.option(
+        "--samples",
+        type=click.IntRange(8, most),
+        default=36,
+        show_default=True,
+        metavar="N",
+        help="Dyads on each curve, for four orientations.",
+    )
+
+
+@click.command(short_help="RR dyads that guide a body through orientations.")
+@ORIENTATIONS
+@AXES
+@samples_option(100_000)
+@click.option(
+    "-o", "--picture", metavar="OUT", help="Draw a map of the sphere by order here (.svg, .png or .pdf)."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def dyads(
+    file: str, axes: tuple[tuple[float, float, float], ...], samples: int, picture: str | None, as_json: bool
+) -> None:
+    """Find the RR dyads, fixed axis G and moving axis W, that guide a body through orientations.
+
+    Of three orientations any fixed axis has its dyad: name axes. Four have curves of dyads, which are sampled.
+    Five have up to six: all are found. Of more, those that fit best are. W is in the frame of the body. The
+    residual is the largest |G . (Mi - M1) W|.
+
+    \b
+    Example:
+      synth dyads --orientations data/orientations/tipparthi.json
+    """
+    from synth.orientations import read_orientations
+
+    orientations = read_orientations(file)
+    with about(file):
+        found, evidence = synthesised(orientations, axes, samples)
+        if picture is not None:
+            _draw(orientations, found, picture)
+    if as_json:
+        print_json({"file": file, "orientations": len(orientations), "dyads": list(map(told, found)), **evidence})
+        return
+    out = console()
+    out.print(f"{len(orientations)} orientations: {len(found)} dyad(s)")
+    out.print(_table(found))
+    if "complex" in evidence:
+        largest = f"largest residual {evidence['residual']:.0e}"
+        out.print(f"all six solutions found, {evidence['complex']} of them complex; {largest}")
+    if picture is not None:
+        out.print(f"drawn: {plain(picture, 4096)}")
+
+
+def synthesised(
+    orientations: Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
+) -> tuple[tuple[Dyad, ...], dict[str, Any]]:
+    """Return the dyads of orientations by the method that their number asks for, and its evidence."""
+    if axes and len(orientations) != 3:
+        raise click.UsageError(f"--axis is for three orientations; here are {len(orientations)}")
+    if len(orientations) == 3:
+        from synth.dyads import dyads_of_three
+
+        if not axes:
+            raise click.UsageError("three orientations leave the fixed axis to be chosen: add --axis x,y,z")
+        return dyads_of_three(orientations, axes), {}
+    if len(orientations) == 4:
+        from synth.centre_axes import dyads_of_four
+
+        return dyads_of_four(orientations, samples), {}
+    if len(orientations) == 5:
+        from synth.burmester import dyads_of_five
+
+        found = dyads_of_five(orientations)
+        return found.dyads, {
+            "complex": found.complex_solutions,
+            "residual": found.residual,
+            "smallest_singular_value": found.smallest_singular_value,
+        }
+    from synth.dyad_fit import dyads_by_least_squares
+
+    return dyads_by_least_squares(orientations), {}
+
+
+def told(dyad: Dyad) -> dict[str, Any]:
+    """Return the keys of a dyad that scripts rely on."""
+    from math import degrees
+
+    return {
+        "G": dyad.fixed.tolist(),
+        "W": dyad.moving.tolist(),
+        "residual": dyad.residual,
+        "in_order": dyad.in_order,
+        "direction": dyad.direction,
+        "link_angle_deg": degrees(dyad.link_angle),
+        "misfit_deg": degrees(dyad.misfit),
+        "crank_angles_deg": [degrees(angle) for angle in dyad.crank_angles],
+    }
+
+
+def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> None:
+    from synth.draw_figure import save_figure
+    from synth.draw_sphere import draw_map
+
+    if len(orientations) == 4:
+        from synth.centre_axes import centre_axes
+
+        figure = draw_map(orientations, (), centre_axes(orientations, 720))
+    else:
+        figure = draw_map(orientations, found)
+    save_figure(figure, picture)
+
+
+def _table(found: tuple[Dyad, ...]) -> Any:
+    from math import degrees
+
+    from synth.hoop import direction_words
+
+    rows = table(
+        "dyad", "G", "W (body)", "link", "residual", "misfit", "in order", numbers=["dyad", "link", "misfit"]
+    )
+    for number, one in enumerate(found, start=1):
+        g, w = (" ".join(f"{x:9.6f}" for x in axis) for axis in (one.fixed, one.moving))
+        rows.add_row(
+            str(number), g, w, f"{degrees(one.link_angle):.3f}", f"{one.residual:.0e}",
+            f"{degrees(one.misfit):.4f}", direction_words(one.direction),
+        )  # fmt: skip
+    return rows

@@ -1,0 +1,187 @@
+"""``synth fourbar``: four-bars that guide a body through orientations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from synth.cli.dyads import AXES, samples_option, synthesised, told
+from synth.cli.order import ORIENTATIONS
+from synth.cli.output import about, console, plain, print_json, table
+
+if TYPE_CHECKING:
+    from synth.guidance import GuidedFourBar
+    from synth.orientations import Orientations
+
+__all__ = ["fourbar"]
+
+
+@click.command(short_help="Four-bars that guide their coupler through orientations.")
+@ORIENTATIONS
+@AXES
+@samples_option(200)
+@click.option(
+    "--best", type=click.IntRange(min=1), default=12, show_default=True, metavar="K", help="How many to list."
+)
+@click.option("--usable", is_flag=True, help="Only those without defects.")
+@click.option("--cones", is_flag=True, help="Map each one listed to cones: can it be made of one?")
+@click.option(
+    "--motion", metavar="OUT.json", help="Write the motion of the best one without defects, as orientations."
+)
+@click.option("--steps", type=click.IntRange(1, 100_000), default=20, show_default=True, metavar="N",
+              help="Steps of the motion between two orientations.")  # fmt: skip
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def fourbar(
+    file: str,
+    axes: tuple[tuple[float, float, float], ...],
+    samples: int,
+    best: int,
+    usable: bool,
+    cones: bool,
+    motion: str | None,
+    steps: int,
+    as_json: bool,
+) -> None:
+    """Join the dyads of orientations in pairs to four-bars, and rank them.
+
+    Each pair is told twice, with either dyad as driver. A circuit defect: the orientations cannot be reached
+    without taking the linkage apart. A branch defect: the driver would have to pass a dead point. An order defect:
+    the driver, turning one way within its range, takes them in another order. Three orientations need two axes.
+    With --cones each one listed is mapped to cones, by either end of each of its axes.
+
+    \b
+    Examples:
+      synth fourbar --orientations data/orientations/tipparthi.json --best 5
+      synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
+    """
+    from synth.guidance import four_bars
+    from synth.orientations import read_orientations
+
+    orientations = read_orientations(file)
+    with about(file):
+        found = four_bars(orientations, synthesised(orientations, axes, samples)[0])
+    good = [one for one in found if not one.defects]
+    frames = None
+    if motion is not None:
+        with about(file):
+            frames = _write_motion(orientations, good, motion, steps)
+    listed = (good if usable else found)[:best]
+    if as_json:
+        print_json(
+            {
+                "file": file,
+                "orientations": len(orientations),
+                "fourbars": [_told(one, cones) for one in listed],
+                "found": len(found),
+                "usable": len(good),
+                "motion": None if motion is None else {"file": motion, "frames": frames},
+            }
+        )
+        return
+    out = console()
+    out.print(f"{len(orientations)} orientations: {len(found)} four-bar(s), {len(good)} without defects")
+    out.print(_table(listed))
+    if cones:
+        out.print(_table_of_cones(listed))
+    if motion is not None:
+        out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
+
+
+def _write_motion(orientations: Orientations, good: list[GuidedFourBar], motion: str, steps: int) -> int:
+    from graphs.errors import UnsolvableError
+    from synth.guidance import motion_of
+    from synth.orientations import write_orientations
+
+    if not good:
+        raise UnsolvableError("no four-bar without defects: there is no motion to write")
+    made = motion_of(orientations, good[0], steps)
+    write_orientations(made.quaternions, motion)
+    return len(made.quaternions)
+
+
+def _told(one: GuidedFourBar, cones: bool) -> dict[str, Any]:
+    from math import degrees
+
+    return {
+        "driver": told(one.driver),
+        "follower": told(one.follower),
+        "link_angles_deg": [degrees(angle) for angle in one.link_angles],
+        "grashof": one.kind.grashof,
+        "type": one.kind.name,
+        "angles_deg": [degrees(angle) for angle in one.angles],
+        "circuits": list(one.circuits),
+        "branches": list(one.branches),
+        "direction": one.direction,
+        "in_order_on_circuit": one.in_order_on_circuit,
+        "defects": list(one.defects),
+        "transmission_deg": degrees(one.transmission),
+        **(_told_cones(one) if cones else {}),
+    }
+
+
+def _told_cones(one: GuidedFourBar) -> dict[str, Any]:
+    """Return every cone, and interval of cones, on which a four-bar can lie."""
+    from math import degrees
+
+    from synth.conical_form import conical_forms
+
+    forms = conical_forms(one)
+    return {
+        "cones": [
+            {
+                "link_angles_deg": [degrees(angle) for angle in form.link_angles],
+                "lambda_deg": degrees(cone.size),
+                "circuit": cone.circuit,
+                "signs": list(cone.signs),
+                "k": cone.turns,
+            }
+            for form in forms
+            for cone in form.cones
+        ],
+        "families": [
+            {
+                "link_angles_deg": [degrees(angle) for angle in form.link_angles],
+                "interval_deg": [degrees(end) for end in family.interval],
+                "circuit": family.circuit,
+                "signs": list(family.signs),
+            }
+            for form in forms
+            for family in form.families
+        ],
+    }
+
+
+def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
+    rows = table("row", "ground driver coupler follower", "cone angle", "circuit", numbers=["row", "cone angle"])
+    for number, one in enumerate(listed, start=1):
+        told_ = _told_cones(one)
+        found = [(cone, f"{cone['lambda_deg']:.4f}") for cone in told_["cones"]]
+        found += [(family, "{:.4f} to {:.4f}".format(*family["interval_deg"])) for family in told_["families"]]
+        if not found:
+            rows.add_row(str(number), "on no cone", "", "")
+        for cone, size in found:
+            links = " ".join(f"{angle:7.2f}" for angle in cone["link_angles_deg"])
+            rows.add_row(str(number), links, size, cone["circuit"])
+    return rows
+
+
+def _table(listed: Sequence[GuidedFourBar]) -> Any:
+    from math import degrees
+
+    from synth.hoop import direction_words
+
+    rows = table(
+        "driver G", "follower G", "ground driver coupler follower", "type", "driver turns", "defects",
+        "transmission", numbers=["transmission"],
+    )  # fmt: skip
+    for one in listed:
+        g, h = (" ".join(f"{x:7.4f}" for x in dyad.fixed) for dyad in (one.driver, one.follower))
+        links = " ".join(f"{degrees(angle):7.2f}" for angle in one.link_angles)
+        kind = f"{one.kind.grashof} {one.kind.name}"
+        rows.add_row(
+            g, h, links, kind, direction_words(one.direction), ", ".join(one.defects) or "none",
+            f"{degrees(one.transmission):.2f}",
+        )  # fmt: skip
+    return rows

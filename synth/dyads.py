@@ -1,0 +1,143 @@
+"""Spherical RR dyads that guide a body through orientations.
+
+A dyad has a fixed axis G and a moving axis W of the body; it guides the body through orientations M_1, ..., M_n if
+the angle between G and M_i W, that of its link, stays the same: G . (M_i - M_1) W = 0. Of three orientations the
+fixed axis may be chosen; four leave a curve (``synth.centre_axes``), five at most six dyads (``synth.burmester``),
+and more are met by least squares (``synth.dyad_fit``). Theory: docs/theory/dyads.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import UnsolvableError
+from synth.hoop import Direction
+from synth.order import crank_angles, nearest_moving_axis, order_by_crank_angles
+from synth.orientations import Floats, Orientations, unit_vector
+
+__all__ = ["Dyad", "dyad_of", "dyads_of_three", "signed"]
+
+_SAME = 1e-9
+"""Relative size of a second singular value below which a moving axis is not unique."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Dyad:
+    """A dyad and how it takes the orientations.
+
+    Attributes
+    ----------
+    fixed : float[3]
+        G, in the fixed frame. Of the two ends of the axis the one whose largest component is positive.
+    moving : float[3]
+        W, in the body, chosen likewise.
+    residual : float
+        Largest |G . (M_i - M_1) W|, of unit vectors.
+    link_angle : float
+        Mean angle between the axes, radians.
+    misfit : float
+        Largest difference between that angle at an orientation and its mean, radians.
+    crank_angles : float[n]
+        From orientation 1, counter-clockwise about G, radians in [0, 2 pi).
+    direction : "ccw", "cw" or None
+        The direction of a crank that takes the orientations in their order, if there is one.
+    """
+
+    fixed: Floats
+    moving: Floats
+    residual: float
+    link_angle: float
+    misfit: float
+    crank_angles: Floats
+    direction: Direction | None
+
+    @property
+    def in_order(self) -> bool:
+        """Whether the crank takes the orientations in their order, turning one way."""
+        return self.direction is not None
+
+
+def dyad_of(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayLike) -> Dyad:
+    """Return the dyad with given axes, with its residual and its order.
+
+    Parameters
+    ----------
+    orientations : Orientations
+    fixed : float[3]
+        G, in the fixed frame.
+    moving : float[3]
+        W, in the body.
+
+    Raises
+    ------
+    InvariantError
+        If an axis has no direction.
+
+    Examples
+    --------
+    >>> turns = Orientations.from_axis_angles([(0, 0, 1)] * 3, [0, 1.0, 4.0])
+    >>> dyad = dyad_of(turns, (0, 0, -1), (0, 3, 4))
+    >>> dyad.fixed.tolist(), dyad.direction, dyad.residual < 1e-15
+    ([0.0, 0.0, 1.0], 'ccw', True)
+    """
+    g, w = signed(unit_vector(fixed, "fixed axis")), signed(unit_vector(moving, "moving axis"))
+    cosines = orientations.matrices @ w @ g
+    link_angles = np.arccos(np.clip(cosines, -1.0, 1.0))
+    angles = crank_angles(orientations, g, w)
+    return Dyad(
+        g,
+        w,
+        float(np.abs(cosines - cosines[0]).max()),
+        float(link_angles.mean()),
+        float(np.abs(link_angles - link_angles.mean()).max()),
+        angles,
+        order_by_crank_angles(angles),
+    )
+
+
+def dyads_of_three(orientations: Orientations, fixed_axes: Iterable[npt.ArrayLike]) -> tuple[Dyad, ...]:
+    """Return the dyads of three orientations whose fixed axes are chosen; there is one for each.
+
+    Raises
+    ------
+    InvariantError
+        If an axis has no direction.
+    UnsolvableError
+        If there are not three orientations, or if a fixed axis lies on a relative axis: a whole plane of moving
+        axes keeps its angle with it.
+
+    Examples
+    --------
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> [dyad] = dyads_of_three(orientations, [(1, 2, 3)])
+    >>> dyad.residual < 1e-15
+    True
+    """
+    if len(orientations) != 3:
+        raise UnsolvableError(f"{len(orientations)} orientations do not leave the fixed axis to be chosen; 3 do")
+    found = []
+    for axis in fixed_axes:
+        g = unit_vector(axis, "fixed axis")
+        seen = orientations.matrices.transpose(0, 2, 1) @ g
+        sizes = np.linalg.svd(seen - seen.mean(axis=0), compute_uv=False)
+        if sizes[1] < _SAME:
+            raise UnsolvableError(
+                "the fixed axis leaves its moving axis open: it lies on a relative axis; move the axis off it"
+            )
+        found.append(dyad_of(orientations, g, nearest_moving_axis(orientations, g)))
+    return tuple(found)
+
+
+def signed(axis: Floats) -> Floats:
+    """Return the end of an axis line whose largest component is positive.
+
+    Examples
+    --------
+    >>> signed(np.array([0.0, -0.8, 0.6])).tolist()
+    [0.0, 0.8, -0.6]
+    """
+    return np.asarray(axis * np.copysign(1.0, axis[np.argmax(np.abs(axis))]) + 0.0)

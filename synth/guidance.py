@@ -1,0 +1,316 @@
+"""Four-bars that guide a body through orientations: two dyads joined, their defects, and the motion between.
+
+One dyad is driven (link alpha, fixed axis G_1, moving axis W_1), the other follows (beta, G_2, W_2); the ground is
+gamma, the body is the coupler eta. The angle theta of the driver is counted about G_1 from the plane of G_1 and
+G_2. The linkage closes where the angle d between G_2 and W_1 is from |beta - eta| to beta + eta (or 2 pi less it),
+and cos d is linear in cos theta: circuits and branches follow in closed form. Theory: docs/theory/guidance.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise, permutations
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import UnsolvableError
+from synth.dyads import Dyad
+from synth.fourbar import FourBarKind, kind_of_spherical
+from synth.hoop import DIRECTIONS, Direction
+from synth.order import order_by_crank_angles
+from synth.orientations import Floats, Orientations
+
+__all__ = ["GuidedFourBar", "Motion", "four_bar_of", "four_bars", "motion_of"]
+
+_TURN = 2.0 * np.pi
+_NO_LINK = 1e-6
+"""A link of this angle or less, radians, is a point; so is one of pi less this."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GuidedFourBar:
+    """A spherical four-bar whose coupler is guided through orientations.
+
+    Attributes
+    ----------
+    driver, follower : Dyad
+    link_angles : float[4]
+        gamma (ground), alpha (driver), eta (coupler), beta (follower): loop order, radians, in (0, pi).
+    kind : FourBarKind
+        Grashof's class and the type.
+    angles : float[n]
+        theta at each orientation, radians in [0, 2 pi).
+    circuits : tuple of int
+        The circuit that each orientation lies on, 0 or 1.
+    branches : tuple of int
+        The branch: within one the driver can take the linkage along. 0 to 3.
+    direction : "ccw" or "cw" or None
+        How the driver turns to take the orientations in their order within its range, if it can.
+    in_order_on_circuit : bool
+        Whether the linkage, moved along its circuit one way, takes the orientations in their order, if need be
+        past dead points of the driver, which something else must then help over.
+    transmission : float
+        Least angle, radians, at W_2 between coupler and follower or its supplement: from orientation 1 to n if
+        there is no defect, else at the orientations only.
+    """
+
+    driver: Dyad
+    follower: Dyad
+    link_angles: Floats
+    kind: FourBarKind
+    angles: Floats
+    circuits: tuple[int, ...]
+    branches: tuple[int, ...]
+    direction: Direction | None
+    in_order_on_circuit: bool
+    transmission: float
+
+    @property
+    def circuit_defect(self) -> bool:
+        """Whether orientations lie on different circuits: the linkage would have to be taken apart."""
+        return len(set(self.circuits)) > 1
+
+    @property
+    def branch_defect(self) -> bool:
+        """Whether orientations lie on different branches: the driver would have to pass a dead point."""
+        return len(set(self.branches)) > 1
+
+    @property
+    def order_defect(self) -> bool:
+        """Whether the driver, turning one way within its range, takes the orientations in another order."""
+        return self.direction is None
+
+    @property
+    def defects(self) -> tuple[str, ...]:
+        """Names of its defects: ``circuit``, ``branch``, ``order``."""
+        found = {"circuit": self.circuit_defect, "branch": self.branch_defect, "order": self.order_defect}
+        return tuple(name for name, here in found.items() if here)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """How the body turns as the driver takes it through the orientations.
+
+    Attributes
+    ----------
+    angles : float[m]
+        The driver's angle theta, radians, growing or falling all the way.
+    quaternions : float[m, 4]
+        Orientations of the body, scalar first; successive ones do not change sign.
+    keys : tuple of int
+        Which of them are the orientations asked for.
+    """
+
+    angles: Floats
+    quaternions: Floats
+    keys: tuple[int, ...]
+
+
+def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[GuidedFourBar, ...]:
+    """Return the four-bars of all pairs of dyads, with either of the two as driver, the best first.
+
+    Best are those without defects, and of these those whose transmission angle stays furthest from 0 and 180
+    degrees. Pairs with a link of no angle, or of 180 degrees, are left out.
+
+    Examples
+    --------
+    >>> from synth.burmester import dyads_of_five
+    >>> from scipy.spatial.transform import Rotation
+    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
+    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
+    >>> dyads = dyads_of_five(orientations).dyads
+    >>> found = four_bars(orientations, dyads)
+    >>> len(found) == len(dyads) * (len(dyads) - 1)
+    True
+    """
+    made = []
+    for driver, follower in permutations(tuple(dyads), 2):
+        links = _link_angles(driver, follower)
+        if np.minimum(links, np.pi - links).min() > _NO_LINK:
+            made.append(four_bar_of(orientations, driver, follower))
+    return tuple(sorted(made, key=lambda one: (len(one.defects), -one.transmission)))
+
+
+def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> GuidedFourBar:
+    """Return the four-bar of two dyads of the same orientations, with its defects.
+
+    Raises
+    ------
+    UnsolvableError
+        If a link has no angle, or one of 180 degrees.
+    """
+    links = _link_angles(driver, follower)
+    if np.minimum(links, np.pi - links).min() <= _NO_LINK:
+        raise UnsolvableError(
+            "a link of this four-bar has no angle, or one of 180 degrees: two of its axes are one"
+        )
+    m = orientations.matrices
+    angles = _azimuths(driver.fixed, follower.fixed, m @ driver.moving)
+    sides = _sides(follower.fixed, m @ driver.moving, m @ follower.moving)
+    low, high = _limits(links)
+    circuits, branches = _places(angles, sides, low, high)
+    direction = _direction(angles, low, high)
+    usable = direction is not None and len(set(branches)) == 1
+    passed = _passed(angles, direction) if usable and direction is not None else angles
+    return GuidedFourBar(
+        driver,
+        follower,
+        links,
+        kind_of_spherical(links),
+        angles,
+        circuits,
+        branches,
+        direction,
+        len(set(circuits)) == 1 and order_by_crank_angles(_along_circuit(angles, sides, low, high)) is not None,
+        _least_transmission(links, passed),
+    )
+
+
+def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 20) -> Motion:
+    """Return the motion of the body through its orientations.
+
+    Parameters
+    ----------
+    orientations : Orientations
+    four_bar : GuidedFourBar
+    steps : int, optional
+        Steps between two orientations.
+
+    Raises
+    ------
+    UnsolvableError
+        If the four-bar has a defect.
+    """
+    if four_bar.defects or four_bar.direction is None:
+        raise UnsolvableError(
+            f"this four-bar has defects ({', '.join(four_bar.defects)}): it cannot take the motion"
+        )
+    keys = _unwrapped(four_bar.angles, four_bar.direction)
+    parts = [np.linspace(a, b, steps, endpoint=False) for a, b in pairwise(keys.tolist())]
+    angles = np.concatenate([*parts, keys[-1:]])
+    matrices = _body_at(orientations, four_bar, angles)
+    quaternions = Orientations.from_matrices(matrices).quaternions.copy()
+    turned_back = np.einsum("ij,ij->i", quaternions[1:], quaternions[:-1]) < 0.0
+    quaternions[1:] *= np.cumprod(np.where(turned_back, -1.0, 1.0))[:, None]
+    return Motion(angles, quaternions, tuple(range(0, len(angles), steps)))
+
+
+def _link_angles(driver: Dyad, follower: Dyad) -> Floats:
+    """Return gamma, alpha, eta, beta."""
+    ground = _angle(driver.fixed, follower.fixed)
+    coupler = _angle(driver.moving, follower.moving)
+    return np.array([ground, driver.link_angle, coupler, follower.link_angle])
+
+
+def _angle(a: Floats, b: Floats) -> float:
+    return float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
+
+
+def _azimuths(axis: Floats, zero: Floats, vectors: Floats) -> Floats:
+    """Return the angles of vectors about an axis from the plane through a given direction, in [0, 2 pi)."""
+    across = np.cross(axis, zero)
+    along = np.cross(across, axis)
+    return np.asarray(np.mod(np.arctan2(vectors @ across, vectors @ along), _TURN))
+
+
+def _sides(fixed: Floats, driven: Floats, following: Floats) -> npt.NDArray[np.int64]:
+    """Return 1 where W_2 lies to the left of the arc from G_2 to W_1, 0 where it lies to the right."""
+    return np.asarray(np.einsum("ni,ni->n", np.cross(fixed, driven), following) > 0.0, dtype=np.int64)
+
+
+def _limits(links: Floats) -> tuple[float, float]:
+    """Return the least and the largest cos theta that close; what is beyond -1 or 1 is no limit."""
+    gamma, alpha, eta, beta = links
+    scale = np.sin(alpha) * np.sin(gamma)
+    aligned = np.cos(alpha) * np.cos(gamma)
+    return float((np.cos(beta + eta) - aligned) / scale), float((np.cos(beta - eta) - aligned) / scale)
+
+
+def _places(
+    angles: Floats, sides: npt.NDArray[np.int64], low: float, high: float
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return circuit and branch of each orientation.
+
+    A driver that turns fully keeps its side, so the sides are the circuits, with a branch each. One that swings
+    over one arc changes sides at its ends: one circuit of two branches. One that swings over either of two arcs,
+    theta and -theta, has a circuit on each, of two branches.
+    """
+    if low <= -1.0 and high >= 1.0:
+        places = tuple(sides.tolist())
+        return places, places
+    if low <= -1.0 or high >= 1.0:
+        return (0,) * len(angles), tuple(sides.tolist())
+    arcs = (angles > np.pi).astype(np.int64)
+    return tuple(arcs.tolist()), tuple((2 * arcs + sides).tolist())
+
+
+def _direction(angles: Floats, low: float, high: float) -> Direction | None:
+    """Return how a driver turns to take angles in their order without leaving its arc."""
+    if low <= -1.0 and high >= 1.0:
+        return order_by_crank_angles(angles)
+    passes_zero = high >= 1.0  # then the driver does not pass pi: angles are counted from there
+    steps = np.diff(np.mod(angles + np.pi, _TURN) if passes_zero else angles)
+    if np.all(steps > 0.0):
+        return DIRECTIONS[0]
+    return DIRECTIONS[1] if np.all(steps < 0.0) else None
+
+
+def _along_circuit(angles: Floats, sides: npt.NDArray[np.int64], low: float, high: float) -> Floats:
+    """Return how far round its circuit each orientation is, 0 to 2 pi: along the arc on one side, and back."""
+    if low <= -1.0 and high >= 1.0:
+        return angles
+    counted = np.mod(angles + np.pi, _TURN) if high >= 1.0 else angles
+    return np.where(sides == 1, counted / 2.0, _TURN - counted / 2.0)
+
+
+def _unwrapped(angles: Floats, direction: Direction) -> Floats:
+    sign = 1.0 if direction == "ccw" else -1.0
+    return np.asarray(angles[0] + sign * np.mod(sign * (angles - angles[0]), _TURN))
+
+
+def _passed(angles: Floats, direction: Direction) -> Floats:
+    """Return the ends of the motion, and 0 and pi where it passes them: between them cos theta is monotone."""
+    first, last = _unwrapped(angles, direction)[[0, -1]]
+    turns = np.pi * np.arange(np.ceil(min(first, last) / np.pi), np.floor(max(first, last) / np.pi) + 1)
+    return np.concatenate([[first, last], turns])
+
+
+def _least_transmission(links: Floats, angles: Floats) -> float:
+    """Return the transmission angle furthest from a right angle; its cosine is linear in cos theta."""
+    gamma, alpha, eta, beta = links
+    reach = np.cos(alpha) * np.cos(gamma) + np.sin(alpha) * np.sin(gamma) * np.cos(angles)
+    cosines = (reach - np.cos(eta) * np.cos(beta)) / (np.sin(eta) * np.sin(beta))
+    return float(np.arccos(min(1.0, np.abs(cosines).max())))
+
+
+def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats) -> Floats:
+    """Return rotation matrices of the body where the driver is at given angles, on the branch of orientation 1."""
+    from scipy.spatial.transform import Rotation
+
+    driver, follower = four_bar.driver, four_bar.follower
+    first = orientations.matrices[0]
+    turns = (angles - four_bar.angles[0])[:, None] * driver.fixed
+    driven = Rotation.from_rotvec(turns).apply(first @ driver.moving)
+    side = int(_sides(follower.fixed, driven[:1], (first @ follower.moving)[None])[0])
+    following = _third_vertex(follower.fixed, driven, four_bar.link_angles, 1.0 if side else -1.0)
+    return np.asarray(_frame(driven, following) @ _frame(driver.moving[None], follower.moving[None])[0].T)
+
+
+def _third_vertex(fixed: Floats, driven: Floats, links: Floats, side: float) -> Floats:
+    """Return W_2, at the angle beta from G_2 and eta from W_1, on a side of the arc between them: float[m, 3]."""
+    _, _, eta, beta = links
+    k = driven @ fixed
+    square = 1.0 - k * k
+    x = (np.cos(beta) - k * np.cos(eta)) / square
+    y = (np.cos(eta) - k * np.cos(beta)) / square
+    height = np.sqrt(np.maximum(1.0 - x * x - y * y - 2.0 * k * x * y, 0.0) / square)
+    return np.asarray(x[:, None] * fixed + y[:, None] * driven + side * height[:, None] * np.cross(fixed, driven))
+
+
+def _frame(a: Floats, b: Floats) -> Floats:
+    """Return right-handed frames, as columns: the first axis along a, the second in the plane of a and b."""
+    normal = np.cross(a, b)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    return np.stack([a, np.cross(normal, a), normal], axis=2)

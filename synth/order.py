@@ -1,0 +1,249 @@
+"""The order of orientations checked in three ways: by the hoop, by inequalities, by crank angles.
+
+The three share no step but the orientations. The crank angles are those of a dyad, so they need its moving axis;
+hoop and inequalities need the fixed axis only. Source: Tipparthi and Larochelle 2011, Theorem 1, Eqs. 1 and 2.
+Theory: docs/theory/order.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+from synth.hoop import DIRECTIONS, Direction, Hoop, hoop, required_sequence
+from synth.orientations import Floats, Orientations, unit_vector
+
+__all__ = [
+    "OrderAnalysis",
+    "analyse_order",
+    "crank_angles",
+    "nearest_moving_axis",
+    "order_by_crank_angles",
+    "order_by_inequalities",
+    "order_verdicts",
+]
+
+
+_BLOCK = 1 << 15
+"""Axes that are checked together: what they need stays in the processor's cache."""
+_ROUNDING = 1e-15
+
+
+@dataclass(frozen=True, slots=True)
+class OrderAnalysis:
+    """The order of orientations about a fixed axis, with three verdicts.
+
+    Attributes
+    ----------
+    hoop : Hoop
+        The hoop turned in the direction asked for; its verdict is ``in_order``.
+    kept : "ccw", "cw" or None
+        The direction in which the order is kept, if there is one, by the hoop.
+    by_inequalities, by_crank_angles : "ccw", "cw" or None
+        The same by the other two checks.
+    moving_axis : float[3]
+        The moving axis W, in the body, of the dyad about this axis that fits best.
+    crank_angles : float[n]
+        The angles of its crank from orientation 1, radians in [0, 2 pi), counter-clockwise.
+    misfit : float
+        Largest difference, in radians, between the crank's link angle at an orientation and its mean: zero if the
+        dyad passes through all orientations. With four orientations or more most fixed axes have no such dyad.
+    """
+
+    hoop: Hoop
+    kept: Direction | None
+    by_inequalities: Direction | None
+    by_crank_angles: Direction | None
+    moving_axis: Floats
+    crank_angles: Floats
+    misfit: float
+
+    @property
+    def in_order(self) -> bool:
+        """Whether the order is kept in the direction asked for."""
+        return self.hoop.in_order
+
+    @property
+    def agree(self) -> bool:
+        """Whether the three checks agree; they must where there is no misfit."""
+        return self.kept == self.by_inequalities == self.by_crank_angles
+
+
+def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> OrderAnalysis:
+    """Check the order of orientations about a fixed axis in three ways.
+
+    Parameters
+    ----------
+    orientations : Orientations
+    axis : float[3]
+        The fixed axis G in the fixed frame, any length.
+    direction : "ccw" or "cw", optional
+        The direction of the crank, seen from the tip of the axis.
+
+    Raises
+    ------
+    InvariantError
+        If the axis has no direction.
+    UnsolvableError
+        If it lies on a relative axis.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> found = analyse_order(Orientations.from_rotation(body), (0, 0, 1))
+    >>> found.in_order, found.agree, np.degrees(found.crank_angles).round(6).tolist()
+    (True, True, [0.0, 90.0, 200.0])
+    """
+    g = unit_vector(axis, "fixed axis")
+    turned = {way: hoop(orientations, g, way) for way in DIRECTIONS}
+    moving = nearest_moving_axis(orientations, g)
+    angles = crank_angles(orientations, g, moving)
+    link_angles = np.arccos(np.clip(orientations.matrices @ moving @ g, -1.0, 1.0))
+    return OrderAnalysis(
+        turned[direction],
+        next((way for way in DIRECTIONS if turned[way].in_order), None),
+        order_by_inequalities(orientations, g),
+        order_by_crank_angles(angles),
+        moving,
+        angles,
+        float(np.abs(link_angles - link_angles.mean()).max()),
+    )
+
+
+def order_by_inequalities(orientations: Orientations, axis: npt.ArrayLike) -> Direction | None:
+    """Return the direction in which the order is kept, by the inequalities that are necessary and sufficient.
+
+    Eq. 2 as signs: the angles S_12 G S_1j and S_12 G S_2n grow from 0 to 180 degrees if and only if, of each two
+    successive axes a, b of S_13, ..., S_1n, S_2n, the triple products fulfil
+    [G, S_12, a] [G, a, b] [G, S_12, b] > 0; < 0 for a crank that turns clockwise. Each axis occurs twice, so its
+    sign does not matter.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> orientations = Orientations.from_rotation(body)
+    >>> order_by_inequalities(orientations, (0, 0, 1)), order_by_inequalities(orientations, (0, 0, -1))
+    ('ccw', 'cw')
+    """
+    verdict = int(order_verdicts(orientations, unit_vector(axis, "fixed axis")[None])[0])
+    return {1: DIRECTIONS[0], -1: DIRECTIONS[1]}.get(verdict)
+
+
+def order_verdicts(orientations: Orientations, axes: npt.ArrayLike) -> npt.NDArray[np.int8]:
+    """Check many fixed axes at once, by the inequalities.
+
+    Parameters
+    ----------
+    orientations : Orientations
+    axes : float[m, 3]
+        Fixed axes, any length.
+
+    Returns
+    -------
+    int8[m]
+        1 where a counter-clockwise crank keeps the order, -1 where a clockwise one does, 0 where neither does or
+        where the axis lies on a relative axis that decides.
+
+    Raises
+    ------
+    InvariantError
+        If the axes are not m by 3, or one has no direction.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> orientations = Orientations.from_rotation(body)
+    >>> order_verdicts(orientations, [(0, 0, 1), (0, 0, -1), orientations.relative_axis(1, 2)]).tolist()
+    [1, -1, 0]
+    """
+    g = np.asarray(axes, dtype=float)
+    if g.ndim != 2 or g.shape[1] != 3:
+        raise InvariantError("axes", f"an array of shape {g.shape}", "m by 3")
+    start = orientations.relative_axis(1, 2)
+    lines = np.array([orientations.relative_axis(*pair) for pair in required_sequence(len(orientations))])
+    normals = np.cross(start, lines).T, np.cross(lines[:-1], lines[1:]).T
+    kept = np.empty(len(g), dtype=np.int8)
+    for first in range(0, len(g), _BLOCK):
+        kept[first : first + _BLOCK] = _verdicts(g[first : first + _BLOCK], first, *normals)
+    return kept
+
+
+def nearest_moving_axis(orientations: Orientations, axis: npt.ArrayLike) -> Floats:
+    """Return the axis W of the body whose angle with a fixed axis changes least: float[3].
+
+    With three orientations there is one that keeps its angle; with more, where the fixed axis is that of a dyad.
+    W is in the frame of the body: at orientation i it points along M_i W.
+
+    Raises
+    ------
+    InvariantError
+        If the fixed axis has no direction.
+    """
+    seen = orientations.matrices.transpose(0, 2, 1) @ unit_vector(axis, "fixed axis")
+    return np.asarray(np.linalg.svd(seen - seen.mean(axis=0))[2][-1])
+
+
+def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayLike) -> Floats:
+    """Return the angles of a dyad's crank from orientation 1: float[n], radians in [0, 2 pi), the first zero.
+
+    Parameters
+    ----------
+    orientations : Orientations
+    fixed : float[3]
+        G, in the fixed frame; angles are counter-clockwise seen from its tip.
+    moving : float[3]
+        W, in the body.
+
+    Examples
+    --------
+    >>> turns = Orientations.from_axis_angles([(0, 0, 1)] * 3, [0, 1.0, 4.0])
+    >>> crank_angles(turns, (0, 0, 1), (1, 0, 1)).round(6).tolist()
+    [0.0, 1.0, 4.0]
+    """
+    g = unit_vector(fixed, "fixed axis")
+    w = orientations.matrices @ unit_vector(moving, "moving axis")
+    start = w[0] - (w[0] @ g) * g
+    angles = np.mod(np.arctan2(w @ np.cross(g, start), w @ start), 2.0 * np.pi)
+    angles[0] = 0.0  # rounding may have made it a whole turn
+    return np.asarray(angles)
+
+
+def order_by_crank_angles(angles: npt.ArrayLike) -> Direction | None:
+    """Return the direction in which crank angles grow in their order: 0 < b_12 < ... < b_1n < 2 pi (Eq. 1).
+
+    Parameters
+    ----------
+    angles : float[n]
+        Counter-clockwise from any start, in radians.
+
+    Examples
+    --------
+    >>> order_by_crank_angles([0, 1, 4]), order_by_crank_angles([0, 4, 1]), order_by_crank_angles([0, 1, 3, 2])
+    ('ccw', 'cw', None)
+    """
+    turned = np.asarray(angles, dtype=float)
+    for way, sign in zip(DIRECTIONS, (1.0, -1.0), strict=True):
+        if np.all(np.diff(np.mod(sign * (turned - turned[0]), 2.0 * np.pi)) > 0.0):
+            return way
+    return None
+
+
+def _verdicts(axes: Floats, first: int, from_start: Floats, between: Floats) -> npt.NDArray[np.int8]:
+    """Return the verdicts of a block of axes; ``first`` is the number of its first one, for messages."""
+    lengths = np.sqrt(np.einsum("ij,ij->i", axes, axes))
+    bad = np.flatnonzero(~(np.isfinite(lengths) & (lengths > 0.0)))
+    if len(bad):
+        raise InvariantError("axes", f"axis {first + bad[0] + 1} has no direction", "finite numbers, not all zero")
+    unit = axes / lengths[:, None]
+    ahead, apart = unit @ from_start, unit @ between
+    products = ahead[:, :-1] * apart * ahead[:, 1:]
+    lowest, highest = products.min(axis=1), products.max(axis=1)
+    kept = (lowest > 0.0).astype(np.int8) - (highest < 0.0).astype(np.int8)
+    kept[np.minimum(np.abs(ahead).min(axis=1), np.abs(apart).min(axis=1)) < _ROUNDING] = 0
+    return np.asarray(kept)
