@@ -13,6 +13,7 @@ __all__ = ["COLOURS", "new_figure", "save_figure"]
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b", "#6a3d9a")
 """Colours of links and curves that people of all kinds of sight tell apart, the first eight."""
+_UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 _KINDS = ("png", "svg", "pdf")
 
 
@@ -42,7 +43,7 @@ def new_figure(width: float, height: float) -> Any:
 
 
 def save_figure(figure: Any, path: str | Path) -> None:
-    """Write a figure as PNG, SVG or PDF, by the extension.
+    """Write a figure as PNG, SVG or PDF, by the extension. Equal figures give equal files.
 
     Raises
     ------
@@ -61,8 +62,11 @@ def save_figure(figure: Any, path: str | Path) -> None:
     if kind not in _KINDS:
         expected = ", ".join(f".{one}" for one in _KINDS)
         raise FileError(place, "", "the extension is not known", expected)
+    from matplotlib import rc_context
+
     stream = BytesIO()
-    figure.savefig(stream, format=kind, dpi=150)
+    with rc_context({"svg.hashsalt": "synthedra"}):
+        figure.savefig(stream, format=kind, dpi=150, metadata=_UNDATED.get(kind))
     beside = Beside(place)
     try:
         beside.write(stream.getvalue())
