@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping
+from threading import Timer
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -21,6 +22,7 @@ _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
 _INTERRUPTED = 130
+_PREPARING = "preparing; the first run of a kind compiles its code, which takes up to a minute"
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -89,7 +91,7 @@ def runner_options(function: F) -> F:
             "-o",
             "--output",
             metavar="FILE",
-            help="Write .g6, .jsonl, .sqlite, .parquet, or a folder of mechanisms.",
+            help="Write .jsonl, .sqlite, .parquet, a folder of mechanisms, or .g6 (chains only).",
         ),
     ):
         function = option(function)
@@ -153,20 +155,28 @@ class _Meter:
 
     def __init__(self, silent: bool) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
+        self._timer = Timer(2 * _PATIENCE, self._write, [_PREPARING])
+        self._timer.daemon = True
+        if not silent:
+            self._timer.start()
 
     def show(self, progress: Progress) -> None:
         """Show how far it has come, how fast it goes and how long it takes."""
         if self._silent or monotonic() < self._next:
             return
+        self._timer.cancel()
         self._next = monotonic() + _PATIENCE
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
         left = _time(progress.seconds_left)
-        text = f"{part:4.0%}  {progress.rows:,} rows, {progress.rate:,.0f} a second, {left} left"
+        self._write(f"{part:4.0%}  {progress.rows:,} rows, {progress.rate:,.0f} a second, {left} left")
+
+    def _write(self, text: str) -> None:
         click.echo("\r" + text.ljust(self._width), nl=False, err=True)
         self._width = len(text)
 
     def clear(self) -> None:
         """Wipe the line."""
+        self._timer.cancel()
         if self._width:
             click.echo("\r" + " " * self._width + "\r", nl=False, err=True)
             self._width = 0
