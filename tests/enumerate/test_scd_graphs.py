@@ -3,7 +3,9 @@ from rigidity import chains_by_geng
 from scd_oracle import code, scd_codes
 
 from enumerate import scd_jobs
+from enumerate.open_edge_choices import number_of_placements
 from enumerate.run import run
+from enumerate.sc_graphs import sc_rows
 from enumerate.scd_graphs import (
     all_mechanisms,
     count_scd_graphs,
@@ -209,3 +211,17 @@ def test_what_cannot_be():
     big = SCGraph(70, [(i, (i + 1) % 70) for i in range(70)], [Loop(range(70))])
     with pytest.raises(InvariantError, match="64 in all"):
         mechanism_of(big, 4)
+
+
+@pytest.mark.parametrize(("links", "dof", "most"), [(4, 1, 6), (6, 1, 5), (8, 1, 4), (7, 2, 4), (8, 3, 4)])
+def test_orbits_have_the_sizes_that_symmetries_say(links, dof, most):
+    """An SC graph with s symmetries has s / (symmetries of the SCD graph) placements in an orbit: all of them in sum."""
+    symmetries = {row["code"]: row["symmetry"] for row in sc_rows(links, dof)}
+    placements = dict.fromkeys(symmetries, 0)
+    for row in scd_rows(links, dof, most):
+        size, rest = divmod(symmetries[row["sc"]], row["symmetry"])
+        assert rest == 0
+        placements[row["sc"]] += size
+    for sc, number in placements.items():
+        source = mechanism_of(mechanism_from_map_id(sc), most).source
+        assert number_of_placements(source.codes[0], source.labels[0], most) == number
