@@ -23,5 +23,9 @@ show reconstruct data/wiener/table3-row3.json
 say "The fortune teller without its ride-alongs"
 show reduce data/wiener/fortune-teller.json
 
+say "A spherical four-bar: on which cones can it lie, and which way do its links move there?"
+show cone map --angles 120,95,45,85
+show cone behaviour --angles 120,95,45,85
+
 say "All chains of panels with six creases between two bodies"
 show enumerate strings --dof 6

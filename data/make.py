@@ -12,6 +12,7 @@ from pathlib import Path
 
 import linkages_on_surfaces
 import patterns
+import surfaces
 import wampler_2007
 import wiener_2016
 
@@ -33,6 +34,7 @@ def main(folder: Path = HERE) -> None:
     (folder / "patterns").mkdir(exist_ok=True)
     for name, sheet in {"bird-base": patterns.bird_base(), "four-bar-vertex": patterns.fourbar_vertex()}.items():
         write(sheet, folder / "patterns" / f"{name}.fold")
+    surfaces.write_surfaces(folder / "surfaces")
     rows = ",\n".join("  " + json.dumps(row) for row in index)
     (folder / "index.json").write_text(f"[\n{rows}\n]\n", encoding="utf-8")
 

@@ -6,6 +6,7 @@ import json
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -47,3 +48,9 @@ def fold_folder() -> Path:
     if not (folder / "INDEX.tsv").exists():
         pytest.skip(f"no crease patterns at {folder}; name their folder in SYNTHEDRA_FOLD")
     return folder
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    """Random numbers, the same every time."""
+    return np.random.default_rng(20_212_020)

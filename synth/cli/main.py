@@ -19,6 +19,8 @@ _COMMANDS = {
     "reduce": "synth.cli.reduce:reduce_command",
     "edit": "synth.cli.edit:edit",
     "enumerate": "synth.cli.enumerate:enumerate_group",
+    "cone": "synth.cli.cone:cone_group",
+    "cylinder": "synth.cli.cylinder:cylinder_group",
     "convert": "synth.cli.convert:convert",
     "reconstruct": "synth.cli.reconstruct:reconstruct",
 }

@@ -34,7 +34,7 @@ def test_models_of_wampler(data):
 
 def test_both_roads_on_all_scd_graphs_of_the_papers(data):
     found = 0
-    for file in sorted(data.glob("*/*.json")):
+    for file in sorted(data.glob("[!s]*/*.json")):  # surfaces/ holds angles, not types
         scd = read(file)
         if isinstance(scd, SCDGraph):
             assert exact_mobility_of_model(reconstruct(scd)).mobility == exact_mobility(scd).mobility, file

@@ -329,11 +329,13 @@ def test_overconstraint_is_located(data):
     assert "17 joint(s) cannot move" in out
 
 
-@pytest.mark.parametrize("command", ["mobility", "reduce", "edit", "enumerate", "convert", "reconstruct"])
+@pytest.mark.parametrize(
+    "command", ["mobility", "reduce", "edit", "enumerate", "cone", "cylinder", "convert", "reconstruct"]
+)
 def test_every_help_text_has_an_example(command):
     out = run(command, "--help").stdout
     assert re.search(rf"Examples?:\n +synth {command} ", out)
-    assert "--json" in out or command == "enumerate"
+    assert "--json" in out or command in ("enumerate", "cone", "cylinder")
 
 
 def test_help_needs_neither_networkx_nor_rich():
@@ -373,6 +375,8 @@ def test_shell_completion_knows_the_commands():
         "reduce",
         "edit",
         "enumerate",
+        "cone",
+        "cylinder",
         "convert",
         "reconstruct",
     }

@@ -1,0 +1,38 @@
+"""Linkages with their angles: Hyatt et al. 2020, Fig. 11, and every membership of its loops that fits."""
+
+from __future__ import annotations
+
+from math import radians
+from pathlib import Path
+
+from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
+
+from graphs.files.source import json_text, write_text
+from graphs.sc import SCGraph
+from synth.conical_file import ConicalLinkage, write_conical
+from synth.memberships import memberships
+
+FIG_11 = {"OA": -40, "AB": -20, "BC": -45, "CD": -68, "DE": 28, "EF": 30}
+"""The six printed steps, degrees: an open run through the seven axes."""
+LAMBDA = 20
+
+
+def fig_11() -> list[ConicalLinkage]:
+    """Return Fig. 11 with each membership of its loops that fits: steps are between joints of one link."""
+    steps = {(run[0], run[1]): radians(step) for run, step in FIG_11.items()}
+    chains = memberships(SCGraph(6, STEPHENSON, STEPHENSON_LOOPS), "OABCDEF")
+    return [ConicalLinkage(chain, steps=steps, cone_angle=radians(LAMBDA)) for chain in chains]
+
+
+def write_surfaces(folder: Path) -> None:
+    """Write the linkage with the first membership, and the list of all."""
+    folder.mkdir(exist_ok=True)
+    linkages = fig_11()
+    write_conical(linkages[0], folder / "fig11-stephenson.json")
+    rows = [["".join(loop.joints) for loop in linkage.chain.loops] for linkage in linkages]
+    document = {
+        "source": "Hyatt et al. 2020, Fig. 11",
+        "note": "which axes form the loops is not printed; these are all ways, each loop's axes in its order",
+        "memberships": rows,
+    }
+    write_text(folder / "fig11-memberships.json", json_text(document))

@@ -1,0 +1,297 @@
+"""Behaviour: which links leave the surface outward, inward, or both ways.
+
+A link that keeps to the inside of the reference surface is intramobile, to the outside extramobile, one that
+does both transmobile; a linkage is what all its moving links are for one sense of its motion. Three ways to
+tell, Hyatt et al. 2020, section 4, and 2021, section 5: by velocities; by the ICRL, the line through the centre
+of the circle and the link's instant centre, which parts what moves in from what moves out; by the shadow of the
+side links. Theory: docs/theory/behaviour.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+from synth.first_order import ConformedChain, FirstOrder, first_order
+
+__all__ = [
+    "Behaviour",
+    "Way",
+    "behaviour",
+    "behaviour_of_motion",
+    "icrl",
+    "instant_centres",
+    "link_arcs",
+    "shadow_allows",
+]
+
+Array = npt.NDArray[np.float64]
+_STILL = 1e-10
+"""Outward rates below this part of the fastest in the linkage are zero."""
+_NO_TURN = 1e-13
+"""Rates of turning below this part of a link's motion are zero."""
+
+
+class Way(IntEnum):
+    """Which way a link moves, for one sense of the linkage's motion."""
+
+    INWARD = -1
+    STILL = 0
+    """Not at all to first order: the ground link, or one that turns about the axis."""
+    OUTWARD = 1
+    BOTH = 2
+    """Some of it in, some out: transmobile."""
+    UNKNOWN = 3
+    """The linkage has no freedom, or more than one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Behaviour:
+    """First-order behaviour of many linkages of one chain.
+
+    Attributes
+    ----------
+    ways : int8[..., N]
+        `Way` of each link, in the order of the chain's links, for the sense of motion in which the first link
+        that moves one way moves outward. The other sense has INWARD and OUTWARD exchanged.
+    one_way : bool[...]
+        Whether all moving links move the same way: the linkage can be intramobile and extramobile, by the sense
+        of its motion. Else it is transmobile.
+    tangent : bool[..., J]
+        Joints that move, but along the surface to first order: what they do follows from second order. A joint
+        half a turn away from a fixed joint of its link goes outward, in both senses.
+    ranges : float[..., N, 2]
+        Least and greatest outward rate over each link, per unit distance from the apex or axis.
+    motion : FirstOrder
+        In the same sense.
+    """
+
+    ways: npt.NDArray[np.int8]
+    one_way: npt.NDArray[np.bool_]
+    tangent: npt.NDArray[np.bool_]
+    ranges: Array
+    motion: FirstOrder
+
+
+def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike | None = None) -> Behaviour:
+    """Return the first-order behaviour of every link of linkages at their conformed position, by velocities.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+    places : float[..., J]
+        Azimuths of the joints, radians.
+    arcs : float[..., N, 2], optional
+        Where each link lies: start and length of its arc, radians. By default the shortest arc over its joints.
+
+    Returns
+    -------
+    Behaviour
+
+    Notes
+    -----
+    The cone angle does not matter, and a cylinder behaves alike (`synth.first_order`).
+
+    Examples
+    --------
+    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle, a link next to the longest
+    as ground.
+
+    >>> from graphs.sc import SCGraph
+    >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
+    >>> found = behaviour(ConformedChain.of(chain), np.radians([40, 90, 140, 0]))
+    >>> [Way(way).name for way in found.ways], bool(found.one_way)
+    (['STILL', 'OUTWARD', 'OUTWARD', 'OUTWARD'], True)
+    """
+    motion = first_order(chain, places)
+    spans = link_arcs(chain, places) if arcs is None else np.asarray(arcs, dtype=float)
+    return behaviour_of_motion(chain, places, motion, spans)
+
+
+def behaviour_of_motion(
+    chain: ConformedChain, places: npt.ArrayLike, motion: FirstOrder, arcs: npt.ArrayLike
+) -> Behaviour:
+    """Return the behaviour that a motion gives to links that lie on given arcs.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+    places : float[..., J]
+    motion : FirstOrder
+    arcs : float[..., N, 2]
+
+    Examples
+    --------
+    See `behaviour`.
+    """
+    t = np.asarray(places, dtype=float)
+    ranges = _outward_ranges(motion.motions, np.asarray(arcs, dtype=float))
+    scale = np.abs(motion.motions[..., ::2]).max(axis=(-2, -1))
+    small = (_STILL * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
+    out, into = ranges[..., 1] > small, ranges[..., 0] < -small
+    ways = np.where(out & into, Way.BOTH, out.astype(int) - into.astype(int)).astype(np.int8)
+    one_sided = np.abs(ways) == 1
+    first = np.take_along_axis(ways, one_sided.argmax(axis=-1)[..., np.newaxis], -1)
+    turn = np.where(one_sided.any(axis=-1, keepdims=True) & (first == -1), -1, 1)
+    ways = np.where(one_sided, ways * turn, ways).astype(np.int8)
+    known = motion.freedoms == 1
+    ways = np.where(known[..., np.newaxis], ways, np.int8(Way.UNKNOWN))
+    one_way = known & one_sided.any(axis=-1) & np.isin(ways, (Way.STILL, Way.OUTWARD)).all(axis=-1)
+    ranges = np.where((turn == -1)[..., np.newaxis], -ranges[..., ::-1], ranges)
+    turned = replace(motion, rates=motion.rates * turn, motions=motion.motions * turn[..., np.newaxis])
+    return Behaviour(ways, one_way, _tangent(chain, t, motion, small), ranges, turned)
+
+
+def _outward_ranges(motions: Array, arcs: Array) -> Array:
+    """Return least and greatest outward rate over arcs: it is A sin(t - t_I), with t_I the azimuth of the ICRL."""
+    size = np.hypot(motions[..., 0], motions[..., 2])
+    node = np.arctan2(motions[..., 0], motions[..., 2])
+    begin, length = arcs[..., 0] - node, arcs[..., 1]
+    ends = np.sin(begin), np.sin(begin + length)
+    top = np.remainder(np.pi / 2 - begin, 2 * np.pi) < length
+    bottom = np.remainder(-np.pi / 2 - begin, 2 * np.pi) < length
+    high = np.where(top, 1.0, np.maximum(*ends))
+    low = np.where(bottom, -1.0, np.minimum(*ends))
+    return np.stack([size * low, size * high], axis=-1)
+
+
+def _tangent(chain: ConformedChain, t: Array, motion: FirstOrder, small: Array) -> npt.NDArray[np.bool_]:
+    """Tell which joints move along the surface."""
+    found = np.zeros(t.shape, dtype=bool)
+    for joint in range(len(chain.joints)):
+        link = next(n for n, joints in enumerate(chain.joints_of) if joint in joints)
+        w = motion.motions[..., link, :]
+        s, c = np.sin(t[..., joint]), np.cos(t[..., joint])
+        outward = w[..., 2] * s - w[..., 0] * c
+        along = np.maximum(np.abs(w[..., 0] - w[..., 1] * s), np.abs(w[..., 2] - w[..., 1] * c))
+        found[..., joint] = (np.abs(outward) <= small[..., 0]) & (along > 10 * small[..., 0])
+    return found
+
+
+def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Array:
+    """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+    places : float[..., J]
+
+    Returns
+    -------
+    float[..., N, 2]
+        Start and length, radians. A binary link's arc is its minor arc; of two halves, either.
+
+    Examples
+    --------
+    >>> from graphs.sc import SCGraph
+    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 140]))).round(9).tolist()
+    [[0.0, 140.0], [0.0, 40.0], [40.0, 50.0], [90.0, 50.0]]
+    """
+    t = np.asarray(places, dtype=float)
+    arcs = []
+    for joints in chain.joints_of:
+        mine = np.sort(np.remainder(t[..., list(joints)], 2 * np.pi), axis=-1)
+        gaps = np.roll(mine, -1, axis=-1) - mine
+        gaps[..., -1] += 2 * np.pi
+        widest = gaps.argmax(axis=-1)[..., np.newaxis]
+        start = np.take_along_axis(np.roll(mine, -1, axis=-1), widest, -1)[..., 0]
+        arcs.append(np.stack([start, 2 * np.pi - np.take_along_axis(gaps, widest, -1)[..., 0]], axis=-1))
+    return np.stack(arcs, axis=-2)
+
+
+def icrl(motions: npt.ArrayLike) -> Array:
+    """Return the direction of the ICRL of links: the line through the centre of the circle and the instant centre.
+
+    Parameters
+    ----------
+    motions : float[..., N, 3]
+        w of each link.
+
+    Returns
+    -------
+    float[..., N]
+        Azimuth of the line, radians, in (-pi, pi]. Right of it (azimuths up to half a turn larger) the link
+        moves outward. On a cone the line is the projection of the pole axis. nan where the link does not move,
+        or turns about the centre.
+
+    Examples
+    --------
+    >>> float(icrl([[1.0, 0.5, 0.0]])[0].round(6))
+    1.570796
+    """
+    w = np.asarray(motions, dtype=float)
+    size = np.hypot(w[..., 0], w[..., 2])
+    scale = np.abs(w).max(axis=(-2, -1), initial=0.0)[..., np.newaxis]
+    return np.where(size > _STILL * scale, np.arctan2(w[..., 0], w[..., 2]), np.nan)
+
+
+def instant_centres(motions: npt.ArrayLike) -> Array:
+    """Return the instant centres of links with respect to the ground: where pole axes meet the circle's plane.
+
+    Parameters
+    ----------
+    motions : float[..., N, 3]
+        w; differences of two give relative centres.
+
+    Returns
+    -------
+    float[..., N, 2]
+        In radii, in the plane of the circle: the point at azimuth t is (sin t, cos t). Infinite where a link
+        does not turn.
+
+    Examples
+    --------
+    >>> instant_centres([[1.0, 0.5, 0.0]]).tolist()
+    [[2.0, 0.0]]
+    """
+    w = np.asarray(motions, dtype=float)
+    turning = np.where(np.abs(w[..., 1:2]) > _NO_TURN * np.abs(w).max(axis=-1, keepdims=True), w[..., 1:2], 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(w[..., ::2] / turning)
+
+
+def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Tell by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
+
+    The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the
+    circle lies in the one that holds ground and coupler, the linkage is transmobile; else it is not.
+
+    Parameters
+    ----------
+    places : float[..., 4]
+        Azimuths of O, A, B, C; the ground link is C O, the coupler A B.
+
+    Returns
+    -------
+    bool[...]
+
+    Raises
+    ------
+    InvariantError
+        Unless there are four azimuths.
+
+    Examples
+    --------
+    >>> shadow_allows(np.radians([[40, 90, 140, 0], [0, 90, 180, 270]])).tolist()
+    [True, False]
+    """
+    t = np.asarray(places, dtype=float)
+    if t.shape[-1:] != (4,):
+        raise InvariantError("azimuths", "the shadow method is for four-bars", "four azimuths")
+    o, a, b, c = np.moveaxis(np.stack([np.sin(t), np.cos(t)], axis=-1), -2, 0)
+
+    def side(p: Array, q: Array, r: Array) -> Array:
+        """Return which side of the line p q the point r lies on."""
+        return np.asarray(
+            (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+        )
+
+    centre = np.zeros_like(o)
+    # the coupler lies in one double wedge, and the ground link in the same one
+    coupler = side(o, a, b) * side(b, c, a)
+    return np.asarray(side(o, a, centre) * side(b, c, centre) * coupler < 0)

@@ -1,0 +1,168 @@
+"""What ``synth cone`` and ``synth cylinder`` share: reading lists of numbers, showing circles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, inf
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from synth.cli.output import console, plain, table
+
+if TYPE_CHECKING:
+    from synth.cone import ConeMap
+    from synth.cylinder import CylinderMap
+    from synth.fourbar import FourBarKind
+    from synth.mapping import FamilyOfCircles, MappedLoop
+
+__all__ = [
+    "NumberList",
+    "cone_json",
+    "cylinder_json",
+    "kind_line",
+    "print_cones",
+    "print_cylinders",
+    "signs_text",
+]
+
+
+class NumberList(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+    """Numbers parted by commas, ``70,80,120,40``."""
+
+    name = "numbers"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return a tuple of numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            return tuple(float(part) for part in str(value).split(","))
+        except ValueError:
+            self.fail(f"{plain(value)!r} is no list of numbers such as 70,80,120,40", param, ctx)
+
+
+def signs_text(signs: Sequence[int]) -> str:
+    """Return signs as text.
+
+    Examples
+    --------
+    >>> signs_text((1, -1, 1))
+    '+-+'
+    """
+    return "".join("+" if sign > 0 else "-" for sign in signs)
+
+
+def cone_json(found: ConeMap) -> dict[str, Any]:
+    """Return what scripts rely on: ``cones``, ``families``; and more."""
+    document: dict[str, Any] = {
+        "angles_deg": _degrees(found.angles),
+        **_kind_json(found.kind, angular=True),
+        "cones": [_loop_json(one, "lambda_deg", degrees(one.size)) for one in found.cones],
+        "families": [
+            _family_json(one, "lambda_deg", [degrees(x) for x in one.interval]) for one in found.families
+        ],
+        "flat": [_loop_json(one, "lambda_deg", 0.0) for one in found.flat],
+        "why": found.why or None,
+    }
+    if found.kind is not None:
+        document["class"] = found.solutions
+        document["supplementary"] = None if found.supplementary is None else cone_json(found.supplementary)
+    return document
+
+
+def cylinder_json(found: CylinderMap) -> dict[str, Any]:
+    """Return what scripts rely on: ``cylinders``, ``families``; and more."""
+    return {
+        "lengths": list(found.lengths),
+        **_kind_json(found.kind, angular=False),
+        "cylinders": [_loop_json(one, "radius", one.size) for one in found.cylinders],
+        "families": [
+            _family_json(one, "radius", [None if x == inf else x for x in one.interval]) for one in found.families
+        ],
+        "why": found.why or None,
+    }
+
+
+def _kind_json(kind: FourBarKind | None, *, angular: bool) -> dict[str, Any]:
+    if kind is None:
+        return {}
+    differences = _degrees(kind.differences) if angular else [t + 0.0 for t in kind.differences]
+    return {"T_deg" if angular else "T": differences, "grashof": kind.grashof, "type": kind.name}
+
+
+def _loop_json(one: MappedLoop, key: str, size: float) -> dict[str, Any]:
+    return {
+        key: size,
+        "circuit": one.circuit,
+        "signs": list(one.signs),
+        "k": one.turns,
+        "density": one.density,
+        "steps_deg": _degrees(one.steps),
+        "residual_deg": degrees(one.residual),
+        "double": one.double,
+        "half_turns": list(one.half_turns),
+    }
+
+
+def _family_json(one: FamilyOfCircles, key: str, interval: list[float | None] | list[float]) -> dict[str, Any]:
+    return {key: interval, "circuit": one.circuit, "signs": list(one.signs), "k": one.turns}
+
+
+def _degrees(values: Sequence[float]) -> list[float]:
+    """Return degrees without the last digits that conversion from and to radians spoils, and without -0."""
+    return [round(degrees(value), 12) + 0.0 for value in values]
+
+
+def kind_line(kind: FourBarKind, *, angular: bool) -> str:
+    """Say in a line what a four-bar is."""
+    unit = "°" if angular else ""
+    shown = (degrees(t) if angular else t for t in kind.differences)
+    differences = ", ".join(f"T{i} = {round(t, 9) + 0.0:.6g}{unit}" for i, t in enumerate(shown, start=1))
+    return f"{kind.grashof}, {kind.name}   ({differences})"
+
+
+def print_cones(found: ConeMap) -> None:
+    """Print cones as a table, and why there are none."""
+    out = console()
+    if found.kind is not None:
+        out.print(kind_line(found.kind, angular=True))
+        if found.solutions in ("a", "b", "c", "d"):
+            out.print(f"class {found.solutions} of Hyatt et al. 2020, Fig. 10")
+    _print_circles([*found.flat, *found.cones], found.families, angular=True)
+    if found.why:
+        out.print(f"no cone: {found.why}")
+    if found.supplementary is not None:
+        told = ", ".join(f"{degrees(angle):.6g}" for angle in found.supplementary.angles)
+        out.print(f"\nsupplementary linkage, on the same joint lines: {told}")
+        print_cones(found.supplementary)
+
+
+def print_cylinders(found: CylinderMap) -> None:
+    """Print cylinders as a table, and why there are none."""
+    out = console()
+    if found.kind is not None:
+        out.print(kind_line(found.kind, angular=False))
+    _print_circles(found.cylinders, found.families, angular=False)
+    if found.why:
+        out.print(f"no cylinder: {found.why}")
+
+
+def _print_circles(loops: Sequence[MappedLoop], families: Sequence[FamilyOfCircles], *, angular: bool) -> None:
+    size = "lambda (deg)" if angular else "radius"
+    rows = table(size, "circuit", "signs", "k", "steps (deg)", "note", numbers=[size, "k"])
+    for one in loops:
+        notes = ["flat, no cone"] * (angular and one.size < 1e-12)
+        notes += [f"link {link + 1} spans half the circle" for link in one.half_turns]
+        rows.add_row(
+            f"{degrees(one.size) if angular else one.size:.10g}", one.circuit, signs_text(one.signs),
+            str(one.turns), " ".join(f"{degrees(step):.2f}" for step in one.steps), "; ".join(notes),
+        )  # fmt: skip
+    for family in families:
+        low, high = (degrees(x) if angular else x for x in family.interval)
+        rows.add_row(
+            f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns), "",
+            "every one of these",
+        )  # fmt: skip
+    if loops or families:
+        console().print(rows)

@@ -1,0 +1,164 @@
+"""``synth cone``: spherical loops and linkages of several loops on right cones."""
+
+from __future__ import annotations
+
+from math import radians
+
+import click
+
+from synth.cli.circles import NumberList, cone_json, print_cones
+from synth.cli.output import about, print_json
+
+__all__ = ["cone_group"]
+
+
+@click.group("cone", short_help="Map spherical linkages to cones; say which way links go.")
+def cone_group() -> None:
+    """Map spherical linkages to right cones, and say which way their links move there.
+
+    \b
+    Examples:
+      synth cone map --angles 70,80,120,40
+      synth cone behaviour --angles 70,80,120,40
+    """
+
+
+def _radians(values: tuple[float, ...]) -> list[float]:
+    return [radians(value) for value in values]
+
+
+@cone_group.command("map", short_help="Every cone on which a linkage lies.")
+@click.argument("file", required=False, metavar="[FILE]")
+@click.option("--angles", type=NumberList(), metavar="A,B,...", help="Link angles in loop order, degrees.")
+@click.option(
+    "--tolerance", type=click.FloatRange(0, min_open=True), default=1e-5, show_default=True, metavar="DEGREES",
+    help="How well the loops of a FILE must close together.",
+)  # fmt: skip
+@click.option("-o", "--output", metavar="PICTURE", help="Draw (.png, .svg, .pdf): loop sums; of a FILE, the cone.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def map_command(
+    file: str | None, angles: tuple[float, ...] | None, tolerance: float, output: str | None, as_json: bool
+) -> None:
+    """Say on which right cones a linkage lies, all its joint axes ruling lines.
+
+    Give --angles of one loop of any number of links (a four-bar as ground, input, coupler, output), or a FILE of a
+    linkage of several loops: with its link angles, or with the steps between its joint axes.
+
+    \b
+    Examples:
+      synth cone map --angles 70,80,120,40
+      synth cone map --angles 120,50,120,50 --json
+      synth cone map data/surfaces/fig11-stephenson.json
+    """
+    if (file is None) == (angles is None):
+        raise click.UsageError("give --angles of one loop, or a FILE")
+    if file is not None:
+        _map_file(file, radians(tolerance), output, as_json)
+        return
+    from synth.cone import map_to_cones
+
+    assert angles is not None
+    found = map_to_cones(_radians(angles))
+    if output is not None:
+        from synth.draw_figure import save_figure
+        from synth.draw_sums import draw_cone_sums
+
+        save_figure(draw_cone_sums(found), output)
+    if as_json:
+        print_json(cone_json(found))
+    else:
+        print_cones(found)
+
+
+def _map_file(file: str, tolerance: float, output: str | None, as_json: bool) -> None:
+    from synth.cli.conical import linkage_json, mapped, print_linkage
+    from synth.conical_file import read_conical
+
+    linkage = read_conical(file)
+    with about(file):
+        found = mapped(linkage, tolerance)
+    if output is not None:
+        if not found.cones:
+            raise click.UsageError("there is no cone to draw")
+        from synth.draw_conformed import draw_conformed
+        from synth.draw_figure import save_figure
+        from synth.first_order import ConformedChain
+
+        first = found.cones[0]
+        places = [first.places[joint] for joint in linkage.chain.joints]
+        save_figure(draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output)
+    if as_json:
+        print_json(linkage_json(linkage, found))
+    else:
+        print_linkage(linkage, found)
+
+
+@cone_group.command("behaviour", short_help="Which links leave the cone inward, outward, or both ways.")
+@click.argument("file", required=False, metavar="[FILE]")
+@click.option(
+    "--angles", type=NumberList(), metavar="A,B,...", help="Link angles in loop order; on each of their cones."
+)
+@click.option(
+    "--steps", type=NumberList(), metavar="A,B,...",
+    help="Signed steps round the cone in loop order; the last may be left out.",
+)  # fmt: skip
+@click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="Cone angle, for the picture.")
+@click.option("--ground", metavar="LINK", help="The fixed link: the first (1) by default; of a FILE, its own.")
+@click.option("-o", "--output", metavar="PICTURE", help="Draw circle and cone (.png, .svg, .pdf) of the first.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def behaviour_command(
+    file: str | None,
+    angles: tuple[float, ...] | None,
+    steps: tuple[float, ...] | None,
+    cone_angle: float | None,
+    ground: str | None,
+    output: str | None,
+    as_json: bool,
+) -> None:
+    """Say which links can move inward (intramobile), outward (extramobile), or only both ways (transmobile).
+
+    To first order, from the conformed position. It does not depend on the cone angle, and is the same on a
+    cylinder. Give --angles or --steps of one loop, or a FILE of a linkage.
+
+    \b
+    Examples:
+      synth cone behaviour --angles 120,95,45,85
+      synth cone behaviour --steps 40,50,50 --ground 2
+      synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
+    """
+    from synth.cli.conical import (
+        behaviours_json,
+        behaviours_of,
+        loop_of_steps,
+        loop_on_cones,
+        on_cones,
+        print_behaviours,
+    )
+    from synth.cone import checked_cone_angle
+    from synth.conical_file import read_conical
+
+    if sum(one is not None for one in (file, angles, steps)) != 1:
+        raise click.UsageError("give --angles or --steps of one loop, or a FILE")
+    tilt = None if cone_angle is None else float(checked_cone_angle(radians(cone_angle)))
+    if tilt is not None and angles is not None:
+        raise click.UsageError("--angles tell the cone themselves")
+    if file is not None:
+        with about(file):
+            found = behaviours_of(on_cones(read_conical(file), tilt), ground)
+    elif angles is not None:
+        found = behaviours_of(loop_on_cones(_radians(angles)), ground)
+    else:
+        assert steps is not None
+        found = behaviours_of([loop_of_steps(_radians(steps), tilt)], ground)
+    if output is not None:
+        if not found:
+            raise click.UsageError("there is no cone to draw")
+        from synth.draw_conformed import draw_conformed
+        from synth.draw_figure import save_figure
+
+        first = found[0]
+        save_figure(draw_conformed(first.chain, first.places, first.cone_angle), output)
+    if as_json:
+        print_json(behaviours_json(found))
+    else:
+        print_behaviours(found)

@@ -1,0 +1,50 @@
+"""``synth cylinder``: planar loops on right circular cylinders."""
+
+from __future__ import annotations
+
+import click
+
+from synth.cli.circles import NumberList, cylinder_json, print_cylinders
+from synth.cli.output import print_json
+
+__all__ = ["cylinder_group"]
+
+
+@click.group("cylinder", short_help="Map planar loops to cylinders.")
+def cylinder_group() -> None:
+    """Map planar loops to right circular cylinders.
+
+    \b
+    Example:
+      synth cylinder map --lengths 4,3,5,1
+    """
+
+
+@cylinder_group.command("map", short_help="Every cylinder on which a planar loop lies.")
+@click.option(
+    "--lengths", type=NumberList(), required=True, metavar="A,B,...", help="Lengths of the links in loop order."
+)
+@click.option("-o", "--output", metavar="PICTURE", help="Draw the loop sums (.png, .svg, .pdf).")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -> None:
+    """Say on which cylinders a planar loop of any number of links lies, all its joint axes ruling lines.
+
+    A four-bar is given as ground, input, coupler, output. The radius is in the unit of the lengths.
+
+    \b
+    Examples:
+      synth cylinder map --lengths 4,3,5,1
+      synth cylinder map --lengths 4,3,5,1,2 --json
+    """
+    from synth.cylinder import map_to_cylinders
+
+    found = map_to_cylinders(lengths)
+    if output is not None:
+        from synth.draw_figure import save_figure
+        from synth.draw_sums import draw_cylinder_sums
+
+        save_figure(draw_cylinder_sums(found), output)
+    if as_json:
+        print_json(cylinder_json(found))
+    else:
+        print_cylinders(found)

@@ -1,0 +1,260 @@
+"""Link angles of linkages of several loops: the cones that all loops share (Hyatt et al. 2020, section 7).
+
+A loop has a few cones, and all loops must have one in common, with the same sign for a link that two of them
+use. A link of three joints or more whose angles are all given is a loop of its own, and fixes the cone by
+itself. Theory: docs/theory/multiloop.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.loops import JointId
+from graphs.sc import SCGraph
+from synth.circuit import circuits, wrapped
+from synth.cone import cone_reach
+from synth.loopsum import LoopRoots, half_steps, loop_roots, sign_patterns
+from synth.multiloop import Pair, link_pairs, places_of_steps
+
+__all__ = ["CommonCone", "CommonFamily", "common_cones"]
+
+Array = npt.NDArray[np.float64]
+_FLAT = 1e-9
+"""Cones of smaller angle (radians) are flat, and none."""
+_HALF_TURN = np.pi - 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class CommonCone:
+    """A cone on which all loops of a linkage lie.
+
+    Attributes
+    ----------
+    cone_angle : float
+        lambda, radians.
+    signs : tuple of tuples of int
+        Of the steps of each loop, in loop order; the first of the first loop is +.
+    turns : tuple of int
+        k of each loop.
+    circuits : tuple of {"open", "crossed"}
+    places : mapping of joint id to float
+        Azimuths, radians; the first joint is at 0.
+    residual : float
+        Largest closure error of a loop, radians.
+    """
+
+    cone_angle: float
+    signs: tuple[tuple[int, ...], ...]
+    turns: tuple[int, ...]
+    circuits: tuple[str, ...]
+    places: Mapping[JointId, float]
+    residual: float
+
+
+@dataclass(frozen=True, slots=True)
+class CommonFamily:
+    """Signs with which all loops close on every cone up to the one that the longest link ends.
+
+    Attributes
+    ----------
+    interval : (float, float)
+        lambda, radians; the least, 0, is flat.
+    signs : tuple of tuples of int
+    turns : tuple of int
+    """
+
+    interval: tuple[float, float]
+    signs: tuple[tuple[int, ...], ...]
+    turns: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Cycle:
+    """A closed run of joints, neighbours on one link: numbers of the pairs, and +1 or -1 by their order."""
+
+    pairs: npt.NDArray[np.intp]
+    turned: npt.NDArray[np.int8]
+
+
+def common_cones(
+    chain: SCGraph, angles: Mapping[Pair, float], tolerance: float = 1e-7
+) -> tuple[tuple[CommonCone, ...], tuple[CommonFamily, ...]]:
+    """Return the cones on which all loops of a linkage of given link angles lie.
+
+    Parameters
+    ----------
+    chain : SCGraph
+        With its loops; their centres do not matter.
+    angles : mapping of (joint, joint) to float
+        Link angles between two joints of one link, radians, between 0 and pi: at least between those that follow
+        each other in a loop.
+    tolerance : float, optional
+        Largest closure error of a loop, radians.
+
+    Returns
+    -------
+    (tuple of CommonCone, tuple of CommonFamily)
+
+    Raises
+    ------
+    InvariantError
+        If an angle is missing, out of range, or between joints of two links.
+    UnsolvableError
+        If the chain has no loops.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
+    >>> angles = dict(zip([("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")], np.radians([120, 95, 45, 85])))
+    >>> cones, _ = common_cones(chain, angles)
+    >>> [round(float(np.degrees(cone.cone_angle)), 4) for cone in cones]
+    [13.9984, 29.0445]
+    """
+    pairs, given = _checked_pairs(chain, angles)
+    cycles = _cycles(chain, pairs)
+    reach = cone_reach(given)
+    roots = [loop_roots(reach[cycle.pairs], 1) for cycle in cycles]
+    end = float(reach[np.concatenate([cycle.pairs for cycle in cycles])].min())
+    sizes = _candidates(roots, end)
+    loops = len(chain.loops)
+    cones: list[CommonCone] = []
+    for size in sizes:
+        steps = 2.0 * half_steps(size, reach, 1)
+        patterns = [_closing(cycle, steps, tolerance) for cycle in cycles]
+        for signs in _agreeing(cycles, patterns, len(given)):
+            if not (signs[steps > _HALF_TURN] < 0).any():  # half a turn has no sign
+                cones.append(_common_cone(chain, pairs, cycles, signs * steps, size, loops))
+    families = []
+    everywhere = [np.concatenate([r.family_signs, -r.family_signs]) for r in roots]
+    for signs in _agreeing(cycles, everywhere, len(given)):
+        of_loops = tuple(tuple(_along(cycle, signs).astype(int).tolist()) for cycle in cycles[:loops])
+        families.append(CommonFamily((0.0, float(np.arctan(np.sqrt(end)))), of_loops, (0,) * loops))
+    return _without_families(cones, families), tuple(families)
+
+
+def _checked_pairs(chain: SCGraph, angles: Mapping[Pair, float]) -> tuple[dict[Pair, int], Array]:
+    """Return the number of each pair, and the angles in that order."""
+    if not chain.loops:
+        raise UnsolvableError("the chain has no loops; name them")
+    known = link_pairs(chain)
+    number: dict[Pair, int] = {}
+    for place, ((a, b), angle) in enumerate(angles.items()):
+        named = f"the angle between joints {shown(a)} and {shown(b)}"
+        if (a, b) not in known and (b, a) not in known:
+            raise InvariantError(
+                "one link", f"{named}: no link carries both", "joints of one link", ("angles", place)
+            )
+        if (a, b) in number or (b, a) in number:
+            raise InvariantError("one angle", f"{named} is given twice", "once", ("angles", place))
+        if not 0.0 < angle < np.pi:
+            told = f"{named} is {np.degrees(angle):.12g} degrees"
+            raise InvariantError("link angle", told, "between 0 and 180", ("angles", place))
+        number[a, b] = place
+    return number, np.array(list(angles.values()), dtype=float)
+
+
+def _cycles(chain: SCGraph, pairs: Mapping[Pair, int]) -> list[_Cycle]:
+    """Return the loops of the chain as cycles of pairs, then cycles of pairs within a link."""
+    made = [_cycle(loop.joints, pairs) for loop in chain.loops]
+    links = link_pairs(chain)
+    within: dict[object, nx.Graph] = {}
+    for pair in pairs:
+        link = links.get(pair, links.get(pair[::-1]))
+        within.setdefault(link, nx.Graph()).add_edge(*pair)
+    for graph in within.values():
+        made += [_cycle(tuple(joints), pairs) for joints in nx.cycle_basis(graph)]
+    return made
+
+
+def _cycle(joints: Sequence[JointId], pairs: Mapping[Pair, int]) -> _Cycle:
+    numbers, turned = [], []
+    for a, b in zip(joints, [*joints[1:], joints[0]], strict=True):
+        if (a, b) not in pairs and (b, a) not in pairs:
+            raise InvariantError(
+                "link angles", f"no angle between joints {shown(a)} and {shown(b)}", "one: they follow in a loop"
+            )
+        numbers.append(pairs.get((a, b), pairs.get((b, a), 0)))
+        turned.append(1 if (a, b) in pairs else -1)
+    return _Cycle(np.array(numbers), np.array(turned, dtype=np.int8))
+
+
+def _candidates(roots: Iterable[LoopRoots], end: float) -> list[float]:
+    """Return the sizes to try: the roots of the cycle with fewest or, where each has a family, those of all."""
+    lists = list(roots)
+    fixed = [r.size for r in lists if not len(r.family_loop)]
+    sizes = min(fixed, key=len) if fixed else np.concatenate([r.size for r in lists])
+    kept: list[float] = []
+    for size in sorted(sizes.tolist()):
+        if _FLAT**2 < size <= end * (1 + 1e-9) and not (kept and size - kept[-1] < 1e-12 * (1 + size)):
+            kept.append(min(size, end))
+    return kept
+
+
+def _closing(cycle: _Cycle, steps: Array, tolerance: float) -> npt.NDArray[np.int8]:
+    """Return the sign patterns with which a cycle closes on a cone, along the cycle."""
+    half = sign_patterns(len(cycle.pairs))
+    patterns = np.concatenate([half, -half])
+    sums = patterns @ steps[cycle.pairs]
+    return patterns[np.abs(wrapped(sums)) <= tolerance]
+
+
+def _along(cycle: _Cycle, signs: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
+    """Return signs along a cycle from those of pairs."""
+    return np.asarray(signs[cycle.pairs] * cycle.turned)
+
+
+def _agreeing(
+    cycles: Sequence[_Cycle], patterns: Sequence[npt.NDArray[np.int8]], count: int
+) -> Iterator[npt.NDArray[np.int8]]:
+    """Yield all signs of pairs that give every cycle one of its patterns; the first of the first cycle is +.
+
+    Pairs in no cycle have +.
+    """
+
+    def extended(depth: int, signs: npt.NDArray[np.int8]) -> Iterator[npt.NDArray[np.int8]]:
+        if depth == len(cycles):
+            yield np.where(signs == 0, np.int8(1), signs)
+            return
+        cycle = cycles[depth]
+        for pattern in patterns[depth]:
+            of_pairs = pattern * cycle.turned
+            old = signs[cycle.pairs]
+            if depth == 0 and pattern[0] < 0:
+                continue
+            if ((old == 0) | (old == of_pairs)).all():
+                more = signs.copy()
+                more[cycle.pairs] = of_pairs
+                yield from extended(depth + 1, more)
+
+    yield from extended(0, np.zeros(count, dtype=np.int8))
+
+
+def _common_cone(
+    chain: SCGraph, pairs: Mapping[Pair, int], cycles: Sequence[_Cycle], steps: Array, size: float, loops: int
+) -> CommonCone:
+    of_loops = [steps[cycle.pairs] * cycle.turned for cycle in cycles]
+    found = [circuits(one) for one in of_loops]
+    signed = {pair: float(steps[number]) for pair, number in pairs.items()}
+    first = chain.loops[0].joints[0]
+    places = places_of_steps(signed, tolerance=np.inf)
+    return CommonCone(
+        float(np.arctan(np.sqrt(size))),
+        tuple(tuple(np.sign(one).astype(int).tolist()) for one in of_loops[:loops]),
+        tuple(int(one.turns) for one in found[:loops]),
+        tuple(str(one.names()) for one in found[:loops]),
+        {joint: float(wrapped(places[joint] - places[first])) for joint in chain.joints if joint in places},
+        float(max(abs(one.residual) for one in found)),
+    )
+
+
+def _without_families(cones: Iterable[CommonCone], families: Sequence[CommonFamily]) -> tuple[CommonCone, ...]:
+    """Leave out what is one of a family, or its mirror image."""
+    signs = {family.signs for family in families}
+    return tuple(cone for cone in cones if cone.signs not in signs)

@@ -1,0 +1,294 @@
+"""Right cones: projected angles and link angles, and every cone on which a spherical loop lies.
+
+The apex is the spherical centre, joint axes are ruling lines. The cone angle lambda is the angle between a
+ruling line and the plane across the axis: 0 is a flat disk, 90 degrees a needle, which no linkage has. A link of
+angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2). Sources: Hyatt,
+Magleby, Howell 2020; Hyatt et al. 2021, sections 3.2 and 4. Theory: docs/theory/mapping.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError, UnsolvableError
+from synth.fourbar import (
+    FourBarKind,
+    checked_link_angles,
+    kind_of_spherical,
+    minimal_supplementary,
+    spherical_differences,
+)
+from synth.mapping import FamilyOfCircles, MappedLoop, mapped_loop
+
+__all__ = [
+    "ConeMap",
+    "checked_cone_angle",
+    "cone_reach",
+    "largest_cone_angle",
+    "link_angles",
+    "map_to_cones",
+    "projected_angles",
+    "solution_class",
+]
+
+Array = npt.NDArray[np.float64]
+_FLAT = 1e-12
+"""Cone angles (radians) below this are zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class ConeMap:
+    """All right cones on which a spherical loop lies.
+
+    Attributes
+    ----------
+    angles : tuple of float
+        Link angles, radians, at most pi.
+    cones : tuple of MappedLoop
+        0 < lambda < 90 degrees.
+    flat : tuple of MappedLoop
+        lambda = 0: the loop lies in a plane.
+    families : tuple of FamilyOfCircles
+    kind : FourBarKind or None
+        Of four-bars.
+    solutions : {"a", "b", "c", "d", "crossed only", "none"} or None
+        Of four-bars: the class of Fig. 10.
+    why : str
+        Why there is no cone; empty where there is one.
+    supplementary : ConeMap or None
+        Of four-bars without a cone: the linkage on the same joint lines whose sum of angles is least.
+    """
+
+    angles: tuple[float, ...]
+    cones: tuple[MappedLoop, ...]
+    flat: tuple[MappedLoop, ...]
+    families: tuple[FamilyOfCircles, ...]
+    kind: FourBarKind | None
+    solutions: str | None
+    why: str
+    supplementary: ConeMap | None
+
+
+def checked_cone_angle(cone_angle: npt.ArrayLike) -> Array:
+    """Return cone angles; refuse what no cone has.
+
+    Raises
+    ------
+    InvariantError
+        Unless 0 <= lambda < pi / 2.
+
+    Examples
+    --------
+    >>> checked_cone_angle(np.pi / 2)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: the cone angle is 90 degrees; expected 0 or more, and less than 90 [cone angle]
+    """
+    given = np.asarray(cone_angle, dtype=float)
+    wrong = given[~((given >= 0) & (given < np.pi / 2))]
+    if wrong.size:
+        told = f"{np.degrees(wrong.flat[0]):.12g}"
+        raise InvariantError(
+            "cone angle", f"the cone angle is {told} degrees", "0 or more, and less than 90", ("lambda", None)
+        )
+    return given
+
+
+def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+    """Return the link angles of projected angles (Hyatt et al. 2020, Eq. 5).
+
+    Parameters
+    ----------
+    steps : float[...]
+        Projected angles, radians.
+    cone_angle : float[...]
+        lambda, broadcast against the steps.
+
+    Returns
+    -------
+    float[...]
+        phi in [0, pi], with cos(phi) = sin(lambda)^2 + cos(lambda)^2 cos(phi_0).
+
+    Raises
+    ------
+    InvariantError
+        If the cone angle is out of range.
+
+    Examples
+    --------
+    >>> np.degrees(link_angles(np.radians([40, -40, 120]), np.radians([20, 20, 35]))).round(4).tolist()
+    [37.4945, 37.4945, 90.3733]
+    """
+    lam, half = checked_cone_angle(cone_angle), np.asarray(steps, dtype=float) / 2.0
+    flat, rest = np.cos(lam) * np.sin(half), np.hypot(np.sin(lam) * np.sin(half), np.cos(half))
+    return np.asarray(2.0 * np.arctan2(np.abs(flat), rest))
+
+
+def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+    """Return the projected angles of links, without sign (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
+
+    Parameters
+    ----------
+    angles : float[...]
+        Link angles phi, radians, in [0, pi].
+    cone_angle : float[...]
+        lambda, broadcast against them.
+
+    Returns
+    -------
+    float[...]
+        phi_0 in [0, pi], with cos(phi_0) = (cos(phi) - sin(lambda)^2) / cos(lambda)^2.
+
+    Raises
+    ------
+    InvariantError
+        If a cone angle is out of range.
+    UnsolvableError
+        If a link does not fit on its cone: lambda is more than pi / 2 - phi / 2.
+
+    Examples
+    --------
+    >>> float(np.degrees(projected_angles(np.radians(60), np.radians(60))).round(5))
+    180.0
+    >>> projected_angles(np.radians(60), np.radians(61))
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: a link of 60 degrees does not fit on a cone of 61; 60 is the largest cone angle
+    """
+    phi, lam = np.broadcast_arrays(np.asarray(angles, dtype=float), checked_cone_angle(cone_angle))
+    beyond = lam - largest_cone_angle(phi)
+    if (beyond > _FLAT).any():
+        worst = np.unravel_index(beyond.argmax(), beyond.shape)
+        told = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
+        raise UnsolvableError(
+            f"a link of {told[0]} degrees does not fit on a cone of {told[1]}; {told[2]} is the largest cone angle"
+        )
+    other = np.maximum(np.sin((np.pi - phi) / 2 - lam) * np.sin((np.pi - phi) / 2 + lam), 0.0)
+    return np.asarray(2.0 * np.arctan2(np.sin(phi / 2), np.sqrt(other)))
+
+
+def largest_cone_angle(angles: npt.ArrayLike) -> Array:
+    """Return the largest cone angle for links: there they span half the circle (Hyatt et al. 2021, Eqs. 15, 16).
+
+    Parameters
+    ----------
+    angles : float[...]
+        Link angles, radians. A loop is bound by its largest.
+
+    Returns
+    -------
+    float[...]
+        pi / 2 - phi / 2.
+
+    Examples
+    --------
+    >>> float(np.degrees(largest_cone_angle(np.radians(120))).round(9))
+    30.0
+    """
+    return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
+
+
+def cone_reach(angles: npt.ArrayLike) -> Array:
+    """Return cot(angle / 2)^2, the reach of links in a loop sum.
+
+    Examples
+    --------
+    >>> float(cone_reach(np.pi / 2).round(12))
+    1.0
+    """
+    half = np.asarray(angles, dtype=float) / 2.0
+    return np.asarray((np.cos(half) / np.sin(half)) ** 2)
+
+
+def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
+    """Return every right cone on which a spherical loop of any number of links lies, by its loop sums.
+
+    Parameters
+    ----------
+    angles : float[n]
+        Link angles in loop order, radians, between 0 and 2 pi (over pi: the joint axes are those of 2 pi less the
+        angle). Of a four-bar: ground, input, coupler, output.
+
+    Returns
+    -------
+    ConeMap
+
+    Raises
+    ------
+    InvariantError
+        If an angle is out of range, or the links cannot close.
+    UnsolvableError
+        If there are too many links.
+
+    Examples
+    --------
+    Hyatt et al. 2021, Fig. 3, and a linkage that wraps round the sphere:
+
+    >>> (one,) = map_to_cones(np.radians([70, 80, 120, 40])).cones
+    >>> round(float(np.degrees(one.size)), 2), one.circuit
+    (25.21, 'open')
+    >>> found = map_to_cones(np.radians([170, 160, 150, 145]))
+    >>> len(found.cones), len(found.supplementary.cones), found.why
+    (0, 2, 'T4 < 0: the links wrap round the sphere')
+    """
+    given = checked_link_angles(angles)
+    loops, families = mapped_loop(cone_reach(given), 1)
+    cones = tuple(one for one in loops if one.size > _FLAT)
+    flat = tuple(one for one in loops if one.size <= _FLAT)
+    kind = solutions = supplement = None
+    four = len(given) == 4
+    if four:
+        kind, solutions = kind_of_spherical(given), solution_class(given)
+    why = "" if cones or families else _why_not(given, bool(flat))
+    if why and four and spherical_differences(given)[3] < 0 and given.max() < np.pi - _FLAT:
+        supplement = map_to_cones(minimal_supplementary(given))
+    return ConeMap(tuple(given.tolist()), cones, flat, families, kind, solutions, why, supplement)
+
+
+def solution_class(angles: npt.ArrayLike) -> str:
+    """Return the class of a four-bar's cones (Hyatt et al. 2020, Fig. 10 and section 5).
+
+    Parameters
+    ----------
+    angles : float[4]
+        Link angles, radians.
+
+    Returns
+    -------
+    {"a", "b", "c", "d", "crossed only", "none"}
+        a: Grashof, two cones; b: non-Grashof, one, open; c: folding, one cone of angle 0; d: two pairs of equal
+        angles, infinitely many. With T4 < 0: none if Grashof, one crossed cone if non-Grashof (the paper says
+        none, docs/misprints.md 000-6).
+
+    Examples
+    --------
+    >>> fig_10 = [120, 95, 45, 85], [155, 50, 65, 80], [100, 70, 90, 60], [120, 50, 120, 50]
+    >>> [solution_class(np.radians(four)) for four in fig_10]
+    ['a', 'b', 'c', 'd']
+    """
+    given = np.asarray(angles, dtype=float)
+    t = spherical_differences(given)
+    zero = np.abs(t) <= _FLAT * np.pi
+    if zero[:3].sum() >= 2:
+        return "d"
+    if zero.any():
+        return "c"
+    grashof = np.sign(t).prod() > 0
+    if t[3] < 0:
+        return "none" if grashof else "crossed only"
+    return "a" if grashof else "b"
+
+
+def _why_not(angles: Array, flat: bool) -> str:
+    """Say why a loop has no cone."""
+    if flat:
+        return "the loop closes in a plane only, lambda = 0"
+    if angles.max() >= np.pi - _FLAT:
+        return "a link of 180 degrees fits on no cone but the flat one"
+    if len(angles) == 4 and spherical_differences(angles)[3] < 0:
+        return "T4 < 0: the links wrap round the sphere"
+    most = np.degrees(largest_cone_angle(angles.max()))
+    return f"no loop sum is a multiple of 360 degrees for lambda up to {most:.6g}, where the longest link ends"

@@ -1,0 +1,215 @@
+"""The conformed pose in space: joint axes, dihedral angles, points of links, and a check of it all in 3-D.
+
+Frame of Hyatt et al. 2020: apex at the origin, the y axis along the cone's axis, away from the cone. The joint
+at azimuth t has the axis R_y(t) O with O = (0, -sin lambda, cos lambda) (Eq. 17), outward from the apex. At this
+pose Eqs. 17 to 24 need no more; what happens away from it is in `synth.position`. Theory:
+docs/theory/conformed.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from synth.circuit import azimuths
+from synth.cone import checked_cone_angle
+
+__all__ = [
+    "CONE_AXIS",
+    "PoseCheck",
+    "angles_between",
+    "check_pose",
+    "dihedral_angles",
+    "joint_axes",
+    "measured_dihedral_angles",
+    "strip",
+]
+
+Array = npt.NDArray[np.float64]
+CONE_AXIS = (0.0, 1.0, 0.0)
+"""Direction of the axis, from the cone to the apex and beyond."""
+
+
+@dataclass(frozen=True, slots=True)
+class PoseCheck:
+    """How well loops rebuilt in space are what they should be; all in radians.
+
+    Attributes
+    ----------
+    link_angles : float[...]
+        Largest difference between a link angle measured between axes and the one asked for.
+    on_cone : float[...]
+        Largest difference between an axis' angle with the plane across the cone's axis and lambda.
+    """
+
+    link_angles: Array
+    on_cone: Array
+
+
+def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+    """Return the directions of joint axes (Hyatt et al. 2020, Eq. 17).
+
+    Parameters
+    ----------
+    places : float[..., J]
+        Azimuths, radians.
+    cone_angle : float[...]
+        lambda of each linkage.
+
+    Returns
+    -------
+    float[..., J, 3]
+        Unit vectors (cos lambda sin t, -sin lambda, cos lambda cos t).
+
+    Raises
+    ------
+    InvariantError
+        If a cone angle is out of range.
+
+    Examples
+    --------
+    >>> joint_axes([0.0], np.radians(20)).round(12)
+    array([[ 0.        , -0.34202014,  0.93969262]])
+    """
+    t = np.asarray(places, dtype=float)
+    lam = checked_cone_angle(cone_angle)[..., np.newaxis]
+    c, s = np.cos(lam), np.sin(lam)
+    return np.stack([c * np.sin(t), np.broadcast_to(-s, t.shape), c * np.cos(t)], axis=-1)
+
+
+def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+    """Return the dihedral angle at each joint of loops (Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right).
+
+    Parameters
+    ----------
+    steps : float[..., n]
+        Signed projected angles in loop order, radians; joint i lies between steps i - 1 and i.
+    cone_angle : float[...]
+
+    Returns
+    -------
+    float[..., n]
+        Right-handed about the outward joint axis, from the plane of link i - 1 to that of link i, in (-pi, pi].
+
+    Notes
+    -----
+    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of
+    a + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of
+    the three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no
+    digits are lost.
+
+    Examples
+    --------
+    >>> theta = dihedral_angles(np.radians([40, 60, -100]), np.radians(20))
+    >>> float(np.degrees(theta[1]).round(6))
+    161.733801
+    """
+    b = np.asarray(steps, dtype=float)
+    a = np.roll(b, 1, axis=-1)
+    lam = checked_cone_angle(cone_angle)[..., np.newaxis]
+    half = np.sin(a / 2), np.sin(b / 2), np.sin((a + b) / 2)
+    c2 = np.cos(lam) ** 2
+    volume = 4 * np.sin(lam) * c2 * half[0] * half[1] * half[2]
+    # cos e - cos f1 cos f2 with cos f = 1 - 2 c2 sin(f_0 / 2)^2
+    flat = 2 * c2 * (half[0] ** 2 + half[1] ** 2 - half[2] ** 2) - 4 * (c2 * half[0] * half[1]) ** 2
+    return np.asarray(np.arctan2(volume, flat))
+
+
+def angles_between(first: npt.ArrayLike, second: npt.ArrayLike) -> Array:
+    """Return the angles between vectors, radians, without loss of digits near 0 and pi.
+
+    Parameters
+    ----------
+    first, second : float[..., 3]
+
+    Examples
+    --------
+    >>> float(angles_between([1.0, 0, 0], [1.0, 1e-9, 0]))
+    1e-09
+    """
+    u, v = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    return np.asarray(np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1)))
+
+
+def measured_dihedral_angles(axes: npt.ArrayLike) -> Array:
+    """Return the dihedral angles of closed loops of axes in space, measured.
+
+    Parameters
+    ----------
+    axes : float[..., n, 3]
+        Joint axes in loop order, in any pose.
+
+    Returns
+    -------
+    float[..., n]
+        As in `dihedral_angles`.
+
+    Examples
+    --------
+    >>> corner = np.eye(3)
+    >>> np.degrees(measured_dihedral_angles(corner)).tolist()
+    [-90.0, -90.0, -90.0]
+    """
+    e = np.asarray(axes, dtype=float)
+    before, after = np.roll(e, 1, axis=-2), np.roll(e, -1, axis=-2)
+    e = e / np.linalg.norm(e, axis=-1, keepdims=True)
+    u = before - (before * e).sum(axis=-1, keepdims=True) * e
+    v = after - (after * e).sum(axis=-1, keepdims=True) * e
+    return np.asarray(np.arctan2((np.cross(u, v) * e).sum(axis=-1), (u * v).sum(axis=-1)))
+
+
+def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float], points: int = 24) -> Array:
+    """Return points of a link that is a strip of the cone between two ruling lines.
+
+    Parameters
+    ----------
+    start, end : float
+        Azimuths of its ends, radians.
+    cone_angle : float
+    radii : (float, float)
+        Distances of its edges from the apex.
+    points : int, optional
+        How many along each edge.
+
+    Returns
+    -------
+    float[2, points, 3]
+
+    Examples
+    --------
+    >>> strip(0, 1, 0.3, (1, 2)).shape
+    (2, 24, 3)
+    """
+    axes = joint_axes(np.linspace(start, end, points), cone_angle)
+    return np.stack([radii[0] * axes, radii[1] * axes])
+
+
+def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> PoseCheck:
+    """Build mapped loops in space and measure them.
+
+    Parameters
+    ----------
+    angles : float[..., n]
+        Link angles that are asked for, radians.
+    steps : float[..., n]
+        Signed projected angles.
+    cone_angle : float[...]
+
+    Examples
+    --------
+    >>> from synth.cone import map_to_cones
+    >>> angles = np.radians([120, 95, 45, 85])
+    >>> (first, _) = map_to_cones(angles).cones
+    >>> check = check_pose(angles, first.steps, first.size)
+    >>> bool(check.link_angles < 1e-12), bool(check.on_cone < 1e-15)
+    (True, True)
+    """
+    axes = joint_axes(azimuths(steps), cone_angle)
+    measured = angles_between(axes, np.roll(axes, -1, axis=-2))
+    lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis]
+    tilt = np.arctan2(-axes[..., 1], np.hypot(axes[..., 0], axes[..., 2]))
+    return PoseCheck(
+        np.abs(measured - np.asarray(angles, dtype=float)).max(axis=-1), np.abs(tilt - lam).max(axis=-1)
+    )

@@ -1,0 +1,168 @@
+"""Cyclic quadrilaterals: the circle through the four joints in closed form.
+
+Four sides fit on two circles at most: one with the quadrilateral open (convex), one with it crossed (Hyatt et
+al. 2021, Eqs. 4, 5 and 12). On a cylinder the sides are the links; on a cone they are the chords 2 sin(angle /
+2) of the unit sphere, and R = cos(lambda) (Eqs. 13, 14). The circle does not depend on the order of the links.
+
+Near lambda = 0 a cosine tells little. With half angles x_i, their sum S and T_j the three differences of pairs
+of them,
+
+    open     16 K^2 (1 - R^2) = 256 cos(S/2) prod sin(S/2 - x_i) prod cos(T_j / 2)
+    crossed  16 K^2 (1 - R^2) = 256 sin(S/2) prod cos(S/2 - x_i) prod sin(T_j / 2)
+
+which loses no digits: tan(lambda)^2 is this by the numerator of Eq. 12. Theory: docs/theory/mapping.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["ConicalQuadrilaterals", "CyclicQuadrilaterals", "circumradii", "cone_angles", "crossed_area"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class CyclicQuadrilaterals:
+    """Circles of quadrilaterals.
+
+    Attributes
+    ----------
+    open, crossed : float[...]
+        Circumradius in the unit of the sides; nan where there is none.
+    """
+
+    open: Array
+    crossed: Array
+
+
+@dataclass(frozen=True, slots=True)
+class ConicalQuadrilaterals:
+    """Cones of spherical four-bars.
+
+    Attributes
+    ----------
+    open, crossed : float[...]
+        Cone angle lambda, radians, in [0, pi/2); nan where there is none.
+    """
+
+    open: Array
+    crossed: Array
+
+
+def _sides(values: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
+    a, b, c, d = np.moveaxis(np.asarray(values, dtype=float), -1, 0)
+    return a, b, c, d
+
+
+def _numerator(a: Array, b: Array, c: Array, d: Array, mu: int) -> Array:
+    """Return (ab + mu cd)(ac + mu bd)(bc + mu ad), the numerator of Eq. 12."""
+    return np.asarray((a * b + mu * c * d) * (a * c + mu * b * d) * (b * c + mu * a * d))
+
+
+def _sixteen_area_squared(a: Array, b: Array, c: Array, d: Array, mu: int) -> Array:
+    """Return 16 K^2, the product of the sums of sides with one subtracted (Brahmagupta; Eq. 11)."""
+    d = mu * d
+    return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
+
+
+def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
+    """Return the circles of planar quadrilaterals (Hyatt et al. 2021, Eq. 12; Eqs. 4 and 5).
+
+    Parameters
+    ----------
+    sides : float[..., 4]
+        Positive lengths; their order does not matter.
+
+    Returns
+    -------
+    CyclicQuadrilaterals
+
+    Notes
+    -----
+    Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
+    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles, and nan is
+    returned.
+
+    Examples
+    --------
+    >>> found = circumradii([4, 3, 5, 1])
+    >>> float(found.open.round(4)), float(found.crossed.round(4))
+    (2.5361, 2.5909)
+    """
+    sides = _sides(sides)
+    radii = []
+    for mu in (1, -1):
+        numerator, denominator = _numerator(*sides, mu), _sixteen_area_squared(*sides, mu)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            there = (numerator > 0) & (denominator > 0)
+            radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
+    return CyclicQuadrilaterals(*radii)
+
+
+def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
+    """Return the cones on which spherical four-bars lie (Hyatt et al. 2021, Eqs. 12 to 14).
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        Link angles, radians, between 0 and pi; their order does not matter.
+
+    Returns
+    -------
+    ConicalQuadrilaterals
+        lambda = 0 where a crossed linkage folds flat; nan where two pairs of angles are equal and there are
+        infinitely many crossed cones.
+
+    Examples
+    --------
+    Hyatt et al. 2020, Fig. 10(a) and (b):
+
+    >>> found = cone_angles(np.radians([[120, 95, 45, 85], [155, 50, 65, 80]]))
+    >>> np.degrees(found.open).round(3), np.degrees(found.crossed).round(3)
+    (array([13.998,  8.864]), array([29.044,    nan]))
+    """
+    half = [angle / 2.0 for angle in _sides(angles)]
+    x, y, z, w = half
+    chords = [2.0 * np.sin(angle) for angle in half]
+    middle = (x + y + z + w) / 2.0
+    pairs = [(x + y - z - w) / 2.0, (x + z - y - w) / 2.0, (y + z - x - w) / 2.0]
+    less = [middle - angle for angle in half]
+    convex: Any = np.cos(middle)
+    crossed: Any = np.sin(middle)
+    for angle in less:
+        convex, crossed = convex * np.sin(angle), crossed * np.cos(angle)
+    for angle in pairs:
+        convex, crossed = convex * np.cos(angle), crossed * np.sin(angle)
+    found = []
+    for mu, product in ((1, convex), (-1, crossed)):
+        numerator = _numerator(chords[0], chords[1], chords[2], chords[3], mu)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            there = (numerator > 0) & (product >= 0)
+            found.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
+    return ConicalQuadrilaterals(*found)
+
+
+def crossed_area(sides: npt.ArrayLike) -> Array:
+    """Return the area of crossed cyclic quadrilaterals, triangles of opposite sense subtracted (Eq. 11).
+
+    Parameters
+    ----------
+    sides : float[..., 4]
+
+    Returns
+    -------
+    float[...]
+        nan where no crossed quadrilateral has a circle.
+
+    Examples
+    --------
+    >>> float(crossed_area([4, 3, 5, 1]).round(4))
+    3.4911
+    """
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.sqrt(_sixteen_area_squared(*_sides(sides), -1)) / 4.0)

@@ -1,0 +1,136 @@
+"""Right circular cylinders: every radius at which a planar loop lies on one.
+
+Joint axes are ruling lines; across them, the joints of a planar loop lie on a circle. Source: Hyatt et al. 2021,
+sections 3.1 and 4. Theory: docs/theory/mapping.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+from synth.fourbar import FourBarKind, checked_link_lengths, kind_of_planar
+from synth.mapping import FamilyOfCircles, MappedLoop, mapped_loop
+
+__all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class CylinderMap:
+    """All cylinders on which a planar loop lies.
+
+    Attributes
+    ----------
+    lengths : tuple of float
+    cylinders : tuple of MappedLoop
+        Their size is the radius.
+    families : tuple of FamilyOfCircles
+        Intervals of radii, up to infinity.
+    kind : FourBarKind or None
+        Of four-bars.
+    why : str
+        Why there is no cylinder; empty where there is one.
+    """
+
+    lengths: tuple[float, ...]
+    cylinders: tuple[MappedLoop, ...]
+    families: tuple[FamilyOfCircles, ...]
+    kind: FourBarKind | None
+    why: str
+
+
+def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
+    """Return the angles that links span round the axis, psi = 2 asin(length / 2 R) (Hyatt et al. 2021, Eq. 19).
+
+    Parameters
+    ----------
+    lengths, radius : float[...]
+        Any one unit.
+
+    Raises
+    ------
+    InvariantError
+        If a link is longer than the diameter.
+
+    Examples
+    --------
+    >>> float(np.degrees(central_angles(1.0, 1.0)).round(9))
+    60.0
+    """
+    ratio = np.asarray(lengths, dtype=float) / (2.0 * np.asarray(radius, dtype=float))
+    if not ((ratio >= 0) & (ratio <= 1)).all():
+        raise InvariantError(
+            "radius", "a link is longer than the diameter, or the radius is not positive", "2 R >= every length"
+        )
+    return np.asarray(2.0 * np.arcsin(ratio))
+
+
+def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
+    """Return the lengths of links that span given angles.
+
+    Parameters
+    ----------
+    steps : float[...]
+        Radians, signed or not.
+    radius : float[...]
+
+    Examples
+    --------
+    >>> float(chords(-np.pi / 3, 2.0).round(9))
+    2.0
+    """
+    return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
+
+
+def cylinder_reach(lengths: npt.ArrayLike) -> Array:
+    """Return 1 / length^2, the reach of links in a loop sum.
+
+    Examples
+    --------
+    >>> float(cylinder_reach(2.0))
+    0.25
+    """
+    return np.asarray(np.asarray(lengths, dtype=float) ** -2.0)
+
+
+def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
+    """Return every cylinder on which a planar loop of any number of links lies, by its loop sums.
+
+    Parameters
+    ----------
+    lengths : float[n]
+        In loop order, any one unit. Of a four-bar: ground, input, coupler, output.
+
+    Raises
+    ------
+    InvariantError
+        If a length is not positive, or the links cannot close.
+    UnsolvableError
+        If there are too many links.
+
+    Examples
+    --------
+    Hyatt et al. 2021, Fig. 10:
+
+    >>> [(round(one.size, 2), one.circuit) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
+    [(2.54, 'open'), (2.59, 'crossed')]
+    """
+    given = checked_link_lengths(lengths)
+    scale = given.max()
+    loops, families = mapped_loop(cylinder_reach(given / scale), 0)
+    found = tuple(_scaled(one, scale) for one in loops)
+    many = tuple(
+        FamilyOfCircles((one.interval[0] * scale, np.inf), one.circuit, one.signs, one.turns) for one in families
+    )
+    kind = kind_of_planar(given) if len(given) == 4 else None
+    why = "" if found or many else "the loop closes stretched out only, at an infinite radius"
+    return CylinderMap(tuple(given.tolist()), found, many, kind, why)
+
+
+def _scaled(one: MappedLoop, scale: float) -> MappedLoop:
+    return replace(one, size=float(one.size * scale))

@@ -1,0 +1,198 @@
+"""Pictures of a linkage at its conformed position: circle with ICRL and shadow, cone with the links as strips.
+
+Static pictures; Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from synth.behaviour import Way, behaviour_of_motion, icrl, link_arcs
+from synth.conformed import joint_axes, strip
+from synth.draw_figure import COLOURS, new_figure
+from synth.first_order import ConformedChain, first_order
+
+__all__ = ["draw_conformed"]
+
+Array = npt.NDArray[np.float64]
+_WAYS = {
+    Way.OUTWARD: "out",
+    Way.INWARD: "in",
+    Way.BOTH: "both ways",
+    Way.STILL: "still",
+    Way.UNKNOWN: "not told",
+}
+
+
+def draw_conformed(
+    chain: ConformedChain, places: npt.ArrayLike, cone_angle: float | None = None, title: str = ""
+) -> Any:
+    """Return a picture of a linkage on its circle and, with a cone angle, on its cone.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+    places : float[J]
+        Azimuths of the joints, radians.
+    cone_angle : float, optional
+        lambda, radians; None for a cylinder, of which only the circle is drawn.
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    UnsolvableError
+        If matplotlib is not installed.
+
+    Examples
+    --------
+    >>> from graphs.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
+    >>> len(draw_conformed(chain, np.radians([40, 90, 140, 0]), 0.4).axes)
+    2
+    """
+    t = np.asarray(places, dtype=float)
+    figure = new_figure(11.0 if cone_angle is not None else 6.4, 5.6)
+    _circle(figure.add_subplot(1, 1 if cone_angle is None else 2, 1), chain, t)
+    if cone_angle is not None:
+        _cone(figure.add_subplot(1, 2, 2, projection="3d"), chain, t, cone_angle)
+    if title:
+        figure.suptitle(title)
+    return figure
+
+
+def _layers(arcs: Array) -> list[int]:
+    """Put each link's arc on the lowest layer where it overlaps none."""
+    taken: list[list[tuple[float, float]]] = []
+    layers = []
+    for start, length in arcs:
+        free = (
+            number
+            for number in range(len(arcs))
+            if number == len(taken)
+            or all(not _overlap(start, length, other, more) for other, more in taken[number])
+        )
+        layer = next(free)
+        if layer == len(taken):
+            taken.append([])
+        taken[layer].append((start, length))
+        layers.append(layer)
+    return layers
+
+
+def _overlap(start: float, length: float, other: float, more: float) -> bool:
+    apart = (other - start) % (2 * np.pi)
+    return bool(apart < length - 1e-9 or 2 * np.pi - apart < more - 1e-9)
+
+
+def _circle(axes: Any, chain: ConformedChain, t: Array) -> None:
+    """Draw circle, links as arcs and chords, ICRL of each moving link, and the shadow of a four-bar."""
+    arcs = link_arcs(chain, t)
+    motion = first_order(chain, t)
+    found = behaviour_of_motion(chain, t, motion, arcs)
+    lines = icrl(motion.motions)
+    round_ = np.linspace(0, 2 * np.pi, 361)
+    axes.plot(np.sin(round_), np.cos(round_), color="0.55", linewidth=1.0, zorder=1)
+    if len(chain.links) == 4 and len(t) == 4:
+        _shadow(axes, chain, t)
+    for number, (joints, layer) in enumerate(zip(chain.joints_of, _layers(arcs), strict=True)):
+        colour = "0.25" if number == 0 else COLOURS[(number - 1) % len(COLOURS)]
+        start, length = arcs[number]
+        along = start + length * np.linspace(0, 1, 90)
+        radius = 1.06 + 0.06 * layer
+        name = _link_name(chain, number)
+        told = "ground" if number == 0 else _WAYS[Way(int(found.ways[number]))]
+        axes.plot(
+            radius * np.sin(along), radius * np.cos(along), color=colour, linewidth=4.5, solid_capstyle="butt",
+            label=f"{name}: {told}", zorder=3,
+        )  # fmt: skip
+        order = sorted(joints, key=lambda joint: (t[joint] - start) % (2 * np.pi))
+        corners = [*order, order[0]] if len(order) > 2 else order
+        axes.plot(np.sin(t[corners]), np.cos(t[corners]), color=colour, linewidth=1.6, zorder=3)
+        if number and np.isfinite(lines[number]):
+            s, c = 1.42 * np.sin(lines[number]), 1.42 * np.cos(lines[number])
+            axes.plot([-s, s], [-c, c], color=colour, linewidth=1.0, linestyle=(0, (6, 3)), zorder=2)
+    axes.scatter(np.sin(t), np.cos(t), s=34, facecolor="white", edgecolor="black", zorder=5)
+    _name_joints(axes, chain, t)
+    axes.scatter([0], [0], marker="+", color="black", s=60, zorder=4)
+    axes.set(aspect="equal", xlim=(-1.6, 1.6), ylim=(-1.6, 1.6))
+    axes.axis("off")
+    axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=2, fontsize=9)
+    notes = ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * (len(chain.links) == 4)
+    axes.set_title(", ".join(notes), fontsize=10)
+
+
+def _name_joints(axes: Any, chain: ConformedChain, t: Array) -> None:
+    for joint, place in zip(chain.joints, t, strict=True):
+        axes.text(
+            0.87 * np.sin(place), 0.87 * np.cos(place), str(joint)[:8], ha="center", va="center", zorder=6,
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "boxstyle": "round,pad=0.12"},
+        )  # fmt: skip
+
+
+def _link_name(chain: ConformedChain, number: int) -> str:
+    return "link " + "".join(f"{chain.joints[joint]!s:.4}" for joint in chain.joints_of[number])
+
+
+def _shadow(axes: Any, chain: ConformedChain, t: Array) -> None:
+    """Shade the double wedge between the lines of the side links that holds ground and coupler."""
+    points = np.stack([np.sin(t), np.cos(t)], axis=-1)
+    ground = chain.joints_of[0]
+    sides = [joints for joints in chain.joints_of[1:] if set(joints) & set(ground)]
+    (a, b), (c, d) = (sorted(joints, key=lambda joint: joint not in ground) for joints in sides)
+    grid = np.linspace(-1.42, 1.42, 500)
+    x, y = np.meshgrid(grid, grid)
+
+    def side(p: Array, q: Array, u: Any, v: Any) -> Any:
+        return (q[0] - p[0]) * (v - p[1]) - (q[1] - p[1]) * (u - p[0])
+
+    here = side(points[a], points[b], x, y) * side(points[c], points[d], x, y)
+    coupler = side(points[a], points[b], *points[d]) * side(points[c], points[d], *points[b])
+    inside = (here * coupler > 0) & (x**2 + y**2 < 1.42**2)
+    axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=["0.91"], zorder=0)
+
+
+def _cone(axes: Any, chain: ConformedChain, t: Array, cone_angle: float) -> None:
+    """Draw links as strips of the cone, in bands so that they do not hide each other, and joint axes."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    arcs = link_arcs(chain, t)
+    layers = _layers(arcs)
+    width = 0.62 / (max(layers) + 1)
+    round_ = np.linspace(0, 2 * np.pi, 181)
+    for radius in (0.35, 1.05):
+        axes.plot(*_upright(radius * joint_axes(round_, cone_angle)), color="0.7", linewidth=0.7)
+    for number, layer in enumerate(layers):
+        start, length = arcs[number]
+        inner = 0.38 + width * layer
+        edge_in, edge_out = strip(start, start + length, cone_angle, (inner, inner + 0.9 * width), 40)
+        panels = [
+            np.stack(_upright(np.array([edge_in[i], edge_in[i + 1], edge_out[i + 1], edge_out[i]])), axis=-1)
+            for i in range(39)
+        ]
+        colour = "0.45" if number == 0 else COLOURS[(number - 1) % len(COLOURS)]
+        axes.add_collection3d(Poly3DCollection(panels, facecolor=colour, edgecolor=colour, linewidth=0.4))
+    for joint, axis in zip(chain.joints, joint_axes(t, cone_angle), strict=True):
+        axes.plot(*_upright(np.stack([np.zeros(3), 1.1 * axis])), color="black", linewidth=0.9)
+        axes.text(*_upright(1.22 * axis), str(joint)[:8], ha="center", va="center")
+    reach = 1.1 * np.cos(cone_angle)
+    deep = 1.1 * np.sin(cone_angle)
+    middle = deep / 2
+    half = max(reach, middle)
+    axes.set(xlim=(-half, half), ylim=(-half, half), zlim=(-middle - half, -middle + half))
+    axes.set_box_aspect((1, 1, 1), zoom=1.55)
+    middle_of_links = np.degrees(np.angle(np.exp(1j * t).sum()))
+    axes.view_init(elev=38, azim=middle_of_links + 15)  # from outside the links, a little aside
+    axes.set_axis_off()
+    axes.set_title(f"λ = {np.degrees(cone_angle):.4g}°", fontsize=10)
+
+
+def _upright(points: Array) -> tuple[Array, Array, Array]:
+    """Return coordinates with the cone's axis upright: (z, x, y) of the paper's frame."""
+    return points[..., 2], points[..., 0], points[..., 1]

@@ -1,0 +1,71 @@
+"""Pictures: a matplotlib figure, and writing it whole or not at all."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from graphs.errors import FileError, UnsolvableError
+from graphs.files.source import Beside
+
+__all__ = ["COLOURS", "new_figure", "save_figure"]
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b", "#6a3d9a")
+"""Colours of links and curves that people of all kinds of sight tell apart, the first eight."""
+_KINDS = ("png", "svg", "pdf")
+
+
+def new_figure(width: float, height: float) -> Any:
+    """Return an empty matplotlib figure.
+
+    Parameters
+    ----------
+    width, height : float
+        Inches.
+
+    Raises
+    ------
+    UnsolvableError
+        If matplotlib is not installed.
+
+    Examples
+    --------
+    >>> float(new_figure(4, 3).get_figwidth())
+    4.0
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise UnsolvableError("pictures need matplotlib: pip install 'synthedra[draw]'") from None
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save_figure(figure: Any, path: str | Path) -> None:
+    """Write a figure as PNG, SVG or PDF, by the extension.
+
+    Raises
+    ------
+    FileError
+        If the extension is another, or the file cannot be written.
+
+    Examples
+    --------
+    >>> save_figure(new_figure(1, 1), "a.bmp")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
+    """
+    place = Path(path)
+    kind = place.suffix.lower().lstrip(".")
+    if kind not in _KINDS:
+        expected = ", ".join(f".{one}" for one in _KINDS)
+        raise FileError(place, "", "the extension is not known", expected)
+    stream = BytesIO()
+    figure.savefig(stream, format=kind, dpi=150)
+    beside = Beside(place)
+    try:
+        beside.write(stream.getvalue())
+        beside.commit()
+    finally:
+        beside.discard()

@@ -1,0 +1,243 @@
+"""First-order motion of any linkage from its conformed position, for many positions of its joints at once.
+
+Rates q_j of the joints close a loop if sum +-q_j e_j = 0 over it, e_j being the joint axes. On a cone e = (cos
+lambda sin t, -sin lambda, cos lambda cos t) at azimuth t; divide the first and third equations by cos lambda and
+the second by -sin lambda, and lambda is gone. On a cylinder the equations are those of the points (sin t, cos t)
+of the circle and of the rate itself: the same. So rank, rates, and which way each link moves depend on the
+azimuths alone, not on lambda (0 < lambda < 90 degrees), and are those of the cross-section of a cylinder.
+
+A link's motion is here w = (w_x, w_y, w_z) = sum +-q_j (sin t_j, 1, cos t_j) along a path from the ground. On a
+cone its angular velocity is (cos lambda w_x, -sin lambda w_y, cos lambda w_z), its pole axis; on a cylinder w_y
+is its angular velocity about the direction from cone to needle and (w_x, w_z) / w_y its instant centre, in
+radii. A point of it at azimuth t moves outward at the rate w_z sin t - w_x cos t. Hyatt et al. 2020, section 4;
+Hyatt et al. 2021, section 5. Theory: docs/theory/behaviour.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+from graphs.loops import JointId, LinkId
+from graphs.sc import SCGraph
+
+__all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
+
+Array = npt.NDArray[np.float64]
+_GAP = 1e-9
+"""Singular values below this part of the largest are zero."""
+
+
+@dataclass(frozen=True, slots=True)
+class ConformedChain:
+    """A connected chain, ready for sums along its loops and paths.
+
+    Attributes
+    ----------
+    links : tuple of link ids
+        The ground link first.
+    joints : tuple of joint ids
+    joints_of : tuple of tuples of int
+        Which joints each link carries.
+    loops : int[L, J]
+        Independent loops: +1 or -1 where one passes a joint, by its direction, else 0. Rates with matrix product
+        0 close.
+    paths : int[N, J]
+        Likewise a path from the ground to each link.
+    """
+
+    links: tuple[LinkId, ...]
+    joints: tuple[JointId, ...]
+    joints_of: tuple[tuple[int, ...], ...]
+    loops: npt.NDArray[np.int64]
+    paths: npt.NDArray[np.int64]
+
+    @classmethod
+    def of(cls, chain: SCGraph, ground: LinkId | None = None) -> ConformedChain:
+        """Prepare a chain.
+
+        Parameters
+        ----------
+        chain : SCGraph
+            Its loops' centres do not matter: all axes are ruling lines of one surface.
+        ground : link id, optional
+            By default the one the chain names, or its first.
+
+        Raises
+        ------
+        InvariantError
+            If the ground is no link, or the chain is not connected.
+
+        Examples
+        --------
+        >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+        >>> four_bar.loops.tolist()
+        [[1, 1, 1, 1]]
+        """
+        if ground is None:
+            ground = chain.ground if chain.ground is not None else next(iter(chain.nodes), None)
+        if ground not in chain:
+            raise InvariantError("ground is a link", f"ground {ground!r} is no link", "one of the links")
+        joints = tuple(chain.joints)
+        pairs = list(chain.joints.values())
+        paths: dict[LinkId, npt.NDArray[np.int64]] = {ground: np.zeros(len(joints), dtype=np.int64)}
+        tree: set[int] = set()
+        work = [ground]
+        while work:
+            link = work.pop(0)
+            for number, (a, b) in enumerate(pairs):
+                other = b if a == link else a
+                if link in (a, b) and other not in paths:
+                    paths[other] = paths[link].copy()
+                    paths[other][number] = 1 if link == a else -1
+                    tree.add(number)
+                    work.append(other)
+        if len(paths) != len(chain):
+            raise InvariantError("connected", "the chain is in several parts", "one that is connected")
+        loops = []
+        for number, (a, b) in enumerate(pairs):
+            if number not in tree:
+                row = paths[a] - paths[b]
+                row[number] = 1
+                loops.append(row)
+        links = (ground, *(link for link in chain if link != ground))
+        return cls(
+            links,
+            joints,
+            tuple(tuple(i for i, pair in enumerate(pairs) if link in pair) for link in links),
+            np.array(loops, dtype=np.int64).reshape(-1, len(joints)),
+            np.stack([paths[link] for link in links]),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class FirstOrder:
+    """First-order motions of many linkages of one chain.
+
+    Attributes
+    ----------
+    freedoms : int[...]
+        Infinitesimal freedoms: joints less rank.
+    singular_values : float[..., min(3 L, J)]
+        Of the closure equations (with unit columns up to sqrt(2)), falling.
+    gap : float[...]
+        Ratio of the smallest singular value counted to the largest not counted, or to the threshold; large is
+        clear.
+    rates : float[..., J]
+        Joint rates of a motion, of length 1; nan unless there is one freedom. Its sense is arbitrary.
+    motions : float[..., N, 3]
+        w of each link of the chain, in the order of its links.
+    """
+
+    freedoms: npt.NDArray[np.int64]
+    singular_values: Array
+    gap: Array
+    rates: Array
+    motions: Array
+
+    def rank(self) -> npt.NDArray[np.int64]:
+        """Return the rank of the closure equations: int[...]."""
+        return np.asarray(self.rates.shape[-1] - self.freedoms)
+
+
+def ring_axes(places: npt.ArrayLike) -> Array:
+    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets.
+
+    Examples
+    --------
+    >>> ring_axes([0.0]).tolist()
+    [[0.0, 1.0, 1.0]]
+    """
+    t = np.asarray(places, dtype=float)
+    return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
+
+
+def first_order(chain: ConformedChain, places: npt.ArrayLike) -> FirstOrder:
+    """Return rank and first-order motion of linkages at their conformed position.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+    places : float[..., J]
+        Azimuths of the joints, radians, in the order of the chain's joints.
+
+    Returns
+    -------
+    FirstOrder
+
+    Raises
+    ------
+    InvariantError
+        If the number of azimuths is not that of the joints.
+
+    Examples
+    --------
+    A square: the coupler turns about a point at infinity.
+
+    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> motion = first_order(four_bar, np.radians([45, 135, 225, 315]))
+    >>> int(motion.freedoms), bool(abs(motion.motions[2, 1]) < 1e-12)
+    (1, True)
+    """
+    t = np.asarray(places, dtype=float)
+    count = len(chain.joints)
+    if t.shape[-1:] != (count,):
+        raise InvariantError(
+            "azimuths", f"azimuths of {t.shape[-1] if t.ndim else 0} joints", f"those of the {count} joints"
+        )
+    axes = ring_axes(t)
+    closure = np.einsum("lj,...jc->...lcj", chain.loops, axes).reshape(*t.shape[:-1], -1, count)
+    if not closure.shape[-2]:
+        shape = t.shape[:-1]
+        return FirstOrder(
+            np.full(shape, count), np.zeros((*shape, 0)), np.full(shape, np.inf),
+            np.full(t.shape, np.nan), np.full((*shape, len(chain.links), 3), np.nan),
+        )  # fmt: skip
+    values, rows = _svd(closure)
+    counted = values > _GAP * values[..., :1]
+    rank = counted.sum(axis=-1)
+    freedoms = count - rank
+    gap = _gap(values, counted)
+    rates = np.where((freedoms == 1)[..., np.newaxis], rows[..., -1, :], np.nan)
+    motions = np.einsum("nj,...j,...jc->...nc", chain.paths, rates, axes)
+    return FirstOrder(freedoms, values, gap, rates, motions)
+
+
+def _svd(closure: Array) -> tuple[Array, Array]:
+    """Return singular values and all right singular vectors; the batched call is one loop in LAPACK."""
+    _, values, rows = np.linalg.svd(closure, full_matrices=True)
+    return values, rows
+
+
+def _gap(values: Array, counted: npt.NDArray[np.bool_]) -> Array:
+    least = np.where(counted, values, np.inf).min(axis=-1)
+    rest = np.where(counted, 0.0, values).max(axis=-1)
+    return np.asarray(least / np.maximum(rest, np.finfo(float).eps * values[..., 0]))
+
+
+def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+    """Return the angular velocities of links on cones, along their pole axes (Hyatt et al. 2020, section 4).
+
+    Parameters
+    ----------
+    motions : float[..., N, 3]
+        w; differences of two give relative pole axes.
+    cone_angle : float[...]
+
+    Returns
+    -------
+    float[..., N, 3]
+
+    Examples
+    --------
+    >>> pole_axes([[0.0, 1, 1]], np.radians(30)).round(4).tolist()
+    [[0.0, -0.5, 0.866]]
+    """
+    lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis, np.newaxis]
+    w = np.asarray(motions, dtype=float)
+    return np.concatenate(
+        [np.cos(lam) * w[..., :1], -np.sin(lam) * w[..., 1:2], np.cos(lam) * w[..., 2:]], axis=-1
+    )

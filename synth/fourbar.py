@@ -1,0 +1,417 @@
+"""Four-bars, planar and spherical: types, Grashof's condition, supplementary linkages.
+
+Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and
+(gamma, alpha, eta, beta) on the sphere. All functions take many linkages at a time. Sources: Hyatt et al. 2020,
+Eqs. 1 to 4; Hyatt et al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric Design of
+Linkages*. Theory: docs/theory/four-bars.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+
+__all__ = [
+    "FourBarKind",
+    "can_close",
+    "checked_link_angles",
+    "checked_link_lengths",
+    "grashof_class",
+    "in_a_hemisphere",
+    "kind_of_planar",
+    "kind_of_spherical",
+    "minimal_supplementary",
+    "planar_differences",
+    "spherical_differences",
+    "supplementary",
+]
+
+Array = npt.NDArray[np.float64]
+_FOLDS = 1e-12
+"""A difference this small (of pi, or of the sum of the lengths) is zero: the linkage folds."""
+_SMALLEST = 1e-9
+"""Smallest link angle, radians, and smallest length, of the longest, that a loop sum can be told of."""
+
+
+@dataclass(frozen=True, slots=True)
+class FourBarKind:
+    """What a four-bar can do.
+
+    Attributes
+    ----------
+    differences : tuple of float
+        T1, T2, T3 (lengths) or T1 to T4 (radians).
+    grashof : {"Grashof", "non-Grashof", "folding"}
+    name : str
+        ``crank-rocker``, ``rocker-crank``, ``double-crank``, ``double-rocker``, or for linkages none of whose
+        links turns fully how input and output pass their ground link: ``0-0``, ``0-pi``, ``pi-0``, ``pi-pi
+        double-rocker``. Folding linkages reach ends of a range without passing them, and may have other pairs,
+        such as ``crank and 0-rocker``.
+    input, output : {"crank", "rocker", "0-rocker", "pi-rocker"}
+        ``crank``: turns fully; ``0-rocker``: passes 0 only, ``pi-rocker``: passes pi only, ``rocker``: neither.
+    """
+
+    differences: tuple[float, ...]
+    grashof: str
+    name: str
+    input: str
+    output: str
+
+
+def planar_differences(lengths: npt.ArrayLike) -> Array:
+    """Return T1, T2, T3 of planar four-bars (Hyatt et al. 2021, Eqs. 1 to 3).
+
+    Parameters
+    ----------
+    lengths : float[..., 4]
+        g, a, h, b.
+
+    Returns
+    -------
+    float[..., 3]
+        g - a + h - b, g - a - h + b, h + b - g - a.
+
+    Notes
+    -----
+    Table 1 names the sides of a quadrilateral a, b, c, d in any order; its T1, T2, T3 are these but for order
+    and, in pairs, sign.
+
+    Examples
+    --------
+    >>> planar_differences([4, 3, 5, 1]).tolist()
+    [5.0, -3.0, -1.0]
+    """
+    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
+    return np.stack([g - a + h - b, g - a - h + b, h + b - g - a], axis=-1)
+
+
+def spherical_differences(angles: npt.ArrayLike) -> Array:
+    """Return T1 to T4 of spherical four-bars, radians (Hyatt et al. 2020, Eqs. 1 to 4).
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        gamma, alpha, eta, beta, between 0 and pi.
+
+    Returns
+    -------
+    float[..., 4]
+        The planar three, and 2 pi less the sum.
+
+    Examples
+    --------
+    Fig. 10(a):
+
+    >>> np.degrees(spherical_differences(np.radians([85, 120, 95, 45]))).round(9).tolist()
+    [15.0, -85.0, -65.0, 15.0]
+    """
+    angles = np.asarray(angles, dtype=float)
+    last = 2.0 * np.pi - angles.sum(axis=-1, keepdims=True)
+    return np.concatenate([planar_differences(angles), last], axis=-1)
+
+
+def grashof_class(differences: npt.ArrayLike, scale: float = np.pi) -> npt.NDArray[np.str_]:
+    """Return ``Grashof``, ``non-Grashof`` or ``folding`` by the sign of the product of the differences.
+
+    Parameters
+    ----------
+    differences : float[..., 3 or 4]
+    scale : float, optional
+        What is small against it is zero.
+
+    Examples
+    --------
+    >>> [str(grashof_class(planar_differences(sides), 10)) for sides in ([4, 3, 5, 1], [9, 5, 4, 3], [4, 3, 5, 2])]
+    ['Grashof', 'non-Grashof', 'folding']
+    """
+    t = np.asarray(differences, dtype=float)
+    folds = (np.abs(t) <= _FOLDS * scale).any(axis=-1)
+    grashof = np.sign(t).prod(axis=-1) > 0
+    return np.where(folds, "folding", np.where(grashof, "Grashof", "non-Grashof"))
+
+
+def kind_of_planar(lengths: npt.ArrayLike) -> FourBarKind:
+    """Return type and class of a planar four-bar.
+
+    Parameters
+    ----------
+    lengths : float[4]
+        g, a, h, b.
+
+    Raises
+    ------
+    InvariantError
+        If a length is not positive, or the links cannot close.
+
+    Examples
+    --------
+    >>> kind_of_planar([4, 3, 5, 1]).name
+    'rocker-crank'
+    """
+    sides = checked_link_lengths(lengths, 4)
+    t = planar_differences(sides)
+    return _kind(tuple(t.tolist()), float(sides.sum()), 1.0)
+
+
+def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
+    """Return type and class of a spherical four-bar.
+
+    Parameters
+    ----------
+    angles : float[4]
+        gamma, alpha, eta, beta, radians.
+
+    Raises
+    ------
+    InvariantError
+        If an angle is out of range, or the links cannot close.
+
+    Examples
+    --------
+    >>> kind = kind_of_spherical(np.radians([85, 120, 95, 45]))
+    >>> kind.grashof, kind.name
+    ('Grashof', 'rocker-crank')
+    """
+    t = spherical_differences(checked_link_angles(angles, 4))
+    fourth = float(t[3]) if abs(t[3]) > _FOLDS * np.pi else 1.0
+    return _kind(tuple(t.tolist()), np.pi, fourth)
+
+
+def _kind(differences: tuple[float, ...], scale: float, fourth: float) -> FourBarKind:
+    """Name a type: which ends of its range a link reaches follows from the signs (McCarthy, Table 2.1).
+
+    The input passes 0 unless T1 T2 < 0 and pi unless T3 T4 < 0, the output passes pi unless T1 T3 > 0 and 0 unless
+    T2 T4 > 0.
+    """
+    positive = [t >= -_FOLDS * scale for t in differences[:3]]
+    t1, t2, t3 = (1 if sign else -1 for sign in positive)
+    side = 1 if fourth > 0 else -1
+    zeros = [abs(t) <= _FOLDS * scale for t in differences[:3]]
+    input_ = _swing(t1 * t2 > 0 or zeros[0] or zeros[1], t3 * side > 0 or zeros[2])
+    output = _swing(t2 * side < 0 or zeros[1], t1 * t3 < 0 or zeros[0] or zeros[2])
+    grashof = str(grashof_class(np.array(differences), scale))
+    names = {
+        ("crank", "crank"): "double-crank",
+        ("crank", "rocker"): "crank-rocker",
+        ("rocker", "crank"): "rocker-crank",
+        ("rocker", "rocker"): "double-rocker",
+    }
+    short = {"0-rocker": "0", "pi-rocker": "pi"}
+    name = names.get((input_, output))
+    if name is None:
+        both = input_ in short and output in short
+        name = f"{short[input_]}-{short[output]} double-rocker" if both else f"{input_} and {output}"
+    return FourBarKind(differences, grashof, name, input_, output)
+
+
+def _swing(passes_zero: bool, passes_pi: bool) -> str:
+    if passes_zero:
+        return "crank" if passes_pi else "0-rocker"
+    return "pi-rocker" if passes_pi else "rocker"
+
+
+# ---- supplementary linkages -------------------------------------------------------------------------------
+
+
+def supplementary(angles: npt.ArrayLike) -> Array:
+    """Return the 16 linkages that have the same joint lines (Hyatt et al. 2020, section 2.3).
+
+    A joint line has two ends. To take the other end of a joint changes the two links there to their supplements.
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        Link angles in loop order, radians, between 0 and pi. Joint j is between links j - 1 and j.
+
+    Returns
+    -------
+    float[..., 16, 4]
+        The linkage itself first. Turning all four joints round changes no angle, so there are eight different
+        ones at most; their T4 are plus and minus T1 to T4, and the product T1 T2 T3 T4 is the same for all.
+
+    Examples
+    --------
+    >>> linkages = np.degrees(supplementary(np.radians([85, 120, 95, 45]))).round(9)
+    >>> len(np.unique(linkages, axis=0)), linkages[1].tolist()
+    (8, [85.0, 120.0, 85.0, 135.0])
+    """
+    angles = np.asarray(angles, dtype=float)
+    ends = np.array(list(product((0, 1), repeat=4)))
+    turned = (ends + np.roll(ends, -1, axis=1)) % 2  # link i lies between joints i and i + 1
+    angles = angles[..., np.newaxis, :]
+    return np.where(turned == 1, np.pi - angles, angles)
+
+
+def minimal_supplementary(angles: npt.ArrayLike) -> Array:
+    """Return the supplementary linkage with the smallest sum of angles: the one whose T4 is largest.
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+
+    Returns
+    -------
+    float[..., 4]
+
+    Examples
+    --------
+    >>> np.degrees(minimal_supplementary(np.radians([170, 160, 150, 140]))).round(9).tolist()
+    [10.0, 20.0, 30.0, 40.0]
+    """
+    every = supplementary(angles)
+    least = every.sum(axis=-1).round(12).argmin(axis=-1)
+    return np.take_along_axis(every, least[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
+
+
+def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Tell whether the joint axes of spherical four-bars point into one hemisphere (Hyatt et al. 2020, 2.3).
+
+    Parameters
+    ----------
+    axes : float[..., 4, 3]
+        Directions, of any length.
+
+    Notes
+    -----
+    Four vectors lie in an open hemisphere unless a combination of them with weights >= 0 vanishes. In space the
+    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where
+    they do not, in a linkage that lies flat, the answer is no.
+
+    Examples
+    --------
+    >>> corner = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> in_a_hemisphere([[*corner, [-1, -1, -1]], [*corner, [1, 1, 1]]]).tolist()
+    [False, True]
+    """
+    vectors = np.asarray(axes, dtype=float)
+    minors = np.stack(
+        [(-1) ** i * np.linalg.det(np.delete(vectors, i, axis=-2)) for i in range(4)],
+        axis=-1,
+    )
+    size = np.abs(minors).max(axis=-1, keepdims=True)
+    noise = 1e-12 * np.maximum(size, np.linalg.norm(vectors, axis=-1).prod(axis=-1)[..., np.newaxis])
+    some = (minors > noise).any(axis=-1), (minors < -noise).any(axis=-1)
+    return np.asarray(some[0] & some[1])
+
+
+# ---- what is given ----------------------------------------------------------------------------------------
+
+
+def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Array:
+    """Return link angles, those over pi replaced by the other way round; refuse what no closed loop has.
+
+    Parameters
+    ----------
+    angles : float[n]
+        Radians, between 0 and 2 pi. A link of more than pi has the joint axes of one of 2 pi less its angle.
+    links : int, optional
+        How many there must be.
+
+    Raises
+    ------
+    InvariantError
+        Naming the angle that is out of range, or the links that cannot close.
+
+    Examples
+    --------
+    >>> checked_link_angles(np.radians([10, 20, 30, 100]))  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: the link angles 10, 20, 30, 100 cannot close: ...
+    """
+    given = _listed(angles, "link angles", links)
+    for place, angle in enumerate(given):
+        if not 0.0 < angle < 2.0 * np.pi:
+            told = f"link angle {place + 1} is {_degrees(angle)} degrees"
+            raise InvariantError("link angle", told, "between 0 and 360", ("angles", place))
+        if min(angle, 2.0 * np.pi - angle) < _SMALLEST:
+            told = f"link angle {place + 1} is {np.degrees(angle):.12g} degrees"
+            raise InvariantError("link angle", told, "one that can be told from 0 and 360", ("angles", place))
+    made = np.where(given > np.pi, 2.0 * np.pi - given, given)
+    if not can_close(made):
+        longest = made.max() > made.sum() - made.max()
+        why = "the longest is longer than the others together" if longest else "they are too long for the sphere"
+        told = ", ".join(_degrees(angle) for angle in given[:20])
+        raise InvariantError(
+            "closed loop", f"the link angles {told} cannot close: {why}", "angles of a closed loop"
+        )
+    return made
+
+
+def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Array:
+    """Return link lengths; refuse what no closed loop has.
+
+    Raises
+    ------
+    InvariantError
+        Naming the length that is not positive, or the links that cannot close.
+
+    Examples
+    --------
+    >>> checked_link_lengths([1, 2, 4])
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: the lengths 1, 2, 4 cannot close: the longest is longer than the others \
+together; expected lengths of a closed loop [closed loop]
+    """
+    given = _listed(lengths, "lengths", links)
+    for place, length in enumerate(given):
+        if not length > 0.0:
+            raise InvariantError(
+                "link length", f"length {place + 1} is {length:.12g}", "a length above 0", ("lengths", place)
+            )
+        if length < _SMALLEST * given.max():
+            told = f"length {place + 1} is {length:.12g}, the longest {given.max():.12g}"
+            raise InvariantError("link length", told, "lengths within a factor of 1e9", ("lengths", place))
+    longest = given.max()
+    if longest - (given.sum() - longest) > 1e-12 * longest:
+        told = ", ".join(f"{length:.12g}" for length in given[:20])
+        raise InvariantError(
+            "closed loop",
+            f"the lengths {told} cannot close: the longest is longer than the others together",
+            "lengths of a closed loop",
+        )
+    return given
+
+
+def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Tell whether links of these angles close on the sphere, in some position.
+
+    Parameters
+    ----------
+    angles : float[..., n]
+        Radians, between 0 and pi.
+
+    Notes
+    -----
+    They do unless, with the supplements taken of an odd number of them, the sum is less than pi. The least such
+    sum takes the supplements of those over pi / 2, and of one more or one less if these are an even number.
+
+    Examples
+    --------
+    >>> can_close(np.radians([[120, 120, 120], [120, 120, 121], [30, 40, 71]])).tolist()
+    [True, False, False]
+    """
+    angles = np.asarray(angles, dtype=float)
+    least = np.minimum(angles, np.pi - angles).sum(axis=-1)
+    even = (angles > np.pi / 2).sum(axis=-1) % 2 == 0
+    least = least + np.where(even, np.abs(np.pi - 2 * angles).min(axis=-1), 0.0)
+    return np.asarray(least >= np.pi * (1.0 - 1e-12))
+
+
+def _listed(values: npt.ArrayLike, what: str, links: int | None) -> Array:
+    given = np.asarray(values, dtype=float)
+    if given.ndim != 1 or len(given) < 3 or (links is not None and len(given) != links):
+        raise InvariantError("loop", f"{given.size} {what}", f"{links or 'three or more'} in loop order")
+    if not np.isfinite(given).all():
+        raise InvariantError("loop", f"the {what} are not all numbers", "finite numbers")
+    return given
+
+
+def _degrees(angle: float) -> str:
+    return f"{round(float(np.degrees(angle)), 9):.12g}"

@@ -1,0 +1,318 @@
+"""Positions of four-bars: input and output angles, limits, transmission angle, poses away from the conformed one.
+
+Angles as in McCarthy: theta at O from the ground link O C to the input link O A; psi at C from the ground link
+prolonged to the output link C B. On the sphere they are dihedral angles, right-handed about the outward axes:
+theta = theta_{gamma, alpha} and psi = 180 - theta_{beta, gamma} (Hyatt et al. 2020, section 6, put right:
+docs/misprints.md 000-5). A position has two branches, which are the circuits of linkages whose input turns
+fully. Links: ground, input, coupler, output. All functions take many positions at a time. Theory:
+docs/theory/four-bars.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+from synth.circuit import azimuths
+from synth.cone import checked_cone_angle, link_angles
+from synth.conformed import dihedral_angles, joint_axes, measured_dihedral_angles
+
+__all__ = [
+    "FourBarPoses",
+    "input_limits_planar",
+    "input_limits_spherical",
+    "output_planar",
+    "output_spherical",
+    "poses_from_conformed",
+    "rotated",
+    "transmission_planar",
+    "transmission_spherical",
+]
+
+Array = npt.NDArray[np.float64]
+Branch = Literal[1, -1]
+_AT_LIMIT = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class FourBarPoses:
+    """Poses of a conical four-bar about its conformed one; nan where it does not reach.
+
+    Attributes
+    ----------
+    theta, psi, xi : float[M]
+        Angles at O, C and A (xi = theta_{alpha, eta}), radians.
+    conformed : (float, float, float)
+        theta, psi and xi at the conformed pose.
+    axes : float[M, 4, 3]
+        O, A, B, C. B is reached from the input (Eq. 21).
+    residual : float[M]
+        Distance of that B from the one reached from the output (Eq. 23).
+    """
+
+    theta: Array
+    psi: Array
+    xi: Array
+    conformed: tuple[float, float, float]
+    axes: Array
+    residual: Array
+
+
+def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Array:
+    """Return the output angle of planar four-bars.
+
+    Parameters
+    ----------
+    lengths : float[..., 4]
+        g, a, h, b.
+    theta : float[...]
+        Input angle, radians.
+    branch : {1, -1} [...]
+        Which of the two positions.
+
+    Returns
+    -------
+    float[...]
+        psi in (-pi, pi]; nan where the input does not reach.
+
+    Examples
+    --------
+    A parallelogram, and crossed:
+
+    >>> np.degrees(output_planar([2, 1, 2, 1], np.pi / 3, [-1, 1])).round(6).tolist()
+    [60.0, -120.0]
+    """
+    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
+    theta = np.asarray(theta, dtype=float)
+    x, y = a * np.cos(theta) - g, a * np.sin(theta)  # A as seen from C
+    return _two_branches(x, y, (x**2 + y**2 + b**2 - h**2) / (2 * b), branch)
+
+
+def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Array:
+    """Return the output angle of spherical four-bars (Hyatt et al. 2020, section 6).
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        gamma, alpha, eta, beta, radians.
+    theta : float[...]
+    branch : {1, -1} [...]
+
+    Returns
+    -------
+    float[...]
+        psi in (-pi, pi]; nan where the input does not reach.
+
+    Examples
+    --------
+    >>> links = np.radians([70, 60, 80, 75])
+    >>> np.degrees(output_spherical(links, np.radians(50), [-1, 1])).round(4).tolist()
+    [22.3481, -156.663]
+    """
+    gamma, alpha, eta, beta = np.moveaxis(np.asarray(angles, dtype=float), -1, 0)
+    theta = np.asarray(theta, dtype=float)
+    along, z = np.sin(alpha) * np.cos(theta), np.cos(alpha)
+    x, y = np.cos(gamma) * along - np.sin(gamma) * z, np.sin(alpha) * np.sin(theta)  # A as seen from C
+    height = np.sin(gamma) * along + np.cos(gamma) * z
+    return _two_branches(x, y, (np.cos(eta) - np.cos(beta) * height) / np.sin(beta), branch)
+
+
+def _two_branches(x: Array, y: Array, c: Array, branch: npt.ArrayLike) -> Array:
+    """Solve x cos(psi) + y sin(psi) = c."""
+    ratio = c / np.hypot(x, y)
+    ratio = np.where(np.abs(ratio) <= 1 + _AT_LIMIT, np.clip(ratio, -1, 1), np.nan)
+    psi = np.arctan2(y, x) + np.asarray(branch) * np.arccos(ratio)
+    return np.asarray(np.pi - np.remainder(np.pi - psi, 2 * np.pi))
+
+
+def input_limits_planar(lengths: npt.ArrayLike) -> Array:
+    """Return where the input of planar four-bars ends: with coupler and output folded, and stretched.
+
+    Parameters
+    ----------
+    lengths : float[..., 4]
+
+    Returns
+    -------
+    float[..., 2]
+        theta_min and theta_max in [0, pi]: theta and -theta are reached from theta_min to theta_max; nan where
+        there is no such end, and the input passes 0 or pi.
+
+    Examples
+    --------
+    >>> np.degrees(input_limits_planar([4, 3, 5, 1])).round(3).tolist()
+    [67.976, 117.28]
+    """
+    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
+    with np.errstate(invalid="ignore"):
+        ends = [(g**2 + a**2 - reach**2) / (2 * g * a) for reach in (h - b, h + b)]
+    return _ends(ends)
+
+
+def input_limits_spherical(angles: npt.ArrayLike) -> Array:
+    """Return where the input of spherical four-bars ends, as `input_limits_planar` does.
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        Radians.
+
+    Returns
+    -------
+    float[..., 2]
+
+    Examples
+    --------
+    >>> np.degrees(input_limits_spherical(np.radians([85, 120, 95, 45]))).round(3).tolist()
+    [37.29, 146.869]
+    """
+    gamma, alpha, eta, beta = np.moveaxis(np.asarray(angles, dtype=float), -1, 0)
+    flat = np.cos(alpha) * np.cos(gamma)
+    ends = [(np.cos(reach) - flat) / (np.sin(alpha) * np.sin(gamma)) for reach in (eta - beta, eta + beta)]
+    return _ends(ends)
+
+
+def _ends(cosines: list[Array]) -> Array:
+    """Return the angles of the cosines that are some angle's, but for the ends of the range themselves."""
+    both = np.stack(cosines, axis=-1)
+    return np.arccos(np.where(np.abs(both) < 1 - _AT_LIMIT, both, np.nan))
+
+
+def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
+    """Return the angle between coupler and output of planar four-bars.
+
+    Parameters
+    ----------
+    lengths : float[..., 4]
+    theta : float[...]
+
+    Returns
+    -------
+    float[...]
+        In [0, pi]; nan where the input does not reach. Force is passed on best at pi / 2, not at all at 0 and pi.
+
+    Examples
+    --------
+    >>> float(np.degrees(transmission_planar([2, 1, 2, 1], np.pi / 2)).round(6))
+    90.0
+    """
+    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
+    square = g**2 + a**2 - 2 * g * a * np.cos(np.asarray(theta, dtype=float))
+    return _within((h**2 + b**2 - square) / (2 * h * b))
+
+
+def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
+    """Return the dihedral angle between coupler and output of spherical four-bars.
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        Radians.
+    theta : float[...]
+
+    Returns
+    -------
+    float[...]
+        In [0, pi]; nan where the input does not reach.
+
+    Examples
+    --------
+    >>> float(np.degrees(transmission_spherical([np.pi / 2] * 4, np.radians(50))).round(6))
+    50.0
+    """
+    gamma, alpha, eta, beta = np.moveaxis(np.asarray(angles, dtype=float), -1, 0)
+    across = np.sin(alpha) * np.sin(gamma) * np.cos(np.asarray(theta, dtype=float))
+    height = np.cos(alpha) * np.cos(gamma) + across
+    return _within((height - np.cos(eta) * np.cos(beta)) / (np.sin(eta) * np.sin(beta)))
+
+
+def _within(cosine: Array) -> Array:
+    return np.arccos(np.where(np.abs(cosine) <= 1 + _AT_LIMIT, np.clip(cosine, -1, 1), np.nan))
+
+
+def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -> Array:
+    """Rotate vectors about a unit axis, right-handed (Rodrigues).
+
+    Parameters
+    ----------
+    vectors, axis : float[..., 3]
+    angle : float[...]
+        Radians.
+
+    Examples
+    --------
+    >>> rotated([1.0, 0, 0], [0, 0, 1.0], np.pi / 2).round(12).tolist()
+    [0.0, 1.0, 0.0]
+    """
+    v, e = np.asarray(vectors, dtype=float), np.asarray(axis, dtype=float)
+    angle = np.asarray(angle, dtype=float)[..., np.newaxis]
+    along = (v * e).sum(axis=-1, keepdims=True) * e
+    return np.asarray(along + np.cos(angle) * (v - along) + np.sin(angle) * np.cross(e, v))
+
+
+def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.ArrayLike) -> FourBarPoses:
+    """Turn the input of a conical four-bar from its conformed pose (Hyatt et al. 2020, Eqs. 15 to 24).
+
+    Parameters
+    ----------
+    steps : float[4]
+        Projected angles in loop order alpha_0 (O to A), eta_0, beta_0, gamma_0 (C to O), radians; their sum is a
+        multiple of 2 pi.
+    cone_angle : float
+        lambda > 0.
+    turns : float[M]
+        How far the input has turned from the conformed pose.
+
+    Returns
+    -------
+    FourBarPoses
+
+    Raises
+    ------
+    InvariantError
+        If the steps do not close, or lambda is 0, where the linkage is at a dead point.
+
+    Notes
+    -----
+    Eqs. 22 and 23 take gamma_0 and beta_0 the other way round; in one loop direction C = R_y(-gamma_0) O
+    (docs/misprints.md 000-2). The branch is that of the conformed pose.
+
+    Examples
+    --------
+    >>> found = poses_from_conformed(np.radians([50, 110, 80, 120]), np.radians(20), np.radians([-30, 30]))
+    >>> np.degrees(found.psi - found.conformed[1]).round(4).tolist()
+    [-11.1118, 34.9421]
+    """
+    given = np.asarray(steps, dtype=float)
+    lam = float(checked_cone_angle(cone_angle))
+    total = given.sum()
+    if given.shape != (4,) or abs(total - 2 * np.pi * np.rint(total / (2 * np.pi))) > 1e-9:
+        raise InvariantError("closed loop", "the steps do not close", "four that sum to a multiple of 360 degrees")
+    if lam == 0.0:
+        raise InvariantError("cone angle", "at lambda = 0 the linkage is at a dead point", "a cone angle above 0")
+    start = joint_axes(azimuths(given), lam)
+    o, a0, b0, c = start
+    dihedral = dihedral_angles(given, lam)
+    theta0, xi0, psi0 = float(dihedral[0]), float(dihedral[1]), float(np.pi - dihedral[3])
+    links = link_angles(np.roll(given, 1), lam)
+    both = np.array([output_spherical(links, theta0, branch) for branch in (1, -1)])
+    branch = 1 if abs(_turned(both[0] - psi0)) <= abs(_turned(both[1] - psi0)) else -1
+    theta = theta0 + np.asarray(turns, dtype=float)
+    psi = psi0 + _turned(output_spherical(links, theta, branch) - psi0)
+    a = rotated(a0, o, theta - theta0)
+    b_by_output = rotated(b0, c, psi - psi0)
+    loop = np.stack(np.broadcast_arrays(o, a, b_by_output, c), axis=-2)
+    xi = xi0 + _turned(measured_dihedral_angles(loop)[..., 1] - xi0)
+    b = rotated(rotated(b0, o, theta - theta0), a, xi - xi0)
+    axes = np.stack(np.broadcast_arrays(o, a, b, c), axis=-2)
+    axes = np.where(np.isnan(psi)[..., np.newaxis, np.newaxis], np.nan, axes)
+    residual = np.linalg.norm(b - b_by_output, axis=-1)
+    return FourBarPoses(theta, psi, xi, (theta0, psi0, xi0), axes, residual)
+
+
+def _turned(angle: npt.ArrayLike) -> Array:
+    return np.asarray(np.remainder(np.asarray(angle) + np.pi, 2 * np.pi) - np.pi)

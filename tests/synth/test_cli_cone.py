@@ -1,0 +1,212 @@
+"""``synth cone`` and ``synth cylinder``: words, keys that scripts rely on, pictures, bad input."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import run
+from conical import WATT
+
+from synth.cone import link_angles
+from synth.conical_file import ConicalLinkage, write_conical
+from synth.multiloop import link_pairs
+
+ROOT = Path(__file__).resolve().parents[2]
+FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"
+KEYS = {"lambda_deg", "circuit", "signs", "k"}
+
+
+def told(*words):
+    return json.loads(run(*words, "--json").stdout)
+
+
+def test_cones_of_a_loop():
+    found = told("cone", "map", "--angles", "120,95,45,85")
+    assert all(one.keys() >= KEYS for one in found["cones"])
+    assert [(one["circuit"], one["signs"], one["k"]) for one in found["cones"]] == [
+        ("open", [1, 1, 1, 1], 1), ("crossed", [1, -1, 1, -1], 0)
+    ]  # fmt: skip
+    np.testing.assert_allclose(
+        [one["lambda_deg"] for one in found["cones"]], [13.9983566781, 29.0444694333], atol=1e-8
+    )
+    assert (found["families"], found["flat"], found["class"], found["grashof"]) == ([], [], "a", "Grashof")
+    out = run("cone", "map", "--angles", "120,95,45,85").stdout
+    assert re.search(r"13\.99835668 +open +\+\+\+\+ +1 ", out)
+    assert "class a of Hyatt et al. 2020, Fig. 10" in out
+
+
+def test_families_and_the_flat_cone():
+    found = told("cone", "map", "--angles", "120,50,120,50")
+    assert [(one["signs"], one["k"], one["lambda_deg"]) for one in found["families"]] == [
+        ([1, 1, -1, -1], 0, [0.0, pytest.approx(30)]), ([1, -1, -1, 1], 0, [0.0, pytest.approx(30)])
+    ]  # fmt: skip
+    assert "every one of these" in run("cone", "map", "--angles", "120,50,120,50").stdout
+    found = told("cone", "map", "--angles", "100,70,90,60")
+    assert [one["lambda_deg"] for one in found["flat"]] == [0.0]
+    assert all(0 < one["lambda_deg"] < 90 for one in found["cones"])
+    assert "flat, no cone" in run("cone", "map", "--angles", "100,70,90,60").stdout
+
+
+def test_a_linkage_without_a_cone_says_why_and_offers_another():
+    found = told("cone", "map", "--angles", "170,160,150,145")
+    assert found["cones"] == []
+    assert found["why"].startswith("T4 < 0")
+    assert len(found["supplementary"]["cones"]) == 2
+    out = run("cone", "map", "--angles", "170,160,150,145").stdout
+    assert "no cone: T4 < 0" in out
+    assert "supplementary linkage, on the same joint lines: 10, 20, 30, 35" in out
+    assert "a link of 180 degrees" in run("cone", "map", "--angles", "180,60,120,60").stdout
+
+
+def test_loops_of_other_numbers_of_links():
+    assert [one["lambda_deg"] for one in told("cone", "map", "--angles", "60,60,60")["cones"]] == [
+        pytest.approx(np.degrees(np.arctan(np.sqrt(2))))
+    ]
+    found = told("cylinder", "map", "--lengths", "1,1,1,1,1")
+    assert {round(one["radius"], 6) for one in found["cylinders"]} == {0.525731, 0.57735, 0.850651}
+    assert "grashof" not in found
+    assert found["families"] == []
+
+
+def test_cylinders_of_a_loop():
+    found = told("cylinder", "map", "--lengths", "4,3,5,1")
+    assert all(one.keys() >= {"radius", "circuit", "signs", "k"} for one in found["cylinders"])
+    assert [(one["circuit"], one["signs"], one["k"]) for one in found["cylinders"]] == [
+        ("open", [1, 1, 1, 1], 1), ("crossed", [1, 1, -1, -1], 0)
+    ]  # fmt: skip
+    assert re.search(r"2\.536145625 +open", run("cylinder", "map", "--lengths", "4,3,5,1").stdout)
+    family = told("cylinder", "map", "--lengths", "5,3,5,3")["families"][0]
+    assert family["radius"] == [2.5, None]
+    assert "infinite radius" in run("cylinder", "map", "--lengths", "3,1,1,1").stdout
+
+
+def test_a_linkage_of_several_loops(tmp_path, rng):
+    (cone,) = told("cone", "map", FIG_11)["cones"]
+    assert cone.keys() >= KEYS
+    assert cone["lambda_deg"] == pytest.approx(20)
+    assert (cone["signs"][0], cone["k"], cone["circuit"]) == ([1, 1, 1, -1], [0, 0], ["open", "crossed"])
+    assert {frozenset(one[:2]): one[2] for one in cone["link_angles_deg"]}[frozenset("OA")] == pytest.approx(
+        37.4944745021
+    )
+    places = dict(zip(WATT.joints, rng.uniform(-3, 3, 7), strict=True))
+    angles = {(a, b): float(link_angles(places[b] - places[a], 0.7)) for a, b in link_pairs(WATT)}
+    write_conical(ConicalLinkage(WATT, angles=angles), tmp_path / "watt.json")
+    found = told("cone", "map", tmp_path / "watt.json")
+    assert any(one["lambda_deg"] == pytest.approx(np.degrees(0.7)) for one in found["cones"])
+    assert "lambda 40.1070" in run("cone", "map", tmp_path / "watt.json").stdout
+    first = next(iter(angles))
+    write_conical(ConicalLinkage(WATT, angles={**angles, first: angles[first] + 0.01}), tmp_path / "off.json")
+    assert "no cone is common to all loops" in run("cone", "map", tmp_path / "off.json").stdout
+    assert told("cone", "map", tmp_path / "off.json")["cones"] == []
+    assert told("cone", "map", tmp_path / "off.json", "--tolerance", 5)["cones"]
+    steps = {(0, j): places[j] - places[0] for j in range(1, 7)}
+    write_conical(ConicalLinkage(WATT, steps=steps), tmp_path / "any.json")
+    assert [one["lambda_deg"] for one in told("cone", "map", tmp_path / "any.json")["families"]] == [[0.0, 90.0]]
+    assert "every lambda between 0 and 90 degrees" in run("cone", "map", tmp_path / "any.json").stdout
+
+
+def test_behaviour_of_a_four_bar():
+    out = run("cone", "behaviour", "--steps", "40,50,50").stdout
+    assert "any cone, link 1 fixed: can be intramobile or extramobile" in out
+    assert "Table 4: case 1, open, A" in out
+    (one,) = told("cone", "behaviour", "--steps", "40,50,50,-140", "--ground", 2)["linkages"]
+    assert (one["intramobile"], one["extramobile"], one["ground"]) == (False, False, "2")
+    assert one["table4"] == {"case": 1, "configuration": "open", "column": "B", "diameter": False}
+    assert {link["link"]: link["way"] for link in one["links"]} == {
+        "1": "outward", "2": "still", "3": "inward", "4": "both"
+    }  # fmt: skip
+    assert (one["freedoms"], one["rank"], one["tangent"]) == (1, 3, [])
+    found = told("cone", "behaviour", "--angles", "120,95,45,85")["linkages"]
+    assert [round(x["lambda_deg"], 4) for x in found] == [13.9984, 29.0445]
+    diameter = told("cone", "behaviour", "--steps", "40,50,90")["linkages"][0]
+    assert (diameter["intramobile"], diameter["extramobile"]) == (False, True)
+    assert "a chord is a diameter" in run("cone", "behaviour", "--steps", "40,50,90").stdout
+
+
+def test_behaviour_of_several_loops():
+    (one,) = told("cone", "behaviour", FIG_11, "--ground", 2)["linkages"]
+    assert (one["freedoms"], one["rank"], one["ground"], len(one["links"])) == (1, 6, "2", 6)
+    assert one["table4"] is None
+    assert "link 2 fixed: transmobile" in run("cone", "behaviour", FIG_11, "--ground", 2).stdout
+    assert "3 infinitesimal freedoms" in run("cone", "behaviour", "--steps", "60,60,60,60,60,60").stdout
+
+
+@pytest.mark.parametrize("words", [
+    ["cone", "map", "--angles", "120,95,45,85"], ["cone", "map", "--angles", "120,50,120,50"],
+    ["cone", "map", "--angles", "60,70,80,50,90"], ["cone", "map", FIG_11], ["cylinder", "map", "--lengths", "4,3,5,1"],
+    ["cylinder", "map", "--lengths", "5,3,5,3"], ["cone", "behaviour", "--angles", "120,95,45,85"],
+    ["cone", "behaviour", FIG_11], ["cone", "behaviour", "--steps", "40,50,50"],
+])  # fmt: skip
+def test_pictures(words, tmp_path):
+    pytest.importorskip("matplotlib")
+    for suffix, head in (("png", b"\x89PNG"), ("svg", b"<?xml")):
+        run(*words, "-o", tmp_path / f"a.{suffix}")
+        assert (tmp_path / f"a.{suffix}").read_bytes().startswith(head)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.svg"]
+
+
+def test_a_picture_without_matplotlib_names_the_extra(monkeypatch, tmp_path):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    result = run("cylinder", "map", "--lengths", "4,3,5,1", "-o", tmp_path / "a.png", code=2)
+    assert result.stderr.strip() == "pictures need matplotlib: pip install 'synthedra[draw]'"
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["cone", "map", "--angles", "-10,20,30"], "link angle 1 is -10 degrees; expected between 0 and 360"),
+        (["cone", "map", "--angles", "10,370,30"], "link angle 2 is 370 degrees; expected between 0 and 360"),
+        (["cone", "map", "--angles", "10,20,50"], "the link angles 10, 20, 50 cannot close"),
+        (["cone", "map", "--angles", "nan,20,50"], "not all numbers"),
+        (["cone", "map", "--angles", "10,inf,50"], "not all numbers"),
+        (["cone", "map", "--angles", ",".join(["20"] * 17)], "a loop of 17 links; expected 3 to 16"),
+        (["cylinder", "map", "--lengths", "1,2,30"], "the lengths 1, 2, 30 cannot close"),
+        (["cylinder", "map", "--lengths", "1,-2,2"], "length 2 is -2; expected a length above 0"),
+        (["cylinder", "map", "--lengths", "3,4,5", "-o", "a.bmp"], "a.bmp: the extension is not known"),
+        (["cone", "map", "missing.json"], "missing.json: no such file"),
+        (["cone", "map", ROOT / "data" / "wiener" / "watt.json"], "expected 'synthedra/conical'"),
+        (["cone", "behaviour", "--steps", "40,50,50", "--lambda", "90"], "the cone angle is 90 degrees; expected 0 or"),
+        (["cone", "behaviour", "--steps", "40,50,50", "--lambda", "-1"], "the cone angle is -1 degrees"),
+        (["cone", "behaviour", "--steps", "40,0,50"], "step 2 is 0 degrees"),
+        (["cone", "behaviour", "--steps", "40,190,50"], "step 2 is 190 degrees; expected between -180 and 180"),
+        (["cone", "behaviour", "--steps", "40"], "2 steps; expected three or more"),
+        (["cone", "behaviour", "--steps", "40,50,50", "--ground", "9"], "ground '9' is no link"),
+        (["cone", "behaviour", FIG_11, "--ground", "x"], "fig11-stephenson.json: ground 'x' is no link"),
+    ],
+)  # fmt: skip
+def test_bad_input_gives_a_line(words, message):
+    result = run(*words, code=2)
+    assert message in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["cone", "map"], ["cone", "map", "a.json", "--angles", "1,2,3"], ["cone", "map", "--angles", "1,x"],
+        ["cone", "behaviour"], ["cone", "behaviour", "--steps", "1,2", "--angles", "1,2"], ["cylinder", "map"],
+        ["cone", "behaviour", "--angles", "60,60,60", "--lambda", "20"],
+        ["cone", "behaviour", "--angles", "170,160,150,145", "-o", "a.png"],
+        ["cone", "map", "--angles", "1,2,3", "--tolerance", "0"],
+    ],
+)  # fmt: skip
+def test_usage_errors_keep_clicks_format(words):
+    assert "Usage:" in run(*words, code=2).output
+
+
+@pytest.mark.parametrize("words", ["cone map", "cone behaviour", "cylinder map", "cone", "cylinder"])
+def test_examples_of_the_help_texts_run(words, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    out = run(*words.split(), "--help").stdout
+    examples = re.findall(r"^ +synth (.*)$", out.partition("Example")[2], re.MULTILINE)
+    assert examples
+    for example in examples:
+        run(*shlex.split(example))
