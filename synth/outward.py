@@ -17,7 +17,7 @@ one whose terms agree is enough. Theory: docs/theory/conical-candidates.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -28,7 +28,7 @@ from graphs.errors import UnsolvableError
 from synth.chain_cycles import signed_cycles
 from synth.first_order import ConformedChain
 
-__all__ = ["OutwardRate", "brackets", "outward_rates"]
+__all__ = ["OutwardRate", "brackets", "joint_rates", "never_singular", "outward_rates"]
 
 Array = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -50,7 +50,7 @@ class OutwardRate:
     factors : int64[T]
         +1 or -1.
     sines : int64[T]
-        i of sin(t_j - t_i).
+        i of sin(t_j - t_i); -1: no sine, in the rate q_j of the joint itself.
     triples : int64[T, L, 3]
         The joints of the brackets.
     """
@@ -75,7 +75,7 @@ class OutwardRate:
         t = np.asarray(places, dtype=float)
         total = np.zeros(t.shape[:-1])
         for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True):
-            term = factor * np.sin(t[..., self.joint] - t[..., i])
+            term = factor * (np.sin(t[..., self.joint] - t[..., i]) if i >= 0 else np.ones(t.shape[:-1]))
             for triple in triples:
                 term = term * brackets(t[..., triple])
             total += term
@@ -94,24 +94,21 @@ class OutwardRate:
         int8[...]
         """
         t = np.asarray(places, dtype=float)
-        plus = np.zeros(t.shape[:-1], bool)
-        minus = np.zeros(t.shape[:-1], bool)
-        for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True):
-            sign = factor * np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8)
-            for a, b, c in triples:
-                sign = sign * np.sign(t[..., b] - t[..., a]).astype(np.int8)
-                sign = sign * np.sign(t[..., c] - t[..., b]).astype(np.int8)
-                sign = sign * np.sign(t[..., c] - t[..., a]).astype(np.int8)
-            plus |= sign > 0
-            minus |= sign < 0
-        return np.where(plus & minus, 0, plus.astype(np.int8) - minus.astype(np.int8)).astype(np.int8)
+        return _common_sign(
+            [
+                _sign(factor, triples, t)
+                * (np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8) if i >= 0 else np.int8(1))
+                for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True)
+            ]
+        )
 
     def text(self, names: Sequence[object]) -> str:
         """Return the formula as text, sin(j - i) being that of the azimuths of joints j and i."""
         parts = []
         for factor, i, triples in zip(self.factors.tolist(), self.sines.tolist(), self.triples, strict=True):
             written = " ".join("[" + " ".join(str(names[k]) for k in triple) + "]" for triple in triples.tolist())
-            parts.append(f"{'-' if factor < 0 else '+'} sin({names[self.joint]} - {names[i]}) {written}")
+            sine = f"sin({names[self.joint]} - {names[i]}) " if i >= 0 else ""
+            parts.append(f"{'-' if factor < 0 else '+'} {sine}{written}")
         return " ".join(parts).removeprefix("+ ")
 
 
@@ -132,6 +129,97 @@ def brackets(places: npt.ArrayLike) -> Array:
     """
     a, b, c = np.moveaxis(np.asarray(places, dtype=float) / 2.0, -1, 0)
     return np.asarray(4.0 * np.sin(b - a) * np.sin(c - b) * np.sin(c - a))
+
+
+def _sign(factor: int, triples: Iterable[Iterable[int]], t: Array) -> npt.NDArray[np.int8]:
+    """Return the sign of a product of brackets: it follows from the cyclic order."""
+    sign = np.full(t.shape[:-1], factor, np.int8)
+    for a, b, c in triples:
+        for i, j in ((a, b), (b, c), (a, c)):
+            sign = sign * np.where(t[..., j] > t[..., i], 1, -1).astype(np.int8)
+    return sign
+
+
+def _common_sign(signs: Sequence[npt.NDArray[np.int8]]) -> npt.NDArray[np.int8]:
+    """Return the sign that all have, else 0."""
+    least, most = np.min(signs, axis=0), np.max(signs, axis=0)
+    return np.where(least == most, most, 0).astype(np.int8)
+
+
+def never_singular(chain: ConformedChain, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Tell of which cyclic orders it is certain that the rank at the conformed position is full for all angles.
+
+    It is where some minor of the closure equations has terms of one sign only. False: not certain.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+        Of one freedom.
+    places : float[..., J]
+        Azimuths between 0 and 2 pi in the order asked for.
+
+    Examples
+    --------
+    A four-bar has full rank if no two of its joints coincide:
+
+    >>> from graphs.sc import SCGraph
+    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
+    [True, True]
+    """
+    t = np.asarray(places, dtype=float)
+    sure = np.zeros(t.shape[:-1], bool)
+    for formulas in joint_rates(chain):
+        for formula in formulas:
+            sure |= formula.signs(t) != 0
+    return sure
+
+
+def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
+    """Return formulas for the rate q of every joint, to the scale of `outward_rates`, shortest first.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+        Of one freedom: J = 3 L + 1.
+
+    Raises
+    ------
+    UnsolvableError
+        If the number of joints is another.
+
+    Examples
+    --------
+    >>> from graphs.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
+    >>> [formulas[0].text(chain.joints) for formulas in joint_rates(chain)]
+    ['[A B C]', '- [O B C]', '[O A C]', '- [O A B]']
+    """
+    kernels = _kernels(_checked(chain))
+    found = []
+    for joint in range(len(chain.joints)):
+        choices = {tuple(kernel[joint]) for kernel in kernels if kernel[joint]}
+        found.append(
+            tuple(
+                OutwardRate(
+                    joint,
+                    np.array([factor for factor, _ in terms], np.int64),
+                    np.full(len(terms), -1),
+                    np.array([triples for _, triples in terms], np.int64),
+                )
+                for terms in sorted(choices, key=lambda terms: (len(terms), terms))
+            )
+        )
+    return tuple(found)
+
+
+def _checked(chain: ConformedChain) -> ConformedChain:
+    loops, joints = len(chain.loops), len(chain.joints)
+    if joints != 3 * loops + 1:
+        raise UnsolvableError(
+            f"a chain of {joints} joints and {loops} independent loops has not one freedom: expected {3 * loops + 1}"
+        )
+    return chain
 
 
 def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
@@ -161,14 +249,9 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]
     ['sin(A - O) [A B C]', 'sin(B - C) [O A B]']
     """
-    loops, joints = len(chain.loops), len(chain.joints)
-    if joints != 3 * loops + 1:
-        raise UnsolvableError(
-            f"a chain of {joints} joints and {loops} independent loops has not one freedom: expected {3 * loops + 1}"
-        )
-    kernels = _kernels(chain)
+    kernels = _kernels(_checked(chain))
     return tuple(
-        () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels) for joint in range(joints)
+        () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels) for joint in range(len(chain.joints))
     )
 
 
