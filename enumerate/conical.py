@@ -1,7 +1,7 @@
-"""Conical candidates: every way the joint axes of a chain can lie round one right cone, up to what changes nothing.
+"""Conical candidates: every way the joint axes of a chain can lie round one cone, up to what changes nothing.
 
-Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to a
-turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
+Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to
+a turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
 counts once. What the candidates do is worked out in `synth.candidates`. Source: Hyatt et al. 2020, section 7.
 Theory: docs/theory/conical-candidates.md.
 """
@@ -101,7 +101,7 @@ class ConicalQuery:
         return _symmetries(self.chain, ground)
 
     def portions(self, most: int) -> Iterator[tuple[Portion, int]]:
-        """Yield portions of at most so many placements, symmetric ones apart, where possible; and these numbers."""
+        """Yield portions of at most so many placements, symmetric ones apart, if possible; and these numbers."""
         rounds = self.rounds
         for ground in self.grounds:
             for prefix in prefixes(rounds, most):

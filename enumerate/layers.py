@@ -22,7 +22,7 @@ def _fewest(arcs: Ints) -> int:
     ends where it has as many layers as the best solution.
     """
     links, choices = arcs.shape
-    best = links
+    best: int = links
     filled = np.zeros((links + 1, links), np.int64)  # what each layer holds before each link
     used = np.zeros(links + 1, np.int64)
     tried = np.zeros(links, np.int64)  # next (choice, layer) of each link

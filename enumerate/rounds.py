@@ -68,7 +68,7 @@ class Rounds:
         """Return how many placements begin with some joints placed."""
         fold = self.slots // self.classes
         left = self.joints - placed
-        return perm(self.classes - placed, left) * fold**left
+        return int(perm(self.classes - placed, left) * fold**left)
 
 
 @compiled
@@ -272,11 +272,11 @@ def _cycles(permutation: list[int]) -> list[list[int]]:
     seen = [False] * len(permutation)
     found = []
     for start in range(len(permutation)):
-        cycle = []
-        while not seen[start]:
-            seen[start] = True
-            cycle.append(start)
-            start = permutation[start]
+        cycle, here = [], start
+        while not seen[here]:
+            seen[here] = True
+            cycle.append(here)
+            here = permutation[here]
         if cycle:
             found.append(cycle)
     return found

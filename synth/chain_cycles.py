@@ -47,7 +47,9 @@ def signed_cycles(chain: ConformedChain) -> npt.NDArray[np.int64]:
     """
     independent = chain.loops
     if len(independent) > _MOST_LOOPS:
-        raise UnsolvableError(f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most")
+        raise UnsolvableError(
+            f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most"
+        )
     found: dict[tuple[int, ...], npt.NDArray[np.int64]] = {}
     for factors in product((0, 1, -1), repeat=len(independent)):
         if next((factor for factor in factors if factor), -1) < 0:  # each cycle one way round

@@ -28,7 +28,7 @@ from graphs.errors import UnsolvableError
 from synth.chain_cycles import signed_cycles
 from synth.first_order import ConformedChain
 
-__all__ = ["OutwardRate", "brackets", "joint_rates", "never_singular", "outward_rates"]
+__all__ = ["OutwardRate", "brackets", "joint_rates", "outward_rates"]
 
 Array = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -146,35 +146,6 @@ def _common_sign(signs: Sequence[npt.NDArray[np.int8]]) -> npt.NDArray[np.int8]:
     return np.where(least == most, most, 0).astype(np.int8)
 
 
-def never_singular(chain: ConformedChain, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell of which cyclic orders it is certain that the rank at the conformed position is full for all angles.
-
-    It is where some minor of the closure equations has terms of one sign only. False: not certain.
-
-    Parameters
-    ----------
-    chain : ConformedChain
-        Of one freedom.
-    places : float[..., J]
-        Azimuths between 0 and 2 pi in the order asked for.
-
-    Examples
-    --------
-    A four-bar has full rank if no two of its joints coincide:
-
-    >>> from graphs.sc import SCGraph
-    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
-    [True, True]
-    """
-    t = np.asarray(places, dtype=float)
-    sure = np.zeros(t.shape[:-1], bool)
-    for formulas in joint_rates(chain):
-        for formula in formulas:
-            sure |= formula.signs(t) != 0
-    return sure
-
-
 def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     """Return formulas for the rate q of every joint, to the scale of `outward_rates`, shortest first.
 
@@ -217,7 +188,7 @@ def _checked(chain: ConformedChain) -> ConformedChain:
     loops, joints = len(chain.loops), len(chain.joints)
     if joints != 3 * loops + 1:
         raise UnsolvableError(
-            f"a chain of {joints} joints and {loops} independent loops has not one freedom: expected {3 * loops + 1}"
+            f"{joints} joints and {loops} independent loops have not one freedom: expected {3 * loops + 1} joints"
         )
     return chain
 
@@ -251,16 +222,22 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     """
     kernels = _kernels(_checked(chain))
     return tuple(
-        () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels) for joint in range(len(chain.joints))
+        () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels)
+        for joint in range(len(chain.joints))
     )
 
 
-def _formulas(chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]) -> tuple[OutwardRate, ...]:
+def _formulas(
+    chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]
+) -> tuple[OutwardRate, ...]:
     found: dict[tuple[tuple[int, int, tuple[tuple[int, int, int], ...]], ...], None] = {}
     for kernel in kernels:
         for path in _paths(chain, joint):
             terms = tuple(
-                (sign * factor, i, triples) for i, sign in path.items() if i != joint for factor, triples in kernel[i]
+                (sign * factor, i, triples)
+                for i, sign in path.items()
+                if i != joint
+                for factor, triples in kernel[i]
             )
             if terms and len(terms) <= _TERMS:
                 found[terms] = None
@@ -296,7 +273,9 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     places = np.random.default_rng(1).uniform(0, 2 * np.pi, (8, joints))
     found: list[list[list[_Term]]] = []
     first: Array | None = None
-    bases = sorted(combinations(range(len(cycles)), loops), key=lambda chosen: int(np.abs(cycles[list(chosen)]).sum()))
+    bases = sorted(
+        combinations(range(len(cycles)), loops), key=lambda chosen: int(np.abs(cycles[list(chosen)]).sum())
+    )
     for chosen in bases:
         basis = cycles[list(chosen)]
         if np.linalg.matrix_rank(basis) < loops:

@@ -1,9 +1,10 @@
 """What an order of the joints alone decides, and what is left to the angles.
 
-An order *with opposites* says how the joints and the points opposite to them follow each other round the circle; a
-cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the sign
-of every step and how often loops wind, and the layers. Ways of links follow from the signs of outward rates
-(`synth.outward`): certain where the terms of a formula agree, otherwise both are looked for by samples.
+An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
+a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
+sign of every step and how often loops wind, and the layers. Ways of links follow from the signs of outward rates
+(`synth.outward`): certain where the terms of a formula agree or other signs refute the opposite
+(`synth.sign_reasoning`); else both are looked for by samples.
 
 Theory: docs/theory/conical-candidates.md.
 """
@@ -25,7 +26,15 @@ from synth.first_order import ConformedChain
 from synth.outward import OutwardRate, joint_rates, outward_rates
 from synth.sign_reasoning import Relations
 
-__all__ = ["Allowed", "OverAngles", "orders_with_opposites", "over_angles", "sampled"]
+__all__ = [
+    "Allowed",
+    "OverAngles",
+    "Prepared",
+    "never_singular",
+    "orders_with_opposites",
+    "over_angles",
+    "sampled",
+]
 
 Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
@@ -44,6 +53,42 @@ class Allowed(IntEnum):
     """Either, by the angles; there are examples of both."""
     UNKNOWN = 3
     """One of these; nothing else was met in samples, and nothing proves it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """A chain of one freedom with all that does not depend on the order of its joints.
+
+    Attributes
+    ----------
+    chain : ConformedChain
+    formulas : tuple of tuples of OutwardRate
+        Of the outward rate of each joint.
+    rates : tuple of tuples of OutwardRate
+        Of the rate of each joint.
+    relations : Relations
+    moving : tuple of tuples of int
+        Joints of each link that are not the ground's.
+    """
+
+    chain: ConformedChain
+    formulas: tuple[tuple[OutwardRate, ...], ...]
+    rates: tuple[tuple[OutwardRate, ...], ...]
+    relations: Relations
+    moving: tuple[tuple[int, ...], ...]
+
+    @classmethod
+    def of(cls, chain: ConformedChain) -> Prepared:
+        """Prepare a chain.
+
+        Raises
+        ------
+        UnsolvableError
+            If it has not one freedom by its count.
+        """
+        formulas = outward_rates(chain)
+        moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
+        return cls(chain, formulas, joint_rates(chain), Relations.of(chain), moving)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +135,7 @@ def orders_with_opposites(order: npt.ArrayLike) -> Ints:
 
 @cache
 def _sorted_places(joints: int) -> Ints:
-    """Return all choices of one slot of each pair of opposite ones of 2 J, in rising order: int64[2^(J - 1), J]."""
+    """Return all choices of one of each two opposite slots of 2 J, in rising order: int64[2^(J - 1), J]."""
     sides = (np.arange(2 ** (joints - 1))[:, np.newaxis] >> np.arange(joints - 2, -1, -1)) & 1
     far = np.arange(1, joints) + joints * sides
     return np.array(sorted([0, *sorted(row)] for row in far.tolist()), np.int64)
@@ -128,12 +173,12 @@ def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Ar
     return np.moveaxis(found, 0, -2)
 
 
-def over_angles(chain: ConformedChain, places: npt.ArrayLike, samples: int = _SAMPLES) -> OverAngles:
+def over_angles(chain: ConformedChain | Prepared, places: npt.ArrayLike, samples: int = _SAMPLES) -> OverAngles:
     """Return what orders with opposites allow the links of a chain of one freedom.
 
     Parameters
     ----------
-    chain : ConformedChain
+    chain : ConformedChain or Prepared
     places : int64[..., J]
         Orders with opposites: places on 2 J slots.
     samples : int, optional
@@ -156,30 +201,14 @@ def over_angles(chain: ConformedChain, places: npt.ArrayLike, samples: int = _SA
     """
     slots = np.asarray(places, dtype=np.int64)
     shape = slots.shape[:-1]
-    made = _over_angles(_prepared(chain), slots.reshape(-1, slots.shape[-1]), samples)
+    given = chain if isinstance(chain, Prepared) else Prepared.of(chain)
+    made = _over_angles(given, slots.reshape(-1, slots.shape[-1]), samples)
     return OverAngles(
         made.links.reshape(*shape, -1), made.linkage.reshape(shape), made.signs.reshape(*shape, slots.shape[-1])
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Prepared:
-    """A chain with all that does not depend on the order of its joints."""
-
-    chain: ConformedChain
-    formulas: tuple[tuple[OutwardRate, ...], ...]
-    rates: tuple[tuple[OutwardRate, ...], ...]
-    relations: Relations
-    moving: tuple[tuple[int, ...], ...]
-
-
-def _prepared(chain: ConformedChain) -> _Prepared:
-    formulas = outward_rates(chain)
-    moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
-    return _Prepared(chain, formulas, joint_rates(chain), Relations.of(chain), moving)
-
-
-def _over_angles(given: _Prepared, slots: Ints, samples: int) -> OverAngles:
+def _over_angles(given: Prepared, slots: Ints, samples: int) -> OverAngles:
     """Return what orders with opposites int64[r, J] allow: by signs that are certain, by refuting, by samples."""
     relations, moving = given.relations, given.moving
     middle = slots * (np.pi / slots.shape[-1])
@@ -245,6 +274,36 @@ def _possible(relations: Relations, known: Signs, sines: Signs, parts: list[int]
     return one, two
 
 
+def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Tell of which cyclic orders it is certain that the rank at the conformed position is full for all angles.
+
+    It is where some minor of the closure equations has terms of one sign only. False: not certain.
+
+    Parameters
+    ----------
+    chain : ConformedChain or Prepared
+        Of one freedom.
+    places : float[..., J]
+        Azimuths between 0 and 2 pi in the order asked for.
+
+    Examples
+    --------
+    A four-bar has full rank if no two of its joints coincide:
+
+    >>> from graphs.sc import SCGraph
+    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
+    [True, True]
+    """
+    t = np.asarray(places, dtype=float)
+    sure = np.zeros(t.shape[:-1], bool)
+    given = chain if isinstance(chain, Prepared) else Prepared.of(chain)
+    for formulas in given.rates:
+        for formula in formulas:
+            sure |= formula.signs(t) != 0
+    return sure
+
+
 def _certain(formulas: tuple[OutwardRate, ...], middle: Array) -> npt.NDArray[np.int8]:
     """Return the sign of a joint's outward rate where one of its formulas tells."""
     found = np.zeros(middle.shape[:-1], np.int8)
@@ -271,16 +330,13 @@ def _goes_round(chain: ConformedChain, slots: Ints) -> Flags:
 def _from_signs(signs: npt.NDArray[np.int8], goes_round: Flags) -> npt.NDArray[np.int8]:
     """Return what certain signs of the moving joints of a link allow it."""
     plus, minus = (signs > 0).any(axis=-1), (signs < 0).any(axis=-1)
-    if signs.shape[-1] == 1:
-        one = np.ones_like(plus)
-    else:
-        one = (signs > 0).all(axis=-1) | (signs < 0).all(axis=-1)
+    one = (signs > 0).all(axis=-1) | (signs < 0).all(axis=-1) | (signs.shape[-1] == 1)
     found = np.where(one, Allowed.ONE, Allowed.UNKNOWN)
     return np.where(goes_round | (plus & minus), Allowed.BOTH, found).astype(np.int8)
 
 
 def _looked_for(
-    given: _Prepared, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
+    given: Prepared, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
 ) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.int8]]:
     """Look for angles with which links of unknown ways go one way, and others with which they go both."""
     t = sampled(slots, samples)

@@ -60,7 +60,9 @@ def _follow(known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs
 
 
 @compiled
-def _follow_all(known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs: Signs) -> npt.NDArray[np.bool_]:
+def _follow_all(
+    known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs: Signs
+) -> npt.NDArray[np.bool_]:
     wrong = np.zeros(len(known), np.bool_)
     for i in range(len(known)):
         wrong[i] = _follow(known[i], unknowns, sines, factors, sine_signs[i])
@@ -98,7 +100,7 @@ class Relations:
         --------
         >>> from graphs.sc import SCGraph
         >>> len(Relations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
-        32
+        26
         """
         links, joints = len(chain.links), len(chain.joints)
         zero = np.zeros(links * joints + joints, bool)
