@@ -7,6 +7,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from enumerate.run import Row, Sink
 from graphs.errors import FileError, UnsolvableError
 from synth.candidates import CandidateJob
@@ -17,7 +19,7 @@ from synth.first_order import ConformedChain
 __all__ = ["PictureSink", "picture_of_row"]
 
 _MOST = 10_000
-_LAMBDA = 0.6
+_LAMBDA = np.radians(30.0)
 """Cone angle of the picture (radians) where the candidate has none of its own."""
 
 

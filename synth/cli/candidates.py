@@ -75,16 +75,16 @@ def conical(
     """List or count all conical candidates of a chain: its joint axes ruling lines of one right cone.
 
     Every cyclic order of the joints, once of what a turn, a mirror image or a symmetry of the chain (that leaves
-    the ground link where it is) exchanges. For each: circuits of all loops, how often they wind, layers, and with a
-    ground link which way each moving link can go, over all angles. With --slots or --sample: rank, Grashof classes
-    and first-order behaviour at these angles. Hyatt et al. 2020, section 7.
+    the ground link where it is) exchanges. For each: circuits of all loops, how often they wind, layers, and with
+    a ground link which way each moving link can go, over all angles. With --slots or --sample: rank, Grashof
+    classes and first-order behaviour at these angles. Hyatt et al. 2020, section 7.
 
     \b
     Examples:
       synth enumerate conical --chain watt
       synth enumerate conical --chain four-bar --ground 0 --opposites
       synth enumerate conical --chain stephenson --ground all --count
-      synth enumerate conical --chain four-bar --ground 0 --slots 6 --lambda 20 --sort -grashof_loops
+      synth enumerate conical --chain four-bar --ground 0 --slots 6 --sort -grashof_loops
       synth enumerate conical --chain watt --ground 0 --formulas
       synth enumerate conical --chain watt --ground all --slots 12 -o watt.sqlite
       synth enumerate conical --chain data/surfaces/fig11-stephenson.json --open 3 --pictures pictures
