@@ -17,13 +17,17 @@ from enumerate.compiled import Ints
 from enumerate.joint_symmetries import joint_symmetries
 from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.run import Row, Unit
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops import JointId, LinkId
 
 __all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
 
 _PLACEMENTS = 2_000_000
 """Placements of a unit that counts, at most; symmetric ones apart."""
+
+_LISTED = 10**11
+_PORTIONS = 200_000
+"""Placements that are listed at most, and into how many portions they are cut, about."""
 
 Chain = tuple[tuple[JointId, tuple[LinkId, LinkId]], ...]
 
@@ -101,8 +105,20 @@ class ConicalQuery:
         return _symmetries(self.chain, ground)
 
     def portions(self, most: int) -> Iterator[tuple[Portion, int]]:
-        """Yield portions of at most so many placements, symmetric ones apart, if possible; and these numbers."""
+        """Yield portions of at most so many placements, symmetric ones apart, if possible; and the numbers.
+
+        Raises
+        ------
+        UnsolvableError
+            If there are too many to list.
+        """
         rounds = self.rounds
+        if rounds.completions(1) > _LISTED:
+            raise UnsolvableError(
+                f"{rounds.joints} joints have {rounds.completions(1):.2g} placements, symmetric ones apart; "
+                f"more than {_LISTED:.0g} can only be counted, by Burnside's lemma"
+            )
+        most = max(most, rounds.completions(1) // _PORTIONS)
         for ground in self.grounds:
             for prefix in prefixes(rounds, most):
                 yield Portion(ground, prefix), rounds.completions(len(prefix))

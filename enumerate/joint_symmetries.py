@@ -80,7 +80,7 @@ def links_apart(joints: Mapping[JointId, tuple[LinkId, LinkId]]) -> list[LinkId]
         for i in range(len(links)):
             orbits.union(i, one[i])
     first: dict[int, LinkId] = {}
-    for i, link in zip(range(len(links)), links, strict=True):
+    for i, link in enumerate(links):
         first.setdefault(orbits[i], link)
     return list(first.values())
 

@@ -115,7 +115,7 @@ class Shape:
         angles = {"lambda_deg": float, "link_angles_deg": str} if cone else {}
         return {**common, **where, **circuits, **evaluated, **angles, **ways}
 
-    def common(self, slots: Ints, symmetry: Ints, opposites: bool) -> Iterator[tuple[Any, ...]]:
+    def common(self, slots: Ints, opposites: bool) -> Iterator[tuple[Any, ...]]:
         """Yield chain, ground and order, slots of rows."""
         ground = str(self.chain.links[0]) if self.grounded else ""
         for row in slots.tolist():
@@ -125,7 +125,7 @@ class Shape:
         if not opposites:
             return " ".join(self.names[i] for i in sorted(range(len(row)), key=row.__getitem__))
         half = len(row)
-        told = sorted((slot % half, self.names[i] + "'" * (slot >= half)) for i, slot in enumerate_slots(row))
+        told = sorted((slot % half, self.names[i] + "'" * (slot >= half)) for i, slot in enumerate(row))
         return " ".join(name for _, name in told)
 
     def circuit_texts(self, places: Array) -> list[tuple[str, str, int, str, list[int]]]:
@@ -139,11 +139,6 @@ class Shape:
             (loops, " ".join("open" if one else "crossed" for one in o), sum(o), _text(d), k)
             for o, d, k in zip(open_.tolist(), density.tolist(), turns.tolist(), strict=True)
         ]
-
-
-def enumerate_slots(row: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield the number of each joint and its slot."""
-    return zip(range(len(row)), row, strict=True)
 
 
 def _text(values: Iterable[object]) -> str:
@@ -171,7 +166,7 @@ def order_rows(shape: Shape, slots: Ints, symmetry: Ints, opposites: bool) -> li
     full = never_singular(shape.prepared, places[::per_row]).tolist() if shape.single else []
     allowed = over_angles(shape.prepared, flat) if shape.grounded and shape.single else None
     made: list[Row] = []
-    for i, start in zip(range(len(slots)), shape.common(slots, symmetry, opposites), strict=True):
+    for i, start in enumerate(shape.common(slots, opposites)):
         mine = slice(i * per_row, (i + 1) * per_row)
         loops, names, count, density, _ = circuits[i * per_row]
         turns = np.array([one[-1] for one in circuits[mine]])
@@ -256,7 +251,7 @@ def placed_rows(
     ways = _placed_ways(shape, places) if shape.grounded else None
     joined = [f"{shape.names[a]}-{shape.names[b]}" for a, b in pairs]
     made: list[Row] = []
-    for i, start in zip(range(len(places)), shape.common(slots, symmetry, False), strict=True):
+    for i, start in enumerate(shape.common(slots, False)):
         loops, names, count, density, turns = circuits[i]
         here = [joined[k] for k in np.flatnonzero(half[i]).tolist()]
         of_loops = [str(one[i]) for one in classes]

@@ -111,7 +111,7 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     every = (1 << joints) - 1
     most = max(map(len, chain.joints_of))
     found = np.zeros((len(t), len(chain.joints_of), most), np.int64)
-    for number, mine in zip(range(len(chain.joints_of)), chain.joints_of, strict=True):
+    for number, mine in enumerate(chain.joints_of):
         ranks = np.sort(rank[:, list(mine)], axis=-1)
         ends = np.sort(t[:, list(mine)], axis=-1)
         widths = np.roll(ends, -1, axis=-1) - ends

@@ -141,7 +141,7 @@ class CandidateJob:
         return {ground: self._shape(ground, loops) for ground in self.grounds}
 
     def _shape(self, ground: LinkId | None, loops: Sequence[Sequence[JointId]]) -> Shape:
-        number = {joint: i for i, joint in zip(range(len(self.chain.joints)), self.chain.joints, strict=True)}
+        number = {joint: i for i, joint in enumerate(self.chain.joints)}
         code = chain_id(self.chain)
         return Shape(
             ConformedChain.of(self.chain, ground),
@@ -187,7 +187,12 @@ class CandidateJob:
             return []
         shape = self._shapes[payload.ground]
         if not self.placed:
-            rows = order_rows(shape, slots, symmetry, self.opposites)
+            size = max(_SETS >> (0 if self.opposites else slots.shape[1] - 1), 1)
+            rows = [
+                row
+                for i in range(0, len(slots), size)
+                for row in order_rows(shape, slots[i : i + size], symmetry[i : i + size], self.opposites)
+            ]
         elif self.samples is not None:
             places = self._sampled(slots, payload)
             slots, symmetry = (np.repeat(one, self.samples, axis=0) for one in (slots, symmetry))

@@ -26,6 +26,7 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
 from synth.chain_cycles import signed_cycles
+from synth.dominance import arc_sets, sign_of_sum
 from synth.first_order import ConformedChain
 
 __all__ = ["OutwardRate", "brackets", "joint_rates", "outward_rates"]
@@ -93,14 +94,37 @@ class OutwardRate:
         -------
         int8[...]
         """
-        t = np.asarray(places, dtype=float)
-        return _common_sign(
-            [
-                _sign(factor, triples, t)
-                * (np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8) if i >= 0 else np.int8(1))
-                for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True)
-            ]
-        )
+        return _common_sign(self._term_signs(np.asarray(places, dtype=float)))
+
+    def signs_by_chords(self, slots: Ints) -> npt.NDArray[np.int8]:
+        """Return the sign of the rate where each term has a larger one of the other sign, else 0.
+
+        Parameters
+        ----------
+        slots : int64[r, J]
+            Orders with opposites, on 2 J slots.
+
+        Returns
+        -------
+        int8[r]
+        """
+        t = slots * (np.pi / slots.shape[-1])
+        arcs, every = arc_sets(slots), (1 << slots.shape[-1]) - 1
+        terms = []
+        for i, triples in zip(self.sines.tolist(), self.triples.tolist(), strict=True):
+            pairs = [pair for a, b, c in triples for pair in ((a, b), (b, c), (a, c))]
+            factors = [arcs[:, a, b] for a, b in pairs]
+            if i >= 0:
+                factors += [arcs[:, self.joint, i], every ^ arcs[:, self.joint, i]]
+            terms.append(np.stack(factors, axis=-1))
+        return sign_of_sum(np.stack(self._term_signs(t), axis=-1), np.stack(terms, axis=1))
+
+    def _term_signs(self, t: Array) -> list[npt.NDArray[np.int8]]:
+        return [
+            _sign(factor, triples, t)
+            * (np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8) if i >= 0 else np.int8(1))
+            for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True)
+        ]
 
     def text(self, names: Sequence[object]) -> str:
         """Return the formula as text, sin(j - i) being that of the azimuths of joints j and i."""
@@ -255,7 +279,7 @@ def _formulas(
 def _paths(chain: ConformedChain, joint: int) -> list[dict[int, int]]:
     """Return paths from the ground to a link of a joint: joints to +1 or -1; short ones first."""
     cycles = signed_cycles(chain)
-    ends = [n for n, joints in zip(range(len(chain.links)), chain.joints_of, strict=True) if joint in joints]
+    ends = [n for n, joints in enumerate(chain.joints_of) if joint in joints]
     found: dict[tuple[tuple[int, int], ...], None] = {}
     for end in ends:
         base = chain.paths[end]

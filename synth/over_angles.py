@@ -3,8 +3,8 @@
 An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
 a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
 sign of every step and how often loops wind, and the layers. Ways of links follow from the signs of outward rates
-(`synth.outward`): certain where the terms of a formula agree or other signs refute the opposite
-(`synth.sign_reasoning`); else both are looked for by samples.
+(`synth.outward`): certain where the terms of a formula agree, or are smaller than others (`synth.dominance`), or
+other signs refute the opposite (`synth.sign_reasoning`); else both are looked for by samples.
 
 Theory: docs/theory/conical-candidates.md.
 """
@@ -40,6 +40,10 @@ Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
 Signs = npt.NDArray[np.int8]
 _SAMPLES = 64
+_ROWS = 500
+"""Orders for which angles are sampled together."""
+_BY_CHORDS = 16
+"""Formulas whose terms are compared with each other."""
 
 
 class Allowed(IntEnum):
@@ -182,7 +186,7 @@ def over_angles(chain: ConformedChain | Prepared, places: npt.ArrayLike, samples
     places : int64[..., J]
         Orders with opposites: places on 2 J slots.
     samples : int, optional
-        Sets of angles looked at where signs are not certain.
+        Sets of angles looked at where signs are not certain; sixteen times as many where these are alike.
 
     Raises
     ------
@@ -215,9 +219,9 @@ def _over_angles(given: Prepared, slots: Ints, samples: int) -> OverAngles:
     sines = np.sign(np.sin(middle[:, :, np.newaxis] - middle[:, np.newaxis, :]).round(9)).astype(np.int8)
     known = relations.start(len(slots))
     for joint in range(slots.shape[-1]):
-        known[:, relations.rate(joint)] = _certain(given.rates[joint], middle)
+        known[:, relations.rate(joint)] = _certain(given.rates[joint], slots)
         if given.formulas[joint]:
-            sign = _certain(given.formulas[joint], middle)
+            sign = _certain(given.formulas[joint], slots)
             for number in range(1, len(moving)):
                 if joint in moving[number]:
                     known[:, relations.rho(number, joint)] = sign
@@ -231,9 +235,11 @@ def _over_angles(given: Prepared, slots: Ints, samples: int) -> OverAngles:
     owner = {joint: number for number in range(1, len(moving)) for joint in moving[number]}
     parts = [relations.rho(number, joint) for joint, number in owner.items()]
     linkage = _by_reason(relations, known, sines, parts, (links[:, 1:] == Allowed.BOTH).any(axis=1))
-    open_ = (links == Allowed.UNKNOWN).any(axis=1) | (linkage == Allowed.UNKNOWN)
-    if open_.any():
-        links[open_], linkage[open_] = _looked_for(given, slots[open_], links[open_], linkage[open_], samples)
+    for number in (samples, 16 * samples):  # many sets of angles only for what a few do not settle
+        open_ = np.flatnonzero((links == Allowed.UNKNOWN).any(axis=1) | (linkage == Allowed.UNKNOWN))
+        for begin in range(0, len(open_), _ROWS):
+            mine = open_[begin : begin + _ROWS]
+            links[mine], linkage[mine] = _looked_for(given, slots[mine], links[mine], linkage[mine], number)
     signs = np.zeros(slots.shape, np.int8)
     for joint, number in owner.items():
         signs[:, joint] = known[:, relations.rho(number, joint)]
@@ -304,14 +310,20 @@ def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> n
     return sure
 
 
-def _certain(formulas: tuple[OutwardRate, ...], middle: Array) -> npt.NDArray[np.int8]:
+def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.int8]:
     """Return the sign of a joint's outward rate where one of its formulas tells."""
-    found = np.zeros(middle.shape[:-1], np.int8)
+    middle = slots * (np.pi / slots.shape[-1])
+    found = np.zeros(len(slots), np.int8)
     for formula in formulas:
         left = found == 0
         if not left.any():
             break
         found[left] = formula.signs(middle[left])
+    for formula in formulas[:_BY_CHORDS]:
+        left = found == 0
+        if not left.any():
+            break
+        found[left] = formula.signs_by_chords(slots[left])
     return found
 
 
