@@ -8,7 +8,7 @@ from importlib.resources import files
 
 from graphs.errors import InvariantError, shown
 
-__all__ = ["chain_named", "name_of"]
+__all__ = ["chain_named", "chain_names", "name_of"]
 
 
 @cache
@@ -27,6 +27,17 @@ def name_of(chain: str) -> str:
     'four-bar'
     """
     return next((name for name, code in _named().items() if code == chain), "")
+
+
+def chain_names() -> tuple[str, ...]:
+    """Return all names.
+
+    Examples
+    --------
+    >>> chain_names()
+    ('four-bar', 'five-bar', 'watt', 'stephenson')
+    """
+    return tuple(_named())
 
 
 def chain_named(name: str) -> str:

@@ -62,7 +62,7 @@ class Job(Protocol):
 
     @property
     def columns(self) -> dict[str, type]:
-        """Names of the values of a row, and their types: int, str or bool."""
+        """Names of the values of a row, and their types: int, str, bool or float."""
 
     @property
     def key(self) -> dict[str, Any]:

@@ -16,14 +16,14 @@ from typing import Any
 from enumerate.run import Job, Row, Sink
 from enumerate.store import SqliteSink
 from graphs.embedding import sc_from_link_joint_graph
-from graphs.errors import FileError, StoreError
+from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.native import dumps
 from graphs.files.source import Beside
 from graphs.identity import chain_from_id
 from graphs.map_identity import mechanism_from_map_id
 from graphs.sc import SCGraph
 
-__all__ = ["SINKS", "CountSink", "RowSink", "mechanism_text", "sink_for"]
+__all__ = ["SINKS", "CountSink", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
 
 
 class _MemorySink:
@@ -68,6 +68,54 @@ class CountSink(_MemorySink):
         self.total += sum(row[0] for row in rows)
 
 
+class SortedSink:
+    """A sink that keeps all rows, and hands them to another when they are complete, sorted by one column.
+
+    Parameters
+    ----------
+    inner : Sink
+    column : str
+        With ``-`` before it: falling. Rows that are equal there stay in their order.
+    """
+
+    def __init__(self, inner: Sink, column: str) -> None:
+        self._inner, self._column = inner, column
+        self._rows: list[Row] = []
+        self._seconds = 0.0
+        self._place = 0
+
+    def start(self, job: Job) -> int:
+        """Look the column up.
+
+        Raises
+        ------
+        InvariantError
+            If there is no such column.
+        """
+        names = tuple(job.columns)
+        name = self._column.removeprefix("-")
+        if name not in names:
+            raise InvariantError("sort", f"no column {shown(name)}", " ".join(names))
+        self._place = names.index(name)
+        return self._inner.start(job)
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Keep the rows."""
+        self._rows += rows
+        self._seconds += seconds
+
+    def finish(self) -> None:
+        """Sort and hand over."""
+        place = self._place
+        self._rows.sort(key=lambda row: row[place], reverse=self._column.startswith("-"))
+        self._inner.take(0, self._rows, self._seconds)
+        self._inner.finish()
+
+    def abort(self) -> None:
+        """Hand nothing over."""
+        self._inner.abort()
+
+
 class _FileSink:
     """A file beside its place; what a unit becomes is the subclass's affair."""
 
@@ -102,6 +150,8 @@ class Graph6Sink(_FileSink):
 
     def start(self, job: Job) -> int:
         """Open the file."""
+        if job.columns.get("code") is not str and "order" in job.columns:
+            raise StoreError(f"{self._path}: graph6 has no place for angles; name a .jsonl or .sqlite file")
         beyond = {"ground": "the ground link", "chain": "a drawing, centres and open edges"}
         for column, what in beyond.items():
             if column in job.columns:
@@ -143,7 +193,7 @@ class ParquetSink(_FileSink):
             raise StoreError(f"{self._path}: Parquet needs pyarrow: pip install 'synthedra[parquet]'") from None
         super().start(job)
         assert self._file is not None
-        types = {int: arrow.int64(), str: arrow.string(), bool: arrow.bool_()}
+        types = {int: arrow.int64(), str: arrow.string(), bool: arrow.bool_(), float: arrow.float64()}
         self._schema = arrow.schema([(column, types[kind]) for column, kind in job.columns.items()])
         self._writer = parquet.ParquetWriter(self._file.stream, self._schema)
         return 0
@@ -189,7 +239,10 @@ def mechanism_text(row: Mapping[str, Any]) -> str:
 
 
 class FolderSink:
-    """A folder with a native file for each row, named by its number; see `mechanism_text`."""
+    """A folder with a native file for each row, named by its number.
+
+    Its text is that of `mechanism_text`, or of the job's own function of this name.
+    """
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -207,6 +260,7 @@ class FolderSink:
         if self._path.exists():
             raise FileError(self._path, "", "exists already", "a new folder")
         self._columns = tuple(job.columns)
+        self._text = getattr(job, "mechanism_text", mechanism_text)
         try:
             self._beside = Path(tempfile.mkdtemp(prefix=f".{self._path.name[:32]}.", dir=self._path.parent))
         except OSError as error:
@@ -218,7 +272,7 @@ class FolderSink:
         assert self._beside is not None
         for row in rows:
             self._number += 1
-            text = mechanism_text(dict(zip(self._columns, row, strict=True)))
+            text = self._text(dict(zip(self._columns, row, strict=True)))
             try:
                 (self._beside / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
             except OSError as error:

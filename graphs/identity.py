@@ -16,9 +16,10 @@ import networkx as nx
 
 from graphs.errors import InvariantError
 
-__all__ = ["automorphisms_of", "canonical_links", "canonical_order", "chain_from_id", "chain_id"]
+__all__ = ["HEURISTIC", "automorphisms_of", "canonical_links", "canonical_order", "chain_from_id", "chain_id"]
 
-_HEURISTIC = bliss_bind.Graph.SplittingHeuristic.shs_fm
+HEURISTIC = bliss_bind.Graph.SplittingHeuristic.shs_fm
+"""What bliss is told everywhere: ids depend on it."""
 _PREFIX = "k1:"
 
 
@@ -43,7 +44,7 @@ def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
     [0, 1, 2, 3]
     """
     graph = bliss_bind.Graph(links)
-    graph.set_splitting_heuristic(_HEURISTIC)
+    graph.set_splitting_heuristic(HEURISTIC)
     add = graph.add_edge
     for a, b in joints:
         add(a, b)
@@ -69,7 +70,7 @@ def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[
     8
     """
     graph = bliss_bind.Graph(links)
-    graph.set_splitting_heuristic(_HEURISTIC)
+    graph.set_splitting_heuristic(HEURISTIC)
     for a, b in joints:
         graph.add_edge(a, b)
     generators: list[list[int]] = []
@@ -80,7 +81,7 @@ def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[
 def _order_with_parallel_joints(links: int, joints: Sequence[tuple[int, int]]) -> list[int]:
     """Return canonical numbers of links where joints may be parallel: bliss sees a joint as a node of its own."""
     graph = bliss_bind.Graph()
-    graph.set_splitting_heuristic(_HEURISTIC)
+    graph.set_splitting_heuristic(HEURISTIC)
     for _ in range(links):
         graph.add_vertex(0)
     for a, b in joints:

@@ -24,7 +24,7 @@ from graphs.loops import JointId
 from graphs.sc import SCGraph
 from synth.multiloop import Pair, places_of_steps
 
-__all__ = ["ConicalLinkage", "read_conical", "write_conical"]
+__all__ = ["ConicalLinkage", "conical_text", "read_conical", "write_conical"]
 
 _FORMAT = "synthedra/conical"
 
@@ -143,10 +143,15 @@ def write_conical(linkage: ConicalLinkage, path: str | Path) -> None:
     FileError
         If it cannot be written.
     """
+    write_text(Path(path), conical_text(linkage))
+
+
+def conical_text(linkage: ConicalLinkage) -> str:
+    """Return the file of a linkage on a cone as text."""
     document = sc_document(linkage.chain) | {"format": _FORMAT}
     for key, pairs in (("angles", linkage.angles), ("steps", linkage.steps)):
         if pairs is not None:
             document[key] = [[written(a), written(b), round(degrees(x), 10)] for (a, b), x in pairs.items()]
     if linkage.cone_angle is not None:
         document["lambda_deg"] = round(degrees(linkage.cone_angle), 10)
-    write_text(Path(path), json_text(document))
+    return json_text(document)

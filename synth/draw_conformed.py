@@ -28,7 +28,12 @@ _WAYS = {
 
 
 def draw_conformed(
-    chain: ConformedChain, places: npt.ArrayLike, cone_angle: float | None = None, title: str = ""
+    chain: ConformedChain,
+    places: npt.ArrayLike,
+    cone_angle: float | None = None,
+    title: str = "",
+    *,
+    grounded: bool = True,
 ) -> Any:
     """Return a picture of a linkage on its circle and, with a cone angle, on its cone.
 
@@ -40,6 +45,8 @@ def draw_conformed(
     cone_angle : float, optional
         lambda, radians; None for a cylinder, of which only the circle is drawn.
     title : str, optional
+    grounded : bool, optional
+        Whether the first link is fixed; else nothing is drawn of motions.
 
     Returns
     -------
@@ -59,7 +66,7 @@ def draw_conformed(
     """
     t = np.asarray(places, dtype=float)
     figure = new_figure(11.0 if cone_angle is not None else 6.4, 5.6)
-    _circle(figure.add_subplot(1, 1 if cone_angle is None else 2, 1), chain, t)
+    _circle(figure.add_subplot(1, 1 if cone_angle is None else 2, 1), chain, t, grounded)
     if cone_angle is not None:
         _cone(figure.add_subplot(1, 2, 2, projection="3d"), chain, t, cone_angle)
     if title:
@@ -91,15 +98,16 @@ def _overlap(start: float, length: float, other: float, more: float) -> bool:
     return bool(apart < length - 1e-9 or 2 * np.pi - apart < more - 1e-9)
 
 
-def _circle(axes: Any, chain: ConformedChain, t: Array) -> None:
+def _circle(axes: Any, chain: ConformedChain, t: Array, grounded: bool) -> None:
     """Draw circle, links as arcs and chords, ICRL of each moving link, and the shadow of a four-bar."""
     arcs = link_arcs(chain, t)
     motion = first_order(chain, t)
     found = behaviour_of_motion(chain, t, motion, arcs)
-    lines = icrl(motion.motions)
+    lines = icrl(motion.motions) if grounded else np.full(len(chain.links), np.nan)
     round_ = np.linspace(0, 2 * np.pi, 361)
     axes.plot(np.sin(round_), np.cos(round_), color="0.55", linewidth=1.0, zorder=1)
-    if len(chain.links) == 4 and len(t) == 4:
+    four_bar = grounded and len(chain.links) == 4 and len(t) == 4
+    if four_bar:
         _shadow(axes, chain, t)
     for number, (joints, layer) in enumerate(zip(chain.joints_of, _layers(arcs), strict=True)):
         colour = "0.25" if number == 0 else COLOURS[(number - 1) % len(COLOURS)]
@@ -110,7 +118,7 @@ def _circle(axes: Any, chain: ConformedChain, t: Array) -> None:
         told = "ground" if number == 0 else _WAYS[Way(int(found.ways[number]))]
         axes.plot(
             radius * np.sin(along), radius * np.cos(along), color=colour, linewidth=4.5, solid_capstyle="butt",
-            label=f"{name}: {told}", zorder=3,
+            label=f"{name}: {told}" if grounded else name, zorder=3,
         )  # fmt: skip
         order = sorted(joints, key=lambda joint: (t[joint] - start) % (2 * np.pi))
         corners = [*order, order[0]] if len(order) > 2 else order
@@ -124,7 +132,7 @@ def _circle(axes: Any, chain: ConformedChain, t: Array) -> None:
     axes.set(aspect="equal", xlim=(-1.6, 1.6), ylim=(-1.6, 1.6))
     axes.axis("off")
     axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=2, fontsize=9)
-    notes = ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * (len(chain.links) == 4)
+    notes = ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * four_bar
     axes.set_title(", ".join(notes), fontsize=10)
 
 

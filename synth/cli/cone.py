@@ -34,10 +34,16 @@ def _radians(values: tuple[float, ...]) -> list[float]:
     "--tolerance", type=click.FloatRange(0, min_open=True), default=1e-5, show_default=True, metavar="DEGREES",
     help="How well the loops of a FILE must close together.",
 )  # fmt: skip
+@click.option("--by-angles", is_flag=True, help="Of a FILE of steps: every cone on which its link angles lie.")
 @click.option("-o", "--output", metavar="PICTURE", help="Draw (.png, .svg, .pdf): loop sums; of a FILE, the cone.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def map_command(
-    file: str | None, angles: tuple[float, ...] | None, tolerance: float, output: str | None, as_json: bool
+    file: str | None,
+    angles: tuple[float, ...] | None,
+    tolerance: float,
+    by_angles: bool,
+    output: str | None,
+    as_json: bool,
 ) -> None:
     """Say on which right cones a linkage lies, all its joint axes ruling lines.
 
@@ -49,11 +55,14 @@ def map_command(
       synth cone map --angles 70,80,120,40
       synth cone map --angles 120,50,120,50 --json
       synth cone map data/surfaces/fig11-stephenson.json
+      synth cone map data/surfaces/fig11-stephenson.json --by-angles
     """
+    if by_angles and file is None:
+        raise click.UsageError("--by-angles is for a FILE")
     if (file is None) == (angles is None):
         raise click.UsageError("give --angles of one loop, or a FILE")
     if file is not None:
-        _map_file(file, radians(tolerance), output, as_json)
+        _map_file(file, radians(tolerance), by_angles, output, as_json)
         return
     from synth.cone import map_to_cones
 
@@ -70,12 +79,14 @@ def map_command(
         print_cones(found)
 
 
-def _map_file(file: str, tolerance: float, output: str | None, as_json: bool) -> None:
-    from synth.cli.conical import linkage_json, mapped, print_linkage
+def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
+    from synth.cli.conical import by_angles, linkage_json, mapped, print_linkage
     from synth.conical_file import read_conical
 
     linkage = read_conical(file)
     with about(file):
+        if angles_only:
+            linkage = by_angles(linkage)
         found = mapped(linkage, tolerance)
     if output is not None:
         if not found.cones:

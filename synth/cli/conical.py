@@ -25,6 +25,7 @@ __all__ = [
     "OnCone",
     "behaviours_json",
     "behaviours_of",
+    "by_angles",
     "linkage_json",
     "loop_of_steps",
     "loop_on_cones",
@@ -63,6 +64,22 @@ class Found:
 
 
 # ---- mapping ------------------------------------------------------------------------------------------------
+
+
+def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
+    """Return a linkage given by steps and lambda as one that is given by all its link angles."""
+    from graphs.errors import UnsolvableError
+    from synth.cone import link_angles
+    from synth.conical_file import ConicalLinkage
+    from synth.multiloop import link_pairs
+
+    if linkage.steps is None:
+        return linkage
+    if linkage.cone_angle is None:
+        raise UnsolvableError("steps without a cone angle have no link angles: expected 'lambda_deg'")
+    at = dict(zip(linkage.chain.joints, linkage.places(), strict=True))
+    angles = {(a, b): float(link_angles(at[b] - at[a], linkage.cone_angle)) for a, b in link_pairs(linkage.chain)}
+    return ConicalLinkage(linkage.chain, angles=angles)
 
 
 def mapped(linkage: ConicalLinkage, tolerance: float) -> CommonMap:

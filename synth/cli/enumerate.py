@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from synth.cli.addenda import addenda
+from synth.cli.candidates import conical
 from synth.cli.chains import chains
 from synth.cli.output import console, plain, print_json, table
 from synth.cli.sc import sc
@@ -30,10 +31,11 @@ def enumerate_group() -> None:
       synth enumerate chains --links 8 --dof 1
       synth enumerate sc --links 8 --dof 1 --centres 3
       synth enumerate scd --links 4 --dof 1 --max-degree 4
+      synth enumerate conical --chain watt
     """
 
 
-for _command in (chains, sc, scd, addenda):
+for _command in (chains, sc, scd, addenda, conical):
     enumerate_group.add_command(_command)
 
 

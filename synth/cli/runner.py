@@ -112,12 +112,15 @@ def run_count(job: Job, options: RunOptions) -> None:
         click.echo(sink.total)
 
 
-def run_rows(job: Job, options: RunOptions) -> None:
-    """Run a job and send its rows where the options say: a file, a JSON list, or a table."""
+def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> None:
+    """Run a job and send its rows where the options say: a file, a JSON list, or a table.
+
+    ``wrapped`` makes of the sink another that does something with the rows before.
+    """
     from enumerate.sinks import RowSink, sink_for
 
     if options.output is not None:
-        progress = _run(job, sink_for(options.output, resume=options.resume), options)
+        progress = _run(job, wrapped(sink_for(options.output, resume=options.resume)), options)
         if not options.quiet and sys.stderr.isatty():
             click.echo(f"{progress.rows} rows in {progress.seconds:.1f} s: {plain(options.output)}", err=True)
         return
@@ -125,13 +128,13 @@ def run_rows(job: Job, options: RunOptions) -> None:
         found: list[dict[str, Any]] = []
         _run(
             job,
-            RowSink(lambda names, rows: found.extend(dict(zip(names, row, strict=True)) for row in rows)),
+            wrapped(RowSink(lambda names, rows: found.extend(dict(zip(names, row, strict=True)) for row in rows))),
             options,
         )
         print_json(found)
         return
     printer = _Printer(job.columns)
-    _run(job, RowSink(printer.take), options)
+    _run(job, wrapped(RowSink(printer.take)), options)
     printer.finish()
 
 
@@ -196,7 +199,7 @@ class _Printer:
     def __init__(self, columns: Mapping[str, type]) -> None:
         self._shown = [i for i, column in enumerate(columns) if column != "mechanism"]
         self._columns = [list(columns)[i] for i in self._shown]
-        self._numbers = [column for column in self._columns if columns[column] is int]
+        self._numbers = [column for column in self._columns if columns[column] in (int, float)]
         self._kept: list[list[str]] = []
         self._streaming = False
 

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
 
+from enumerate.conical import Portion
+from enumerate.rounds import canonical_row
 from graphs.files.formats import read
 from graphs.report import mobility_report
+from synth.candidates import CandidateJob
 from synth.circuit import azimuths, circuits, table1
 from synth.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles
 from synth.conformed import dihedral_angles, joint_axes
@@ -291,6 +294,37 @@ def test_fig_11(golden):
         assert all(frozenset(run) in pairs for run in entry["inputs"]["projected"])
         loops = loop_steps(chain, [places[joint] for joint in chain.joints])
         assert all(abs(loop.circuits.residual) < 1e-12 and abs(loop.circuits.turns) <= 1 for loop in loops)
+
+
+def test_fig_11_is_a_stephenson_candidate(golden):
+    """The seven axes in their cyclic order are among the 102, whatever the loops; the link angles agree."""
+    wanted = golden["000"]["fig11_stephenson2"]["computed"]
+    linkage = read_conical(DATA / "surfaces" / "fig11-stephenson.json")
+    lam, places = linkage.cone_angle, np.radians(list(wanted["azimuths"].values()))
+    assert list(wanted["azimuths"]) == list("OABCDEF")
+    order = np.remainder(places, 2 * np.pi).argsort().argsort()
+    for chain in memberships(linkage.chain, "OABCDEF"):
+        column = ["OABCDEF".index(joint) for joint in chain.joints]
+        job = CandidateJob(chain, cone_angle=None)
+        symmetries = job.query.symmetries(None)
+        assert len(symmetries) == 4
+        listed = [row["slots"] for row in job.rows()]
+        assert len(listed) == 102
+        assert listed.count(" ".join(map(str, canonical_row(order[column], symmetries, 7)))) == 1
+        # on whole degrees the printed axes are a candidate on 360 slots: every link angle is the golden one
+        slots = np.rint(np.degrees(places[column])).astype(int) % 360
+        placed = CandidateJob(chain, slots=360, cone_angle=lam)
+        [row] = placed.work(Portion(None, canonical_row(slots, symmetries, 360)))
+        told = dict(zip(placed.columns, row, strict=True))
+        found = sorted(float(part.rsplit(":", 1)[1]) for part in told["link_angles_deg"].split())
+        pairs = wanted["all_pairs"]
+        golden_angles = [
+            pairs[a + b]["link_angle"] if a + b in pairs else pairs[b + a]["link_angle"]
+            for a, b in link_pairs(chain)
+        ]
+        np.testing.assert_allclose(found, sorted(golden_angles), atol=1e-6)
+        assert told["rank"] == 6
+        assert told["half_turn_steps"] == 0
 
 
 def test_memberships_of_fig_11_by_brute_force():

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, random_linkages
 
+from enumerate.rounds import Rounds, count_by_burnside, placements
 from graphs.analogues import planar_analogue
 from graphs.files.formats import read
 from graphs.report import mobility_report
 from synth.behaviour import behaviour, shadow_allows
+from synth.candidates import CandidateJob
 from synth.cone import cone_reach, largest_cone_angle, link_angles, map_to_cones, projected_angles
 from synth.coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordinates
 from synth.cyclic import circumradii, cone_angles, crossed_area
@@ -333,6 +335,36 @@ def test_table_4_by_true_displacements(name):
         assert (row.intramobile, row.extramobile) == table4(
             row.case, row.configuration, row.column, diameter="diameter" in name
         )
+
+
+def test_the_twelve_cases_come_out_of_the_enumeration_of_candidates():
+    """Tables 3 and 4: the orders with opposites of a four-bar with a ground link are the cases, and no others.
+
+    Up to an exchange of ground and coupler, which the tables do not tell apart, there are twelve.
+    """
+    job = CandidateJob(FOUR_BAR, (0,), opposites=True)
+    rows = job.rows()
+    found = {}
+    for row in rows:
+        one = table_row(job.places(row))  # O, A, B, C; the ground link is C O
+        assert (row["linkage"] == "one way") == one.intramobile == one.extramobile
+        assert row["linkage"] in ("one way", "both ways")
+        assert (row["circuits"] == "open") == (one.configuration == "open")
+        found.setdefault((one.case, one.configuration, one.column), []).append(row["linkage"])
+    assert found.keys() == ROWS.keys()
+    assert len(rows) == 16
+    for case, told in found.items():
+        assert set(told) == {"one way" if ROWS[case][0].startswith("Y") else "both ways"}
+    pair = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]])  # symmetries that keep {CO, AB}
+    assert count_by_burnside(Rounds.opposites(4), pair) == len(placements(Rounds.opposites(4), pair)[0]) == 12
+    # the same by angles: all four-bars on 11 slots, none of which lies opposite to another
+    placed = CandidateJob(FOUR_BAR, (0,), slots=11)
+    seen = set()
+    for row in placed.rows():
+        one = table_row(placed.places(row))
+        assert (row["linkage"] == "one way") == one.intramobile
+        seen.add((one.case, one.configuration, one.column))
+    assert seen == ROWS.keys()
 
 
 def test_crossed_on_a_cylinder_is_grashof(golden, rng):

@@ -210,3 +210,16 @@ def test_examples_of_the_help_texts_run(words, monkeypatch):
     assert examples
     for example in examples:
         run(*shlex.split(example))
+
+
+def test_the_inverse_of_a_candidate():
+    """Fig. 11 by its link angles alone: the cone they came from, with signs and azimuths; and every other one."""
+    steps = json.loads(run("cone", "map", FIG_11, "--json").stdout)["cones"]
+    found = json.loads(run("cone", "map", FIG_11, "--by-angles", "--json").stdout)["cones"]
+    [same] = [one for one in found if abs(one["lambda_deg"] - 20) < 1e-6 and one["signs"] == steps[0]["signs"]]
+    assert same["k"] == steps[0]["k"]
+    assert same["circuit"] == steps[0]["circuit"]
+    assert {tuple(pair[:2]): pair[2] for pair in same["link_angles_deg"]} == pytest.approx(
+        {tuple(pair[:2]): pair[2] for pair in steps[0]["link_angles_deg"]}, abs=1e-6
+    )
+    assert "--by-angles is for a FILE" in run("cone", "map", "--angles", "60,70,80", "--by-angles", code=2).stderr

@@ -1,0 +1,203 @@
+"""Conical candidates: every way the joint axes of a chain can lie round one cone, up to what changes nothing.
+
+Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to
+a turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
+counts once. What the candidates do is worked out in `synth.candidates`. Source: Hyatt et al. 2020, section 7.
+Theory: docs/theory/conical-candidates.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from enumerate.compiled import Ints
+from enumerate.joint_symmetries import joint_symmetries
+from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
+from enumerate.run import Row, Unit
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.loops import JointId, LinkId
+
+__all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
+
+_PLACEMENTS = 2_000_000
+"""Placements of a unit that counts, at most; symmetric ones apart."""
+
+_LISTED = 10**11
+_PORTIONS = 200_000
+"""Placements that are listed at most, and into how many portions they are cut, about."""
+
+Chain = tuple[tuple[JointId, tuple[LinkId, LinkId]], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Portion:
+    """The candidates of one ground link whose first joints lie in given places.
+
+    Attributes
+    ----------
+    ground : link id or None
+    prefix : tuple of int
+    """
+
+    ground: LinkId | None
+    prefix: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class ConicalQuery:
+    """Which candidates are asked for.
+
+    Attributes
+    ----------
+    chain : tuple of (joint id, (link, link))
+    grounds : tuple of (link id or None)
+        The fixed links, each with candidates of its own; None: no link is fixed.
+    slots : int, optional
+        Joints on so many equal slots of the circle; without it, cyclic orders.
+    opposites : bool
+        Cyclic orders of the joints and of the points opposite to them.
+
+    Raises
+    ------
+    InvariantError
+        If there are fewer slots than joints, or fewer than three joints, or slots and opposites are asked for.
+
+    Examples
+    --------
+    >>> four_bar = tuple(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> ConicalQuery(four_bar, slots=12).rounds
+    Rounds(joints=4, slots=12, classes=12)
+    """
+
+    chain: Chain
+    grounds: tuple[LinkId | None, ...] = (None,)
+    slots: int | None = None
+    opposites: bool = False
+
+    def __post_init__(self) -> None:
+        if self.slots is not None and self.opposites:
+            raise InvariantError("slots", "slots and opposites", "one of them: slots say where the opposites are")
+        _ = self.rounds
+
+    @property
+    def rounds(self) -> Rounds:
+        """What the enumeration runs over."""
+        joints = len(self.chain)
+        if self.slots is not None:
+            return Rounds.on_slots(joints, self.slots)
+        return Rounds.opposites(joints) if self.opposites else Rounds.orders(joints)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The query in JSON values."""
+        return {
+            "chain": [[joint, *ends] for joint, ends in self.chain],
+            "grounds": list(self.grounds),
+            "slots": self.slots,
+            "opposites": self.opposites,
+        }
+
+    def symmetries(self, ground: LinkId | None) -> Ints:
+        """Return the symmetries of the chain that leave the ground where it is: int64[g, J]."""
+        return _symmetries(self.chain, ground)
+
+    def portions(self, most: int) -> Iterator[tuple[Portion, int]]:
+        """Yield portions of at most so many placements, symmetric ones apart, if possible; and the numbers.
+
+        Raises
+        ------
+        UnsolvableError
+            If there are too many to list.
+        """
+        rounds = self.rounds
+        if rounds.completions(1) > _LISTED:
+            raise UnsolvableError(
+                f"{rounds.joints} joints have {rounds.completions(1):.2g} placements, symmetric ones apart; "
+                f"more than {_LISTED:.0g} can only be counted, by Burnside's lemma"
+            )
+        most = max(most, rounds.completions(1) // _PORTIONS)
+        for ground in self.grounds:
+            for prefix in prefixes(rounds, most):
+                yield Portion(ground, prefix), rounds.completions(len(prefix))
+
+    def placements(self, portion: Portion) -> tuple[Ints, Ints]:
+        """Return the candidates of a portion and their symmetries (`enumerate.rounds.placements`)."""
+        return placements(self.rounds, self.symmetries(portion.ground), portion.prefix)
+
+
+@cache
+def _symmetries(chain: Chain, ground: LinkId | None) -> Ints:
+    return joint_symmetries(dict(chain), ground)
+
+
+def conical_orders(query: ConicalQuery) -> Iterator[tuple[LinkId | None, tuple[int, ...]]]:
+    """Yield ground link and slot of each joint of every candidate, in a fixed order.
+
+    Examples
+    --------
+    >>> four_bar = tuple(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> [row for _, row in conical_orders(ConicalQuery(four_bar))]
+    [(0, 1, 2, 3), (0, 1, 3, 2)]
+    """
+    for portion, _ in query.portions(_PLACEMENTS):
+        for row in query.placements(portion)[0].tolist():
+            yield portion.ground, tuple(row)
+
+
+def count_conical_orders(query: ConicalQuery, method: str = "burnside") -> int:
+    """Return the number of candidates.
+
+    Parameters
+    ----------
+    query : ConicalQuery
+    method : {"burnside", "orbits"}
+        ``orbits`` compares each placement with its images, ``burnside`` makes none.
+
+    Examples
+    --------
+    >>> four_bar = tuple(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> [count_conical_orders(ConicalQuery(four_bar, (0,)), method) for method in ("orbits", "burnside")]
+    [3, 3]
+    """
+    job = ConicalCountJob(query, method)
+    return sum(number for unit in job.units() for (number,) in job.work(unit.payload))
+
+
+@dataclass(frozen=True)
+class ConicalCountJob:
+    """The number of candidates; rows are numbers to be added.
+
+    Attributes
+    ----------
+    query : ConicalQuery
+    method : {"burnside", "orbits"}
+    """
+
+    query: ConicalQuery
+    method: str = "burnside"
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "conical", "method": self.method, **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """A unit for each ground link, or for each portion."""
+        if self.method == "burnside":
+            return [Unit(Portion(ground, (0,))) for ground in self.query.grounds]
+        return [Unit(portion, weight) for portion, weight in self.query.portions(_PLACEMENTS)]
+
+    def work(self, payload: Portion) -> list[Row]:
+        """Return the number of candidates of a unit."""
+        rounds, symmetries = self.query.rounds, self.query.symmetries(payload.ground)
+        if self.method == "burnside":
+            return [(count_by_burnside(rounds, symmetries),)]
+        return [(count_by_orbits(rounds, symmetries, payload.prefix),)]

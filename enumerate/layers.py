@@ -1,0 +1,82 @@
+"""Layers: how many links must lie over each other where their arcs overlap on a circle.
+
+Links are arcs of a circle that the joints cut into gaps; an arc is the set of gaps it covers, bit i of a mask for
+gap i. Links whose arcs share a gap lie in different layers. A link may have several arcs to choose from.
+Theory: docs/theory/conical-candidates.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from enumerate.compiled import Ints, compiled
+
+__all__ = ["fewest_layers"]
+
+
+@compiled
+def _fewest(arcs: Ints) -> int:
+    """Return the fewest layers of links with masks arcs[n, o]; 0 is no choice.
+
+    Links are put into layers one after the other, each into a layer that has room or the next new one; a branch
+    ends where it has as many layers as the best solution.
+    """
+    links, choices = arcs.shape
+    best: int = links
+    filled = np.zeros((links + 1, links), np.int64)  # what each layer holds before each link
+    used = np.zeros(links + 1, np.int64)
+    tried = np.zeros(links, np.int64)  # next (choice, layer) of each link
+    link = 0
+    while link >= 0:
+        if tried[link] == choices * links:
+            tried[link] = 0
+            link -= 1
+            continue
+        choice, layer = tried[link] // links, tried[link] % links
+        tried[link] += 1
+        mask = arcs[link, choice]
+        if mask == 0 or layer > used[link] or filled[link, layer] & mask:
+            continue
+        now = max(used[link], layer + 1)
+        if now >= best:
+            continue
+        if link == links - 1:
+            best = now
+            continue
+        for i in range(links):
+            filled[link + 1, i] = filled[link, i]
+        filled[link + 1, layer] |= mask
+        used[link + 1] = now
+        link += 1
+    return best
+
+
+@compiled
+def _fewest_of_all(arcs: Ints) -> Ints:
+    found = np.empty(len(arcs), np.int64)
+    for i in range(len(arcs)):
+        found[i] = _fewest(arcs[i])
+    return found
+
+
+def fewest_layers(arcs: Ints) -> Ints:
+    """Return the fewest layers in which links lie without overlapping.
+
+    Parameters
+    ----------
+    arcs : int64[r, N, o]
+        Masks of the arcs that each link can take, at least one each; 0 where there are fewer choices. All links
+        cover something.
+
+    Returns
+    -------
+    int64[r]
+
+    Examples
+    --------
+    Three arcs round a circle of three gaps, each over two: no two go together.
+
+    >>> fewest_layers(np.array([[[0b011], [0b110], [0b101]], [[0b001], [0b010], [0b100]]])).tolist()
+    [3, 1]
+    """
+    return _fewest_of_all(np.ascontiguousarray(arcs, dtype=np.int64))

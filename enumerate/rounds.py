@@ -1,0 +1,282 @@
+"""Joints round a circle: placements on equal slots up to turns, mirror images and the symmetries of a chain.
+
+A placement gives each joint a slot, 0 to K - 1; no two joints may have slots that are equal modulo a number of
+*classes*, which divides K. Three uses:
+
+- K = classes = J: cyclic orders of the joints;
+- K = 2 J, classes J: cyclic orders of the joints and of the points opposite to them; each pair of opposite slots
+  has one joint;
+- K = classes >= J: joints on different slots of a circle.
+
+Of the placements that turns, mirror images and symmetries of the chain exchange one is listed, the one whose row
+is lexicographically least. Theory: docs/theory/conical-candidates.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import perm
+
+import numpy as np
+
+from enumerate.compiled import Ints, compiled, doubled
+from graphs.errors import InvariantError
+
+__all__ = ["Rounds", "canonical_row", "count_by_burnside", "count_by_orbits", "placements", "prefixes"]
+
+
+@dataclass(frozen=True, slots=True)
+class Rounds:
+    """Where joints may lie.
+
+    Attributes
+    ----------
+    joints : int
+    slots : int
+    classes : int
+        Slots that are equal modulo this number exclude each other.
+    """
+
+    joints: int
+    slots: int
+    classes: int
+
+    def __post_init__(self) -> None:
+        if self.joints < 3:
+            raise InvariantError("joints", f"{self.joints} joints", "three or more round a circle")
+        if self.classes < self.joints:
+            raise InvariantError("slots", f"{self.slots} slots for {self.joints} joints", "one for each, or more")
+
+    @classmethod
+    def orders(cls, joints: int) -> Rounds:
+        """Cyclic orders."""
+        return cls(joints, joints, joints)
+
+    @classmethod
+    def opposites(cls, joints: int) -> Rounds:
+        """Cyclic orders of joints and of the points opposite to them."""
+        return cls(joints, 2 * joints, joints)
+
+    @classmethod
+    def on_slots(cls, joints: int, slots: int) -> Rounds:
+        """Different slots."""
+        return cls(joints, slots, slots)
+
+    def completions(self, placed: int) -> int:
+        """Return how many placements begin with some joints placed."""
+        fold = self.slots // self.classes
+        left = self.joints - placed
+        return int(perm(self.classes - placed, left) * fold**left)
+
+
+@compiled
+def _stabiliser(p: Ints, symmetries: Ints, slots: int) -> int:
+    """Return how many images equal a placement, 0 if one is less; joint 0 lies on slot 0."""
+    equal = 0
+    for row in range(len(symmetries)):
+        first = p[symmetries[row, 0]]
+        for mirror in (1, -1):
+            verdict = 0
+            for i in range(1, len(p)):
+                image = (mirror * (p[symmetries[row, i]] - first)) % slots
+                if image != p[i]:
+                    verdict = 1 if image > p[i] else -1
+                    break
+            if verdict < 0:
+                return 0
+            if verdict == 0:
+                equal += 1
+    return equal
+
+
+@compiled
+def _listed(symmetries: Ints, slots: int, classes: int, prefix: Ints, keep: bool) -> tuple[Ints, Ints, int]:
+    """Return the least placements that begin in one way, their stabilisers, and their number.
+
+    They are kept only if that is asked for.
+    """
+    joints = symmetries.shape[1]
+    given = len(prefix)
+    found = np.empty((64, joints), np.int64)
+    order = np.empty((64, 1), np.int64)
+    count = 0
+    p = np.zeros(joints, np.int64)
+    taken = np.zeros(classes, np.bool_)
+    for i in range(given):
+        p[i] = prefix[i]
+        taken[prefix[i] % classes] = True
+    level = given
+    if given < joints:
+        p[level] = -1
+    while level >= given:
+        if level == joints:
+            stabiliser = _stabiliser(p, symmetries, slots)
+            if stabiliser:
+                if keep:
+                    if count == len(found):
+                        found, order = doubled(found), doubled(order)
+                    for i in range(joints):
+                        found[count, i] = p[i]
+                    order[count, 0] = stabiliser
+                count += 1
+            level -= 1
+            continue
+        if p[level] >= 0:
+            taken[p[level] % classes] = False
+        p[level] += 1
+        while p[level] < slots and taken[p[level] % classes]:
+            p[level] += 1
+        if p[level] == slots:
+            level -= 1
+            continue
+        taken[p[level] % classes] = True
+        level += 1
+        if level < joints:
+            p[level] = -1
+    return found[:count], order[:count], count
+
+
+def placements(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,)) -> tuple[Ints, Ints]:
+    """Return placements, one of each orbit, in lexicographic order.
+
+    Parameters
+    ----------
+    rounds : Rounds
+    symmetries : int64[g, J]
+        All of them, as `enumerate.joint_symmetries.joint_symmetries` returns them.
+    prefix : tuple of int, optional
+        Slots of the first joints; joint 0 lies on slot 0.
+
+    Returns
+    -------
+    rows : int64[r, J]
+        Slot of each joint.
+    order : int64[r]
+        How many symmetries of the chain, each with a turn or mirror image, leave the placement as it is.
+
+    Examples
+    --------
+    The cyclic orders of a four-bar's joints: open, and crossed.
+
+    >>> from enumerate.joint_symmetries import joint_symmetries
+    >>> symmetries = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])))
+    >>> rows, order = placements(Rounds.orders(4), symmetries)
+    >>> rows.tolist(), order.tolist()
+    ([[0, 1, 2, 3], [0, 1, 3, 2]], [8, 4])
+    """
+    rows, order, _ = _listed(symmetries, rounds.slots, rounds.classes, np.array(prefix, np.int64), True)
+    return rows, order[:, 0]
+
+
+def count_by_orbits(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,)) -> int:
+    """Return how many placements there are, one of each orbit, by comparing each with its images.
+
+    Parameters
+    ----------
+    rounds, symmetries, prefix
+        As for `placements`.
+    """
+    return int(_listed(symmetries, rounds.slots, rounds.classes, np.array(prefix, np.int64), False)[2])
+
+
+def prefixes(rounds: Rounds, most: int) -> Iterator[tuple[int, ...]]:
+    """Yield slots of the first joints such that at most so many placements begin with each, symmetric ones apart.
+
+    Joint 1 is kept to one half of the circle: what lies in the other is a mirror image.
+
+    Examples
+    --------
+    >>> list(prefixes(Rounds.orders(4), 1))
+    [(0, 1, 2), (0, 1, 3), (0, 2, 1), (0, 2, 3)]
+    """
+
+    def longer(prefix: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+        if len(prefix) == rounds.joints or (len(prefix) > 1 and rounds.completions(len(prefix)) <= most):
+            yield prefix
+            return
+        taken = {slot % rounds.classes for slot in prefix}
+        end = rounds.slots // 2 + 1 if len(prefix) == 1 else rounds.slots
+        for slot in range(end):
+            if slot % rounds.classes not in taken:
+                yield from longer((*prefix, slot))
+
+    return longer((0,))
+
+
+def canonical_row(row: Ints, symmetries: Ints, slots: int) -> tuple[int, ...]:
+    """Return the least placement of the orbit of a placement.
+
+    Parameters
+    ----------
+    row : int64[J]
+    symmetries : int64[g, J]
+    slots : int
+
+    Examples
+    --------
+    >>> identity = np.array([[0, 1, 2, 3]])
+    >>> canonical_row(np.array([3, 1, 0, 2]), identity, 4)
+    (0, 2, 1, 3)
+    """
+    moved = np.asarray(row)[symmetries]
+    moved = moved - moved[:, :1]
+    images = np.concatenate([moved % slots, -moved % slots])
+    return min(map(tuple, images.tolist()))
+
+
+def count_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
+    """Return how many placements there are, one of each orbit, by Burnside's lemma; none is made.
+
+    Parameters
+    ----------
+    rounds : Rounds
+    symmetries : int64[g, J]
+
+    Notes
+    -----
+    A turn or mirror image g of the circle and a symmetry s of the chain fix the placements that take each cycle
+    of s to a cycle of g of the same length. On the classes, g has n_l cycles of length l that do not lead from a
+    slot to one of its own class, s has m_l: they go together in n_l! / (n_l - m_l)! (f l)^m_l ways, f being the
+    slots of a class.
+
+    Examples
+    --------
+    >>> from enumerate.joint_symmetries import joint_symmetries
+    >>> watt = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])))
+    >>> count_by_burnside(Rounds.orders(7), watt)
+    102
+    """
+    types = Counter(tuple(sorted(Counter(map(len, _cycles(row))).items())) for row in symmetries.tolist())
+    fold, total = rounds.slots // rounds.classes, 0
+    for mirror in (1, -1):
+        for turn in range(rounds.slots):
+            image = [(mirror * slot + turn) % rounds.slots for slot in range(rounds.slots)]
+            lengths: Counter[int] = Counter()
+            for cycle in _cycles(image):
+                if len({slot % rounds.classes for slot in cycle}) == len(cycle):
+                    lengths[len(cycle)] += 1
+            for kind, times in types.items():
+                fixed = times
+                for length, number in kind:
+                    fixed *= perm(lengths[length] // fold, number) * (fold * length) ** number
+                total += fixed
+    count, rest = divmod(total, 2 * rounds.slots * len(symmetries))
+    assert rest == 0, "the symmetries are no group"
+    return count
+
+
+def _cycles(permutation: list[int]) -> list[list[int]]:
+    """Return the cycles of a permutation."""
+    seen = [False] * len(permutation)
+    found = []
+    for start in range(len(permutation)):
+        cycle, here = [], start
+        while not seen[here]:
+            seen[here] = True
+            cycle.append(here)
+            here = permutation[here]
+        if cycle:
+            found.append(cycle)
+    return found

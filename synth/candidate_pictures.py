@@ -1,0 +1,107 @@
+"""A picture of each candidate: the circle with links, ICRL and shadow, and with a cone angle the cone."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from enumerate.run import Row, Sink
+from graphs.errors import FileError, UnsolvableError
+from synth.candidates import CandidateJob
+from synth.draw_conformed import draw_conformed
+from synth.draw_figure import save_figure
+from synth.first_order import ConformedChain
+
+__all__ = ["PictureSink", "picture_of_row"]
+
+_MOST = 10_000
+_LAMBDA = np.radians(30.0)
+"""Cone angle of the picture (radians) where the candidate has none of its own."""
+
+
+def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Any:
+    """Return a picture of a candidate, a matplotlib figure.
+
+    Parameters
+    ----------
+    job : CandidateJob
+    row : dict
+        Column to value. An order is drawn with joints, and opposites, evenly spaced.
+
+    Raises
+    ------
+    UnsolvableError
+        If matplotlib is not installed.
+    """
+    linkage = job.linkage(row)
+    chain = ConformedChain.of(linkage.chain, linkage.chain.ground)
+    told = f"{row['order']}   {row['circuits']}   layers {row['layers']}"
+    cone_angle = _LAMBDA if job.cone_angle is None else job.cone_angle
+    return draw_conformed(chain, job.places(row), cone_angle, told, grounded=bool(row["ground"]))
+
+
+class PictureSink:
+    """A sink that draws each row to a new folder, then hands it on.
+
+    Parameters
+    ----------
+    inner : Sink
+    job : CandidateJob
+    folder : Path
+    """
+
+    def __init__(self, inner: Sink, job: CandidateJob, folder: Path) -> None:
+        self._inner, self._job, self._folder = inner, job, folder
+        self._beside: Path | None = None
+        self._number = 0
+
+    def start(self, job: Any) -> int:
+        """Make a folder beside the place of this one.
+
+        Raises
+        ------
+        FileError
+            If there is something at its place, or it cannot be made.
+        """
+        if self._folder.exists():
+            raise FileError(self._folder, "", "exists already", "a new folder")
+        stored = self._inner.start(job)
+        try:
+            self._beside = Path(tempfile.mkdtemp(prefix=f".{self._folder.name[:32]}.", dir=self._folder.parent))
+        except OSError as error:
+            raise FileError(self._folder, "", f"cannot be made: {error.strerror}", "a writable folder") from None
+        return stored
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Draw, and hand on.
+
+        Raises
+        ------
+        UnsolvableError
+            If there are too many.
+        """
+        assert self._beside is not None
+        for row in rows:
+            self._number += 1
+            if self._number > _MOST:
+                raise UnsolvableError(f"more than {_MOST} pictures: ask for fewer candidates")
+            figure = picture_of_row(self._job, dict(zip(self._job.columns, row, strict=True)))
+            save_figure(figure, self._beside / f"{self._number:05d}.png")
+        self._inner.take(number, rows, seconds)
+
+    def finish(self) -> None:
+        """Move the folder to its place."""
+        assert self._beside is not None
+        self._inner.finish()
+        self._beside.chmod(0o755)
+        self._beside.rename(self._folder)
+
+    def abort(self) -> None:
+        """Remove the pictures."""
+        if self._beside is not None:
+            shutil.rmtree(self._beside, ignore_errors=True)
+        self._inner.abort()

@@ -1,0 +1,282 @@
+"""Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.run`).
+
+A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
+Candidates come from `enumerate.conical`; what is said of them from `synth.candidate_values`, `synth.over_angles`,
+`synth.first_order` and `synth.behaviour`. Theory: docs/theory/conical-candidates.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import degrees
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from enumerate.compiled import Ints
+from enumerate.conical import ConicalQuery, Portion
+from enumerate.run import Row, Unit
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.identity import chain_id
+from graphs.loops import JointId, LinkId
+from graphs.sc import SCGraph
+from synth.candidate_rows import Shape, order_rows, placed_rows
+from synth.chain_cycles import loops_of_chain
+from synth.circuit import wrapped
+from synth.conical_file import ConicalLinkage, conical_text
+from synth.first_order import ConformedChain
+
+__all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
+
+Array = npt.NDArray[np.float64]
+_PLACED = 20_000
+_SETS = 1 << 15
+"""Placements of a unit, symmetric ones apart; orders with opposites of a unit of cyclic orders."""
+
+
+@dataclass(frozen=True, slots=True)
+class Filter:
+    """A condition on a column: a value, or limits.
+
+    Attributes
+    ----------
+    column : str
+    value : object
+        What the column must hold; None: see the limits.
+    least, most : int or None
+    """
+
+    column: str
+    value: Any = None
+    least: int | None = None
+    most: int | None = None
+
+    def admits(self, value: Any) -> bool:
+        """Tell whether a value will do."""
+        if self.value is not None:
+            return bool(value == self.value)
+        return (self.least is None or value >= self.least) and (self.most is None or value <= self.most)
+
+
+@dataclass(frozen=True)
+class CandidateJob:
+    """All conical candidates of a chain, as rows.
+
+    Attributes
+    ----------
+    chain : SCGraph
+        Connected.
+    grounds : tuple of (link id or None)
+        Fixed links; None: no link is fixed, and nothing is said of ways.
+    slots : int, optional
+        Joints on so many equal slots of the circle; else cyclic orders.
+    opposites : bool
+        A row for each order with opposites.
+    samples : int, optional
+        So many sets of angles, at random, for each cyclic order.
+    seed : int
+    cone_angle : float, optional
+        lambda, radians: link angles and Grashof classes on that cone. Without it the classes are those on a
+        cylinder.
+    filters : tuple of Filter
+        Only rows that meet all.
+
+    Raises
+    ------
+    InvariantError
+        If the chain is in several parts or has fewer than three joints, a filter names no column, or slots,
+        opposites and samples are not one of the three.
+
+    Examples
+    --------
+    >>> from graphs.loops import Loop
+    >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
+    >>> job = CandidateJob(chain, (0,))
+    >>> for row in job.rows():
+    ...     print(row["order"], row["circuits"], row["linkage"], row["one_way"])
+    O A B C open by angles 2
+    O A C B crossed by angles 2
+    O B A C crossed by angles 4
+    """
+
+    chain: SCGraph
+    grounds: tuple[LinkId | None, ...] = (None,)
+    slots: int | None = None
+    opposites: bool = False
+    samples: int | None = None
+    seed: int = 0
+    cone_angle: float | None = None
+    filters: tuple[Filter, ...] = ()
+
+    def __post_init__(self) -> None:
+        if sum((self.slots is not None, self.opposites, self.samples is not None)) > 1:
+            raise InvariantError("candidates", "slots, opposites and samples together", "one of them")
+        if self.cone_angle is not None and not self.placed:
+            raise InvariantError("lambda", "a cone angle for orders without angles", "slots or samples with it")
+        for ground in self.grounds:
+            ConformedChain.of(self.chain, ground)  # connected, and the ground is a link
+        if not self.chain.independent_loops:
+            raise UnsolvableError("the chain has no loops: every placement of its joints is as good as another")
+        _ = self.query
+        for one in self.filters:
+            if one.column not in self.columns:
+                raise InvariantError("filter", f"no column {one.column!r} here", " ".join(self.columns))
+
+    @property
+    def placed(self) -> bool:
+        """Whether rows have angles."""
+        return self.slots is not None or self.samples is not None
+
+    @cached_property
+    def query(self) -> ConicalQuery:
+        """Which candidates are enumerated."""
+        return ConicalQuery(tuple(self.chain.joints.items()), self.grounds, self.slots, self.opposites)
+
+    @cached_property
+    def _shapes(self) -> dict[LinkId | None, Shape]:
+        loops = loops_of_chain(self.chain)
+        return {ground: self._shape(ground, loops) for ground in self.grounds}
+
+    def _shape(self, ground: LinkId | None, loops: Sequence[Sequence[JointId]]) -> Shape:
+        number = {joint: i for i, joint in enumerate(self.chain.joints)}
+        code = chain_id(self.chain)
+        return Shape(
+            ConformedChain.of(self.chain, ground),
+            code,
+            ground is not None,
+            tuple(map(str, self.chain)),
+            tuple(tuple(number[joint] for joint in loop) for loop in loops),
+        )
+
+    @cached_property
+    def columns(self) -> dict[str, type]:
+        """Names and types of the values of a row."""
+        shape = self._shapes[self.grounds[0]]
+        return shape.columns(self.placed, self.opposites, self.cone_angle is not None, self.slots is not None)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {
+            "enumerate": "conical",
+            **self.query.key,
+            "samples": self.samples,
+            "seed": self.seed if self.samples is not None else None,
+            "lambda_deg": None if self.cone_angle is None else round(degrees(self.cone_angle), 12),
+            "filters": [[one.column, one.value, one.least, one.most] for one in self.filters],
+        }
+
+    def units(self) -> list[Unit]:
+        """Units of some thousands of placements, or of orders with opposites, each."""
+        joints = len(self.chain.joints)
+        if self.slots is not None:
+            most = _PLACED
+        elif self.samples is not None:
+            most = max(_PLACED // self.samples, 1)
+        else:
+            most = _SETS if self.opposites else max(_SETS >> (joints - 1), 1)
+        return [Unit(portion, weight) for portion, weight in self.query.portions(most)]
+
+    def work(self, payload: Portion) -> list[Row]:
+        """Return the rows of a unit."""
+        slots, symmetry = self.query.placements(payload)
+        if not len(slots):
+            return []
+        shape = self._shapes[payload.ground]
+        if not self.placed:
+            size = max(_SETS >> (0 if self.opposites else slots.shape[1] - 1), 1)
+            rows = [
+                row
+                for i in range(0, len(slots), size)
+                for row in order_rows(shape, slots[i : i + size], symmetry[i : i + size], self.opposites)
+            ]
+        elif self.samples is not None:
+            places = self._sampled(slots, payload)
+            slots, symmetry = (np.repeat(one, self.samples, axis=0) for one in (slots, symmetry))
+            rows = placed_rows(shape, places, slots, symmetry, False, self.cone_angle)
+        else:
+            places = np.asarray(slots * (2 * np.pi / self.query.rounds.slots), dtype=float)
+            rows = placed_rows(shape, places, slots, symmetry, True, self.cone_angle)
+        if self.filters:
+            names = list(self.columns)
+            conditions = [(names.index(one.column), one) for one in self.filters]
+            rows = [row for row in rows if all(one.admits(row[place]) for place, one in conditions)]
+        return rows
+
+    def _sampled(self, slots: Ints, payload: Portion) -> Array:
+        """Return azimuths at random in given cyclic orders; the portion seeds them, so that runs agree."""
+        assert self.samples is not None
+        place = self.grounds.index(payload.ground)
+        rng = np.random.default_rng([self.seed, place, *payload.prefix])
+        count, joints = len(slots) * self.samples, slots.shape[1]
+        gaps = rng.exponential(size=(count, joints)) + 1e-6
+        ends = np.cumsum(gaps, axis=1)
+        starts = 2 * np.pi * (ends - gaps) / ends[:, -1:]
+        return np.asarray(np.take_along_axis(starts, np.repeat(slots, self.samples, axis=0), axis=1))
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return all rows as dictionaries, worked out in this process."""
+        return [
+            dict(zip(self.columns, row, strict=True)) for unit in self.units() for row in self.work(unit.payload)
+        ]
+
+    def places(self, row: Mapping[str, Any]) -> Array:
+        """Return the azimuths of the joints of a row, radians; of an order, evenly spaced, opposites too.
+
+        Parameters
+        ----------
+        row : mapping
+            Column to value.
+        """
+        if "azimuths_deg" in row:
+            return np.radians([float(one) for one in str(row["azimuths_deg"]).split()])
+        return np.array([int(one) for one in str(row["slots"]).split()]) * (2 * np.pi / self.query.rounds.slots)
+
+    def linkage(self, row: Mapping[str, Any]) -> ConicalLinkage:
+        """Return the linkage of a row; of an order, one whose joints, with the opposites, are evenly spaced.
+
+        Parameters
+        ----------
+        row : mapping
+            Column to value.
+        """
+        chain, joints = self.chain, list(self.chain.joints)
+        ground = next((link for link in chain if str(link) == row.get("ground")), None)
+        fixed = SCGraph(chain.nodes, chain.joints, chain.loops, ground=ground)
+        places = self.places(row)
+        steps = {
+            (joints[i], joints[i + 1]): float(wrapped(places[i + 1] - places[i])) for i in range(len(joints) - 1)
+        }
+        return ConicalLinkage(fixed, steps=steps, cone_angle=self.cone_angle)
+
+    def mechanism_text(self, row: Mapping[str, Any]) -> str:
+        """Return the file of the linkage of a row, ``synthedra/conical``."""
+        return conical_text(self.linkage(row))
+
+
+@dataclass(frozen=True)
+class CandidateCountJob:
+    """The number of rows of a job, where they have to be made to be counted."""
+
+    rows: CandidateJob
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": "conical", **self.rows.key}
+
+    def units(self) -> list[Unit]:
+        """Return those of the job."""
+        return self.rows.units()
+
+    def work(self, payload: Portion) -> list[Row]:
+        """Return the number of rows of a unit."""
+        return [(len(self.rows.work(payload)),)]

@@ -1,0 +1,102 @@
+"""All loops of a chain: its simple cycles, not only an independent set.
+
+Theory: docs/theory/conical-candidates.md.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import UnsolvableError
+from graphs.loops import JointId, Loop, cyclic_order
+from graphs.sc import SCGraph
+from synth.first_order import ConformedChain
+
+__all__ = ["loops_of_chain", "signed_cycles"]
+
+_MOST_LOOPS = 8
+"""More independent loops have too many cycles to look at them all."""
+
+
+def signed_cycles(chain: ConformedChain) -> npt.NDArray[np.int64]:
+    """Return all simple cycles of a chain as rows of +1, -1 and 0, short ones first.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+
+    Returns
+    -------
+    int64[C, J]
+        +1 or -1 where a cycle passes a joint, by its direction; as `ConformedChain.loops`. Each cycle one way
+        round.
+
+    Raises
+    ------
+    UnsolvableError
+        If there are more than eight independent loops.
+
+    Examples
+    --------
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])
+    >>> np.abs(signed_cycles(ConformedChain.of(watt))).sum(axis=1).tolist()
+    [4, 4, 6]
+    """
+    independent = chain.loops
+    if len(independent) > _MOST_LOOPS:
+        raise UnsolvableError(
+            f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most"
+        )
+    found: dict[tuple[int, ...], npt.NDArray[np.int64]] = {}
+    for factors in product((0, 1, -1), repeat=len(independent)):
+        if next((factor for factor in factors if factor), -1) < 0:  # each cycle one way round
+            continue
+        row = np.array(factors) @ independent
+        if np.abs(row).max() == 1 and _is_simple(chain, row):
+            found[tuple(np.flatnonzero(row))] = row
+    return np.array([found[key] for key in sorted(found, key=lambda key: (len(key), key))], np.int64).reshape(
+        -1, len(chain.joints)
+    )
+
+
+def _is_simple(chain: ConformedChain, row: npt.NDArray[np.int64]) -> bool:
+    """Tell whether joints with weights that add up to 0 at every link are one cycle: each link has two or none."""
+    passed = [[joint for joint in joints if row[joint]] for joints in chain.joints_of]
+    if any(len(joints) not in (0, 2) for joints in passed):
+        return False
+    pairs = [tuple(joints) for joints in passed if joints]
+    reached, todo = {pairs[0][0]}, [pairs[0][0]]
+    while todo:
+        joint = todo.pop()
+        for pair in pairs:
+            if joint in pair:
+                other = sum(pair) - joint
+                if other not in reached:
+                    reached.add(other)
+                    todo.append(other)
+    return len(reached) == int(np.abs(row).sum())
+
+
+def loops_of_chain(chain: SCGraph) -> tuple[tuple[JointId, ...], ...]:
+    """Return the joints of every loop of a chain, in loop order, short loops first.
+
+    Parameters
+    ----------
+    chain : SCGraph
+
+    Examples
+    --------
+    Of a Stephenson chain: its four-bar and two five-bars, whichever of them are named.
+
+    >>> chain = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 2)])
+    >>> loops_of_chain(chain)
+    ((0, 1, 2, 3), (0, 1, 6, 5, 4), (2, 3, 4, 5, 6))
+    """
+    joints = tuple(chain.joints)
+    rows = signed_cycles(ConformedChain.of(chain))
+    return tuple(
+        cyclic_order(Loop(tuple(joints[i] for i in np.flatnonzero(row).tolist())), chain.joints) for row in rows
+    )

@@ -1,0 +1,212 @@
+"""``synth enumerate conical``: all ways a chain can lie on one cone."""
+
+from __future__ import annotations
+
+from math import radians
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from synth.cli.output import about, plain
+from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+
+if TYPE_CHECKING:
+    from enumerate.run import Sink
+    from graphs.loops import LinkId
+    from graphs.sc import SCGraph
+    from synth.candidates import CandidateJob, Filter
+
+__all__ = ["conical"]
+
+_LIMITS = {
+    "open_loops": "open_loops",
+    "layers": "layers",
+    "symmetry": "symmetry",
+    "grashof": "grashof_loops",
+    "rank": "rank",
+    "half_turns": "half_turn_steps",
+}
+"""Option to the column that it limits."""
+_LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
+
+
+@click.command(short_help="All ways a chain of any number of loops can lie on one cone.")
+@click.option(
+    "--chain", "name", required=True, metavar="CHAIN", help="watt, stephenson, ..., an id k1:..., a FILE."
+)
+@click.option("--ground", metavar="LINK", help="The fixed link; all: each different one; none.")
+@click.option("--slots", type=click.IntRange(min=3, max=720), metavar="K", help="Joints on K equal slots.")
+@click.option("--opposites", is_flag=True, help="Tell the orders of joints and points opposite to them apart.")
+@click.option(
+    "--sample", "samples", type=click.IntRange(min=1), metavar="N", help="N random sets of angles an order."
+)
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of --sample.")
+@click.option(
+    "--lambda", "cone_angle", type=float, metavar="DEGREES", help="Cone angle: link angles, Grashof classes."
+)
+@click.option("--linkage", type=click.Choice(_LINKAGE), help="Which ways all moving links can go together.")
+@click.option("--open", "open_loops", type=Limits(), metavar="K", help="Number of open loops: 2, 1..2, 2..")
+@click.option("--layers", type=Limits(), metavar="K", help="Fewest layers: 2, ..3")
+@click.option("--symmetry", type=Limits(), metavar="K", help="Number of symmetries: 1, 2..")
+@click.option("--grashof", type=Limits(), metavar="K", help="Number of four-bar loops that are Grashof.")
+@click.option("--rank", type=Limits(), metavar="K", help="Rank at the conformed position.")
+@click.option("--singular/--regular", default=None, help="Only (no) candidates whose rank is less than full.")
+@click.option("--half-turns", type=Limits(), metavar="K", help="Number of steps of exactly 180 degrees.")
+@click.option("--sort", metavar="[-]COLUMN", help="Sort by a column; - before it: falling.")
+@click.option("--pictures", metavar="FOLDER", help="Draw each candidate, circle and cone, to a new folder.")
+@click.option("--formulas", is_flag=True, help="Print the outward rate of each joint as a formula, and stop.")
+@click.option("--count", "only_count", is_flag=True, help="Print the number only, without filters by a formula.")
+@click.option(
+    "--method", type=click.Choice(["burnside", "orbits"]), help="How --count counts: two ways that must agree."
+)
+@runner_options
+def conical(
+    name: str,
+    ground: str | None,
+    only_count: bool,
+    method: str | None,
+    formulas: bool,
+    sort: str | None,
+    pictures: str | None,
+    cone_angle: float | None,
+    **rest: Any,
+) -> None:
+    """List or count all conical candidates of a chain: its joint axes ruling lines of one right cone.
+
+    Every cyclic order of the joints, once of what a turn, a mirror image or a symmetry of the chain (that leaves
+    the ground link where it is) exchanges. For each: circuits of all loops, how often they wind, layers, and with
+    a ground link which way each moving link can go, over all angles. With --slots or --sample: rank, Grashof
+    classes and first-order behaviour at these angles. Hyatt et al. 2020, section 7.
+
+    \b
+    Examples:
+      synth enumerate conical --chain watt
+      synth enumerate conical --chain four-bar --ground 0 --opposites
+      synth enumerate conical --chain stephenson --ground all --count
+      synth enumerate conical --chain four-bar --ground 0 --slots 6 --sort -grashof_loops
+      synth enumerate conical --chain watt --ground 0 --formulas
+      synth enumerate conical --chain watt --ground all --slots 12 -o watt.sqlite
+      synth enumerate conical --chain data/surfaces/fig11-stephenson.json --open 3 --pictures pictures
+    """
+    options = RunOptions.taken_from(rest)
+    _check_usage(options, only_count, method, sort, pictures)
+    chain = _chain(name)
+    grounds = _grounds(chain, ground)
+    if formulas:
+        _print_formulas(chain, grounds)
+        return
+    from synth.candidates import CandidateCountJob, CandidateJob
+    from synth.cone import checked_cone_angle
+
+    filters = _filters(rest)
+    job = CandidateJob(
+        chain, grounds, rest["slots"], rest["opposites"], rest["samples"], rest["seed"],
+        None if cone_angle is None else float(checked_cone_angle(radians(cone_angle))), filters,
+    )  # fmt: skip
+    if not only_count:
+        run_rows(job, options, lambda sink: _around(sink, job, sort, pictures))
+    elif filters or rest["samples"] is not None:
+        if method is not None:
+            raise click.UsageError("--method counts all candidates; leave out filters and --sample")
+        run_count(CandidateCountJob(job), options)
+    else:
+        from enumerate.conical import ConicalCountJob
+
+        run_count(ConicalCountJob(job.query, method or "burnside"), options)
+
+
+def _check_usage(
+    options: RunOptions, only_count: bool, method: str | None, sort: str | None, pictures: str | None
+) -> None:
+    if method is not None and not only_count:
+        raise click.UsageError("--method says how --count counts; add --count")
+    if only_count and (sort is not None or pictures is not None):
+        raise click.UsageError("--count lists nothing: leave out --sort and --pictures")
+    if options.resume and (sort is not None or pictures is not None):
+        raise click.UsageError("--resume does not go with --sort or --pictures, which need all rows at once")
+
+
+def _chain(name: str) -> SCGraph:
+    """Return the chain of a name, an id or a file."""
+    from enumerate.names import chain_named, chain_names
+    from graphs.conversion import to_sc
+    from graphs.embedding import sc_from_link_joint_graph
+    from graphs.errors import FileError
+    from graphs.files.formats import read
+    from graphs.files.source import load_json
+    from graphs.identity import chain_from_id
+    from graphs.sc import SCGraph
+    from synth.conical_file import read_conical
+
+    if name.lower() in chain_names():
+        return sc_from_link_joint_graph(chain_from_id(chain_named(name)))
+    if name.startswith("k1:"):
+        return sc_from_link_joint_graph(chain_from_id(name))
+    path = Path(name)
+    if not path.exists() and not path.suffix:
+        raise FileError(name, "", "no chain and no file", f"{' '.join(chain_names())}, an id k1:..., or a file")
+    with about(name):
+        if path.suffix.lower() == ".json" and path.is_file():
+            document = load_json(path)
+            if isinstance(document, dict) and document.get("format") == "synthedra/conical":
+                return read_conical(path).chain
+        thing = read(path)
+        sc = thing if isinstance(thing, SCGraph) else to_sc(thing)
+        return sc if sc.loops else sc_from_link_joint_graph(sc)
+
+
+def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
+    """Return the fixed links that an option asks for; without it the chain's own."""
+    from enumerate.joint_symmetries import links_apart
+    from synth.cli.reduce import link_named
+
+    if ground is None:
+        return (chain.ground,)
+    if ground == "none":
+        return (None,)
+    return tuple(links_apart(chain.joints)) if ground == "all" else (link_named(chain, ground),)
+
+
+def _filters(rest: dict[str, Any]) -> tuple[Filter, ...]:
+    from synth.candidates import Filter
+
+    found = [
+        Filter(column, least=rest[option][0], most=rest[option][1])
+        for option, column in _LIMITS.items()
+        if rest[option] is not None
+    ]
+    if rest["singular"] is not None:
+        found.append(Filter("singular", rest["singular"]))
+    if rest["linkage"] is not None:
+        found.append(Filter("linkage", rest["linkage"].replace("-", " ")))
+    return tuple(found)
+
+
+def _around(sink: Sink, job: CandidateJob, sort: str | None, pictures: str | None) -> Sink:
+    """Sort the rows before they go to the sink, and draw them."""
+    if pictures is not None:
+        from synth.candidate_pictures import PictureSink
+
+        sink = PictureSink(sink, job, Path(pictures))
+    if sort is not None:
+        from enumerate.sinks import SortedSink
+
+        sink = SortedSink(sink, sort)
+    return sink
+
+
+def _print_formulas(chain: SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
+    from synth.first_order import ConformedChain
+    from synth.outward import outward_rates
+
+    click.echo("[a b c] = 4 sin((b - a) / 2) sin((c - b) / 2) sin((c - a) / 2); joints stand for their azimuths.")
+    click.echo("A link can go one way if all its joints have one sign and lie on half the circle.")
+    for ground in grounds:
+        if ground is None:
+            raise click.UsageError("--formulas needs a fixed link: --ground LINK, or all")
+        conformed = ConformedChain.of(chain, ground)
+        click.echo(f"link {plain(ground)} fixed, joint: outward rate, to one common scale")
+        for joint, found in zip(conformed.joints, outward_rates(conformed), strict=True):
+            if found:
+                click.echo(f"  {plain(joint)}: {plain(found[0].text(conformed.joints), 2000)}")

@@ -1,0 +1,370 @@
+"""What an order of the joints alone decides, and what is left to the angles.
+
+An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
+a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
+sign of every step and how often loops wind, and the layers. Ways of links follow from the signs of outward rates
+(`synth.outward`): certain where the terms of a formula agree, or are smaller than others (`synth.dominance`), or
+other signs refute the opposite (`synth.sign_reasoning`); else both are looked for by samples.
+
+Theory: docs/theory/conical-candidates.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+import numpy.typing as npt
+
+from enumerate.compiled import Ints
+from graphs.errors import NumericalError
+from synth.first_order import ConformedChain
+from synth.outward import OutwardRate, joint_rates, outward_rates
+from synth.sign_reasoning import Relations
+
+__all__ = [
+    "Allowed",
+    "OverAngles",
+    "Prepared",
+    "never_singular",
+    "orders_with_opposites",
+    "over_angles",
+    "sampled",
+]
+
+Array = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
+Signs = npt.NDArray[np.int8]
+_SAMPLES = 64
+_ROWS = 500
+"""Orders for which angles are sampled together."""
+_BY_CHORDS = 16
+"""Formulas whose terms are compared with each other."""
+
+
+class Allowed(IntEnum):
+    """What an order allows a link, or the whole linkage."""
+
+    BOTH = 0
+    """Both ways, whatever the angles: exclusively transmobile."""
+    ONE = 1
+    """One way, whatever the angles: intra- or extramobile, by the sense of the motion."""
+    ANGLES = 2
+    """Either, by the angles; there are examples of both."""
+    UNKNOWN = 3
+    """One of these; nothing else was met in samples, and nothing proves it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """A chain of one freedom with all that does not depend on the order of its joints.
+
+    Attributes
+    ----------
+    chain : ConformedChain
+    formulas : tuple of tuples of OutwardRate
+        Of the outward rate of each joint.
+    rates : tuple of tuples of OutwardRate
+        Of the rate of each joint.
+    relations : Relations
+    moving : tuple of tuples of int
+        Joints of each link that are not the ground's.
+    """
+
+    chain: ConformedChain
+    formulas: tuple[tuple[OutwardRate, ...], ...]
+    rates: tuple[tuple[OutwardRate, ...], ...]
+    relations: Relations
+    moving: tuple[tuple[int, ...], ...]
+
+    @classmethod
+    def of(cls, chain: ConformedChain) -> Prepared:
+        """Prepare a chain.
+
+        Raises
+        ------
+        UnsolvableError
+            If it has not one freedom by its count.
+        """
+        formulas = outward_rates(chain)
+        moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
+        return cls(chain, formulas, joint_rates(chain), Relations.of(chain), moving)
+
+
+@dataclass(frozen=True, slots=True)
+class OverAngles:
+    """What orders with opposites allow.
+
+    Attributes
+    ----------
+    links : int8[..., N]
+        `Allowed` for each link, in the order of the chain's links; the ground link is `Allowed.ONE`.
+    linkage : int8[...]
+        For the whole: whether all moving links can go the same way.
+    signs : int8[..., J]
+        Certain signs of the outward rates of joints, for one sense of the motion; 0 if not certain, or of the
+        ground.
+    """
+
+    links: npt.NDArray[np.int8]
+    linkage: npt.NDArray[np.int8]
+    signs: npt.NDArray[np.int8]
+
+
+def orders_with_opposites(order: npt.ArrayLike) -> Ints:
+    """Return all orders with opposites of cyclic orders, as places on 2 J slots.
+
+    Parameters
+    ----------
+    order : int64[..., J]
+        Place of each joint in the cyclic order, 0 to J - 1.
+
+    Returns
+    -------
+    int64[..., 2^(J - 1), J]
+        The joint at place 0 stays there.
+
+    Examples
+    --------
+    >>> orders_with_opposites([0, 1, 2]).tolist()
+    [[0, 1, 2], [0, 1, 5], [0, 2, 4], [0, 4, 5]]
+    """
+    places = np.asarray(order, dtype=np.int64)
+    return np.moveaxis(np.take(_sorted_places(places.shape[-1]), places, axis=1), 0, -2)
+
+
+@cache
+def _sorted_places(joints: int) -> Ints:
+    """Return all choices of one of each two opposite slots of 2 J, in rising order: int64[2^(J - 1), J]."""
+    sides = (np.arange(2 ** (joints - 1))[:, np.newaxis] >> np.arange(joints - 2, -1, -1)) & 1
+    far = np.arange(1, joints) + joints * sides
+    return np.array(sorted([0, *sorted(row)] for row in far.tolist()), np.int64)
+
+
+def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Array:
+    """Return azimuths at random that follow each other as orders with opposites say.
+
+    Parameters
+    ----------
+    places : int64[..., J]
+        On 2 J slots.
+    samples : int
+    seed : int
+
+    Returns
+    -------
+    float[..., samples, J]
+        Azimuths between 0 and 2 pi, radians. The same random gaps for all orders; some even, some very uneven.
+
+    Examples
+    --------
+    >>> bool((np.argsort(sampled([0, 2, 4]), axis=-1) == [0, 1, 2]).all())
+    True
+    """
+    slots = np.asarray(places, dtype=np.int64)
+    joints = slots.shape[-1]
+    rng = np.random.default_rng(seed)
+    shape = np.geomspace(0.15, 6.0, samples)[:, np.newaxis]
+    gaps = rng.gamma(shape, size=(samples, joints)) + 1e-4
+    half = np.cumsum(gaps, axis=1) - gaps[:, :1]
+    half = np.pi * (half + gaps[:, :1]) / gaps.sum(axis=1, keepdims=True)
+    half = np.concatenate([np.zeros((samples, 1)), half[:, :-1]], axis=1)
+    found = half[:, slots % joints] + np.pi * (slots >= joints)
+    return np.moveaxis(found, 0, -2)
+
+
+def over_angles(chain: ConformedChain | Prepared, places: npt.ArrayLike, samples: int = _SAMPLES) -> OverAngles:
+    """Return what orders with opposites allow the links of a chain of one freedom.
+
+    Parameters
+    ----------
+    chain : ConformedChain or Prepared
+    places : int64[..., J]
+        Orders with opposites: places on 2 J slots.
+    samples : int, optional
+        Sets of angles looked at where signs are not certain; sixteen times as many where these are alike.
+
+    Raises
+    ------
+    UnsolvableError
+        If the chain has not one freedom by its count.
+
+    Examples
+    --------
+    Hyatt et al. 2021, Table 4: a four-bar with all joints on half the circle, ground and coupler two sides.
+
+    >>> from graphs.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
+    >>> found = over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]])
+    >>> [Allowed(one).name for one in found.linkage]
+    ['ONE', 'BOTH']
+    """
+    slots = np.asarray(places, dtype=np.int64)
+    shape = slots.shape[:-1]
+    given = chain if isinstance(chain, Prepared) else Prepared.of(chain)
+    made = _over_angles(given, slots.reshape(-1, slots.shape[-1]), samples)
+    return OverAngles(
+        made.links.reshape(*shape, -1), made.linkage.reshape(shape), made.signs.reshape(*shape, slots.shape[-1])
+    )
+
+
+def _over_angles(given: Prepared, slots: Ints, samples: int) -> OverAngles:
+    """Return what orders with opposites int64[r, J] allow: by signs that are certain, by refuting, by samples."""
+    relations, moving = given.relations, given.moving
+    middle = slots * (np.pi / slots.shape[-1])
+    sines = np.sign(np.sin(middle[:, :, np.newaxis] - middle[:, np.newaxis, :]).round(9)).astype(np.int8)
+    known = relations.start(len(slots))
+    for joint in range(slots.shape[-1]):
+        known[:, relations.rate(joint)] = _certain(given.rates[joint], slots)
+        if given.formulas[joint]:
+            sign = _certain(given.formulas[joint], slots)
+            for number in range(1, len(moving)):
+                if joint in moving[number]:
+                    known[:, relations.rho(number, joint)] = sign
+    if relations.follow(known, sines).any():
+        raise NumericalError("signs of outward rates contradict each other")
+    round_ = _goes_round(given.chain, slots)
+    links = np.full((len(slots), len(moving)), Allowed.ONE, np.int8)
+    for number in range(1, len(moving)):
+        parts = [relations.rho(number, joint) for joint in moving[number]]
+        links[:, number] = _by_reason(relations, known, sines, parts, round_[:, number])
+    owner = {joint: number for number in range(1, len(moving)) for joint in moving[number]}
+    parts = [relations.rho(number, joint) for joint, number in owner.items()]
+    linkage = _by_reason(relations, known, sines, parts, (links[:, 1:] == Allowed.BOTH).any(axis=1))
+    for number in (samples, 16 * samples):  # many sets of angles only for what a few do not settle
+        open_ = np.flatnonzero((links == Allowed.UNKNOWN).any(axis=1) | (linkage == Allowed.UNKNOWN))
+        for begin in range(0, len(open_), _ROWS):
+            mine = open_[begin : begin + _ROWS]
+            links[mine], linkage[mine] = _looked_for(given, slots[mine], links[mine], linkage[mine], number)
+    signs = np.zeros(slots.shape, np.int8)
+    for joint, number in owner.items():
+        signs[:, joint] = known[:, relations.rho(number, joint)]
+    return OverAngles(links, linkage, signs)
+
+
+def _by_reason(
+    relations: Relations, known: Signs, sines: Signs, parts: list[int], both: Flags
+) -> npt.NDArray[np.int8]:
+    """Return what is allowed to what has these outward rates, as far as it is certain; else UNKNOWN.
+
+    Where the known signs do not tell, each thinkable set of signs is tried, and left out if it contradicts itself.
+    """
+    found = _from_signs(known[:, parts], both)
+    left = np.flatnonzero(found == Allowed.UNKNOWN)
+    if not len(left):
+        return found
+    one, two = _possible(relations, known[left], sines[left], parts)
+    found[left] = np.where(one & two, Allowed.UNKNOWN, np.where(one, Allowed.ONE, Allowed.BOTH))
+    return found
+
+
+def _possible(relations: Relations, known: Signs, sines: Signs, parts: list[int]) -> tuple[Flags, Flags]:
+    """Tell whether all of some rates can have one sign, and whether two of them can have different ones."""
+
+    def refuted(assumed: dict[int, int]) -> Flags:
+        trial = known.copy()
+        wrong = np.zeros(len(known), bool)
+        for part, sign in assumed.items():
+            wrong |= (trial[:, part] != 0) & (trial[:, part] != sign)
+            trial[:, part] = sign
+        return wrong | relations.follow(trial, sines)
+
+    one = ~refuted(dict.fromkeys(parts, 1)) | ~refuted(dict.fromkeys(parts, -1))
+    two = np.zeros(len(known), bool)
+    for a, b in combinations(parts, 2):
+        two |= ~refuted({a: 1, b: -1}) | ~refuted({a: -1, b: 1})
+    return one, two
+
+
+def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Tell of which cyclic orders it is certain that the rank at the conformed position is full for all angles.
+
+    It is where some minor of the closure equations has terms of one sign only. False: not certain.
+
+    Parameters
+    ----------
+    chain : ConformedChain or Prepared
+        Of one freedom.
+    places : float[..., J]
+        Azimuths between 0 and 2 pi in the order asked for.
+
+    Examples
+    --------
+    A four-bar has full rank if no two of its joints coincide:
+
+    >>> from graphs.sc import SCGraph
+    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
+    [True, True]
+    """
+    t = np.asarray(places, dtype=float)
+    sure = np.zeros(t.shape[:-1], bool)
+    given = chain if isinstance(chain, Prepared) else Prepared.of(chain)
+    for formulas in given.rates:
+        for formula in formulas:
+            sure |= formula.signs(t) != 0
+    return sure
+
+
+def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.int8]:
+    """Return the sign of a joint's outward rate where one of its formulas tells."""
+    middle = slots * (np.pi / slots.shape[-1])
+    found = np.zeros(len(slots), np.int8)
+    for formula in formulas:
+        left = found == 0
+        if not left.any():
+            break
+        found[left] = formula.signs(middle[left])
+    for formula in formulas[:_BY_CHORDS]:
+        left = found == 0
+        if not left.any():
+            break
+        found[left] = formula.signs_by_chords(slots[left])
+    return found
+
+
+def _goes_round(chain: ConformedChain, slots: Ints) -> Flags:
+    """Tell which links have joints on no half of the circle: bool[..., N]."""
+    half = slots.shape[-1]
+    found = []
+    for joints in chain.joints_of:
+        mine = np.sort(slots[..., list(joints)], axis=-1)
+        gaps = np.roll(mine, -1, axis=-1) - mine
+        gaps[..., -1] += 2 * half
+        found.append(gaps.max(axis=-1) < half)
+    return np.stack(found, axis=-1)
+
+
+def _from_signs(signs: npt.NDArray[np.int8], goes_round: Flags) -> npt.NDArray[np.int8]:
+    """Return what certain signs of the moving joints of a link allow it."""
+    plus, minus = (signs > 0).any(axis=-1), (signs < 0).any(axis=-1)
+    one = (signs > 0).all(axis=-1) | (signs < 0).all(axis=-1) | (signs.shape[-1] == 1)
+    found = np.where(one, Allowed.ONE, Allowed.UNKNOWN)
+    return np.where(goes_round | (plus & minus), Allowed.BOTH, found).astype(np.int8)
+
+
+def _looked_for(
+    given: Prepared, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
+) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.int8]]:
+    """Look for angles with which links of unknown ways go one way, and others with which they go both."""
+    t = sampled(slots, samples)
+    rates = np.zeros(t.shape)
+    every = sorted({joint for joints in given.moving for joint in joints})
+    for joint in every:
+        rates[..., joint] = given.formulas[joint][0].values(t)
+
+    def seen(joints: Sequence[int], before: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
+        mine = rates[..., list(joints)]
+        clear = np.abs(mine).min(axis=-1) > 1e-9 * np.abs(rates).max(axis=-1)
+        one = (mine > 0).all(axis=-1) | (mine < 0).all(axis=-1)
+        either = (one & clear).any(axis=-1) & (~one & clear).any(axis=-1)
+        return np.where((before == Allowed.UNKNOWN) & either, Allowed.ANGLES, before).astype(np.int8)
+
+    found = links.copy()
+    for number in range(1, links.shape[1]):
+        found[:, number] = seen(given.moving[number], links[:, number])
+    return found, seen(every, linkage)

@@ -1,0 +1,240 @@
+"""Conical candidates as a job: rebuilt and moved in space, on slots, sampled, filtered, resumed."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+
+import numpy as np
+import pytest
+from conical import STEPHENSON, WATT
+from rebuilt import Space, closing_error
+
+from enumerate.chains import chains
+from enumerate.conical import Portion, count_conical_orders
+from enumerate.joint_symmetries import links_apart
+from enumerate.rounds import canonical_row
+from enumerate.run import Interrupted
+from enumerate.run import run as run_job
+from enumerate.sinks import RowSink
+from enumerate.store import SqliteSink, read_rows
+from graphs.embedding import sc_from_link_joint_graph
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.sc import SCGraph
+from synth.behaviour import link_arcs
+from synth.candidates import CandidateJob, Filter
+from synth.chain_cycles import loops_of_chain
+from synth.common_cones import common_cones
+from synth.cone import link_angles
+from synth.conformed import angles_between, joint_axes
+from synth.first_order import ConformedChain
+from synth.multiloop import link_pairs, loop_steps
+
+
+def eight_bars():
+    return [sc_from_link_joint_graph(graph) for graph in chains(8, 1)]
+
+
+def named(row, key):
+    return dict(part.rsplit(":", 1) for part in row[key].split())
+
+
+# ---- rebuilt in space ---------------------------------------------------------------------------------------
+
+
+def random_candidates(rng, count):
+    """Jobs with lambda, and one row of each."""
+    pool = [(chain, ground) for chain in (WATT, STEPHENSON) for ground in links_apart(chain.joints)]
+    pool += [(chain, rng.choice(list(chain))) for chain in eight_bars()]
+    for number in range(count):
+        chain, ground = pool[number % len(pool)]
+        lam, joints = rng.uniform(0.15, 1.2), len(chain.joints)
+        one = CandidateJob(chain, (ground,), samples=1, seed=number, cone_angle=lam)
+        order = canonical_row(rng.permutation(joints), one.query.symmetries(ground), joints)
+        [row] = one.work(Portion(ground, order))
+        yield one, dict(zip(one.columns, row, strict=True))
+
+
+@pytest.mark.parametrize("count", [60, pytest.param(1000, marks=pytest.mark.slow)])
+def test_random_candidates_rebuilt_in_space(count, rng):
+    """Axes on the cone, loops close, sums are multiples of 360 degrees, links go where velocities say."""
+    told = 0
+    for job, row in random_candidates(rng, count):
+        lam, places = job.cone_angle, job.places(row)
+        chain = job.chain
+        axes = joint_axes(places, lam)
+        np.testing.assert_allclose(np.arctan2(-axes[:, 1], np.hypot(axes[:, 0], axes[:, 2])), lam, atol=1e-12)
+        joints = list(chain.joints)
+        angles = {pair: float(x) for pair, x in named(row, "link_angles_deg").items()}
+        for pair in link_pairs(chain):
+            i, j = (joints.index(joint) for joint in pair)
+            measured = float(np.degrees(angles_between(axes[i], axes[j])))
+            assert angles[f"{joints[min(i, j)]}-{joints[max(i, j)]}"] == pytest.approx(measured, abs=1e-7)
+        every = loops_of_chain(chain)
+        whole = SCGraph(chain.nodes, chain.joints, chain.loops)
+        for loop, turns in zip(every, row["turns"].split(), strict=True):
+            mine = places[[joints.index(joint) for joint in loop]]
+            steps = np.remainder(np.roll(mine, -1) - mine + np.pi, 2 * np.pi) - np.pi
+            rounds = steps.sum() / (2 * np.pi)
+            assert abs(rounds - round(rounds)) < 1e-9
+            assert abs(round(rounds)) == int(turns)
+            if len(loop) > 2:
+                assert closing_error(steps, link_angles(steps, lam), lam) < 1e-7
+        assert all(abs(loop.circuits.residual) < 1e-9 for loop in loop_steps(whole, places))
+        if row["freedoms"] == 1:
+            told += moved_as_told(job, row, places, lam)
+    assert told > 0.9 * count
+
+
+def moved_as_told(job, row, places, lam):
+    """Move a candidate a little both ways; compare with its row. Whether something could be compared."""
+    ground = next(link for link in job.chain if str(link) == row["ground"])
+    space = Space(job.chain, ground, places, lam)
+    _, values, rows = np.linalg.svd(space.jacobian())
+    rank = int((values > 1e-9 * values[0]).sum())
+    assert rank == row["rank"]
+    if values[rank - 1] < 1e-3 * values[0]:
+        return False  # so near to a singular position that a small motion is not small
+    h = 2e-5
+    ahead, back = (space.moved(sign * h * rows[-1]) for sign in (1, -1))
+    assert max(ahead[1], back[1]) < 1e-12
+    conformed = ConformedChain.of(job.chain, ground)
+    arcs = dict(zip(conformed.links, link_arcs(conformed, places), strict=True))
+    rates = {}
+    for link in job.chain:
+        start, length = arcs[link]
+        points = start + length * np.linspace(0, 1, 25)
+        rates[link] = (space.outward(link, points, ahead[0]) - space.outward(link, points, back[0])) / (2 * h)
+    scale = max(np.abs(one).max() for one in rates.values())
+    ways = named(row, "ways")
+    first = {}
+    for link, rate in rates.items():
+        out, into = (rate > 1e-4 * scale).any(), (rate < -1e-4 * scale).any()
+        edge = np.abs(rate[[0, -1]]).min() < 1e-3 * scale and str(ways[str(link)]) == "both"
+        if link == ground:
+            assert not out
+            assert not into
+        elif out and into:
+            assert ways[str(link)] == "both"
+        elif (out or into) and not edge:  # slower links are too near to standing still for finite differences
+            first[link] = 1 if out else -1
+            assert ways[str(link)] in ("outward", "inward")
+    sense = {first[link] * (1 if ways[str(link)] == "outward" else -1) for link in first}
+    assert len(sense) <= 1  # one sense of the motion for all links
+    return True
+
+
+# ---- the job --------------------------------------------------------------------------------------------------
+
+
+def test_slots_agree_with_the_counts_and_the_inverse(rng):
+    """Link angles of a candidate with lambda give the cone, its signs and its azimuths back."""
+    job = CandidateJob(STEPHENSON, (0,), slots=8, cone_angle=np.radians(35))
+    rows = job.rows()
+    assert len(rows) == count_conical_orders(job.query)
+    assert len({row["slots"] for row in rows}) == len(rows)
+    assert not any(row["singular"] for row in rows)
+    for row in rng.choice(rows, 25):
+        places = job.places(row)
+        at = dict(zip(STEPHENSON.joints, places, strict=True))
+        half = [abs(abs(np.remainder(at[a] - at[b], 2 * np.pi)) - np.pi) < 1e-9 for a, b in link_pairs(STEPHENSON)]
+        assert sum(half) == row["half_turn_steps"] == len(row["half_turns"].split())
+        if any(half):
+            continue
+        angles = {(a, b): float(link_angles(at[b] - at[a], job.cone_angle)) for a, b in link_pairs(STEPHENSON)}
+        cones, families = common_cones(STEPHENSON, angles)
+        assert not families
+        hits = [one for one in cones if abs(one.cone_angle - job.cone_angle) < 1e-7]
+        assert any(
+            np.abs(np.exp(1j * np.array([one.places[j] for j in at])) - turned).max() < 1e-5
+            for one in hits
+            for turned in (
+                np.exp(1j * (places - places[0])) * np.exp(1j * one.places[next(iter(at))]),
+                np.exp(-1j * (places - places[0])) * np.exp(1j * one.places[next(iter(at))]),
+            )
+        )
+
+
+def test_samples_are_the_same_every_time_and_in_any_process():
+    job = CandidateJob(WATT, (0, 1), samples=2, seed=5)
+    rows = job.rows()
+    assert len(rows) == 2 * (192 + 360)
+    found = []
+    run_job(pickle.loads(pickle.dumps(job)), RowSink(lambda names, more: found.extend(more)), workers=2)
+    assert found == [tuple(row.values()) for row in rows]
+    assert rows != CandidateJob(WATT, (0, 1), samples=2, seed=6).rows()
+    for row in rows[::50]:
+        places = job.places(row)
+        assert [str(j) for j in np.array(list(WATT.joints))[np.argsort(places)]] == row["order"].split()
+
+
+def test_filters_keep_what_they_say():
+    job = CandidateJob(WATT, (0,), slots=8)
+    rows = job.rows()
+    kept = CandidateJob(
+        WATT, (0,), slots=8, filters=(Filter("open_loops", least=1, most=2), Filter("linkage", "one way"))
+    ).rows()
+    assert kept == [row for row in rows if 1 <= row["open_loops"] <= 2 and row["linkage"] == "one way"]
+    assert 0 < len(kept) < len(rows)
+
+
+def test_a_stopped_run_goes_on(tmp_path):
+    store = tmp_path / "watt.sqlite"
+    job = CandidateJob(WATT, (0, 1), slots=9, cone_angle=0.3)
+
+    def press(progress):
+        if progress.done == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(Interrupted):
+        run_job(job, SqliteSink(store), report=press)
+    assert 0 < len(list(read_rows(store))) < 15_168
+    progress = run_job(job, SqliteSink(store, resume=True), workers=2)
+    assert progress.done == progress.units > 3
+    found = list(read_rows(store))
+    assert len(found) == count_conical_orders(job.query) == 15_168
+    assert found[:200] == [tuple(row.values()) for row in job.rows()[:200]]
+
+
+def test_a_chain_of_two_freedoms_and_singular_eight_bars():
+    five = SCGraph(5, [(0, 1), (1, 2), (2, 3), (3, 4), (4, 0)])
+    rows = CandidateJob(five, (0,)).rows()
+    assert len(rows) == 8
+    assert "linkage" not in rows[0]
+    placed = CandidateJob(five, (0,), slots=6).rows()
+    assert {row["linkage"] for row in placed} == {"not known"}
+    assert {row["rank"] for row in placed} == {3}
+    # a chain without four-bar loops can be singular: two of its joints' rates vanish, or three axes' planes agree
+    hard = next(sc for sc in eight_bars() if min(map(len, loops_of_chain(sc))) > 4)
+    job = CandidateJob(hard, slots=10)
+    some = [row for unit in job.units()[:40] for row in job.work(unit.payload)]
+    ranks = {row[list(job.columns).index("rank")] for row in some}
+    assert 9 in ranks
+
+
+def test_parallel_joints_and_eight_bars_by_orders():
+    rows = CandidateJob(SCGraph(3, {"a": (0, 1), "b": (0, 1), "c": (1, 2), "d": (2, 0)}), (2,)).rows()
+    assert {row["loops"] for row in rows} == {"a-b a-c-d b-c-d"}
+    job = CandidateJob(eight_bars()[0], (0,))
+    first = job.units()[0]
+    found = [dict(zip(job.columns, row, strict=True)) for row in job.work(first.payload)]
+    assert found
+    assert all(sum(row[k] for k in ("one_way", "both_ways", "by_angles", "not_known")) == 512 for row in found)
+
+
+@pytest.mark.parametrize(
+    ("make", "error", "message"),
+    [
+        (lambda: CandidateJob(WATT, slots=9, opposites=True), InvariantError, "together"),
+        (lambda: CandidateJob(WATT, cone_angle=0.3), InvariantError, "without angles"),
+        (lambda: CandidateJob(WATT, ("x",)), InvariantError, "no link"),
+        (lambda: CandidateJob(WATT, slots=6), InvariantError, "6 slots for 7 joints"),
+        (lambda: CandidateJob(WATT, filters=(Filter("rank", 6),)), InvariantError, "no column 'rank'"),
+        (lambda: CandidateJob(SCGraph(4, [(0, 1), (1, 2), (2, 3)])), UnsolvableError, "no loops"),
+        (lambda: CandidateJob(SCGraph(4, [(0, 1), (2, 3)])), InvariantError, "connected"),
+    ],
+)
+def test_jobs_that_make_no_sense(make, error, message):
+    with pytest.raises(error, match=message):
+        make()
