@@ -11,6 +11,7 @@ from typing import Any
 
 import bliss_bind
 
+from graphs.identity import HEURISTIC
 from graphs.loops import JointId, LinkId
 from graphs.sc import SCGraph
 
@@ -82,7 +83,7 @@ def _coloured(
         edges += [(number["class", k], number["joint", joint]) for joint in one.joints]
     palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
     graph = bliss_bind.Graph()
-    graph.set_splitting_heuristic(bliss_bind.Graph.SplittingHeuristic.shs_fm)
+    graph.set_splitting_heuristic(HEURISTIC)
     for colour in colours:
         graph.add_vertex(palette[colour])
     for a, b in edges:
