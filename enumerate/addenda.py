@@ -23,7 +23,7 @@ from typing import Any
 
 import networkx as nx
 
-from enumerate.run import Row, Unit
+from enumerate.run import Counting, Row, Unit
 from graphs.centres import CentreClass
 from graphs.class_identity import class_code, symmetries_of_links
 from graphs.edits import Edit, add_loop
@@ -239,7 +239,7 @@ def _row(one: Addendum) -> Row:
 
 
 @dataclass(frozen=True)
-class AddendumCountJob:
+class AddendumCountJob(Counting):
     """The number of addenda; rows are numbers to be added.
 
     Attributes
@@ -248,11 +248,6 @@ class AddendumCountJob:
     """
 
     rows: AddendumJob
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from enumerate.contracted import contracted_graphs
 from enumerate.counting import count_by_burnside, count_by_orbits, count_of_graph
 from enumerate.cycle_index import count_connected
 from enumerate.fractionated import Block, block_choices, glued, shapes
-from enumerate.run import Row, Unit
+from enumerate.run import Counting, Row, Unit
 from graphs.errors import UnsolvableError
 from graphs.identity import chain_from_id
 
@@ -188,7 +188,7 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
 
 
 @dataclass(frozen=True)
-class CountJob:
+class CountJob(Counting):
     """The number of chains that a query asks for; each row is a number to be added.
 
     Attributes
@@ -199,11 +199,6 @@ class CountJob:
 
     query: ChainQuery
     method: str = "orbits"
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:
@@ -231,15 +226,10 @@ class CountJob:
 
 
 @dataclass(frozen=True)
-class _RowCountJob:
+class _RowCountJob(Counting):
     """The number of rows of a job, where they have to be made to be counted."""
 
     rows: ChainJob
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:
@@ -270,15 +260,10 @@ class _RowCountJob:
 
 
 @dataclass(frozen=True)
-class _ConnectedCountJob:
+class _ConnectedCountJob(Counting):
     """The number of chains, fractionated ones too, from cycle indices: one unit."""
 
     query: ChainQuery
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from typing import Any
 from enumerate.compiled import Ints
 from enumerate.joint_symmetries import joint_symmetries
 from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
-from enumerate.run import Row, Unit
+from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops import JointId, LinkId
 
@@ -167,7 +167,7 @@ def count_conical_orders(query: ConicalQuery, method: str = "burnside") -> int:
 
 
 @dataclass(frozen=True)
-class ConicalCountJob:
+class ConicalCountJob(Counting):
     """The number of candidates; rows are numbers to be added.
 
     Attributes
@@ -178,11 +178,6 @@ class ConicalCountJob:
 
     query: ConicalQuery
     method: str = "burnside"
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from typing import Any, Protocol
 
 from graphs.errors import StoreError
 
-__all__ = ["Interrupted", "Job", "Progress", "Row", "Sink", "Unit", "run"]
+__all__ = ["Counting", "Interrupted", "Job", "Progress", "Row", "Sink", "Unit", "run"]
 
 Row = tuple[Any, ...]
 
@@ -73,6 +73,15 @@ class Job(Protocol):
 
     def work(self, payload: Any) -> list[Row]:
         """Return the rows of a unit, always the same."""
+
+
+class Counting:
+    """What jobs that count have in common: their rows are numbers to be added."""
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One number."""
+        return {"count": int}
 
 
 class Sink(Protocol):

@@ -13,7 +13,7 @@ from enumerate.compiled import Bytes, Ints
 from enumerate.contracted_maps import contracted_maps
 from enumerate.embedded import outer_faces
 from enumerate.maps import decode_map
-from enumerate.run import Row, Unit
+from enumerate.run import Counting, Row, Unit
 from enumerate.sc_listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc_query import SCQuery
 from enumerate.sc_rows import SC_COLUMNS, DrawnChains, sc_rows_of
@@ -149,7 +149,7 @@ class SCJob:
 
 
 @dataclass(frozen=True)
-class SCCountJob:
+class SCCountJob(Counting):
     """The number of SC graphs of which nothing is asked but what their chains show; rows are numbers to be added.
 
     Attributes
@@ -163,11 +163,6 @@ class SCCountJob:
     query: SCQuery
     method: str = "orbits"
     outside: bool = True
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:
@@ -194,15 +189,10 @@ class SCCountJob:
 
 
 @dataclass(frozen=True)
-class _ListedCountJob:
+class _ListedCountJob(Counting):
     """The number of SC graphs that have to be made to be counted."""
 
     query: SCQuery
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import numpy as np
 from enumerate.compiled import Bytes, Ints
 from enumerate.open_edge_choices import numbers_of_placements
 from enumerate.plane_trees import plane_trees
-from enumerate.run import Row, Unit
+from enumerate.run import Counting, Row, Unit
 from enumerate.sc_jobs import MapPart, drawn_of, map_units
 from enumerate.sc_listing import codes_of_all
 from enumerate.sc_query import SCQuery
@@ -250,7 +250,7 @@ def _ranges(mechanisms: Mechanisms) -> Iterator[tuple[_Range, int]]:
 
 
 @dataclass(frozen=True)
-class SCDCountJob:
+class SCDCountJob(Counting):
     """The number of placements of open edges on some mechanisms; rows are numbers to be added.
 
     Attributes
@@ -262,11 +262,6 @@ class SCDCountJob:
 
     mechanisms: Mechanisms
     method: str = "burnside"
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from enumerate.compiled import Ints
 from enumerate.conical import ConicalQuery, Portion
-from enumerate.run import Row, Unit
+from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity import chain_id
 from graphs.loops import JointId, LinkId
@@ -258,15 +258,10 @@ class CandidateJob:
 
 
 @dataclass(frozen=True)
-class CandidateCountJob:
+class CandidateCountJob(Counting):
     """The number of rows of a job, where they have to be made to be counted."""
 
     rows: CandidateJob
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
 
     @property
     def key(self) -> dict[str, Any]:
