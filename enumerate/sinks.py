@@ -7,8 +7,6 @@ enter it in ``SINKS``.
 from __future__ import annotations
 
 import json
-import shutil
-import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -18,7 +16,7 @@ from enumerate.store import SqliteSink
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.native import dumps
-from graphs.files.source import Beside
+from graphs.files.source import Beside, FolderBeside
 from graphs.identity import chain_from_id
 from graphs.map_identity import mechanism_from_map_id
 from graphs.sc import SCGraph
@@ -246,7 +244,7 @@ class FolderSink:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._beside: Path | None = None
+        self._folder: FolderBeside | None = None
         self._number = 0
 
     def start(self, job: Job) -> int:
@@ -257,37 +255,31 @@ class FolderSink:
         FileError
             If there is something at its place, or it cannot be made.
         """
-        if self._path.exists():
-            raise FileError(self._path, "", "exists already", "a new folder")
+        self._folder = FolderBeside(self._path)
         self._columns = tuple(job.columns)
         self._text = getattr(job, "mechanism_text", mechanism_text)
-        try:
-            self._beside = Path(tempfile.mkdtemp(prefix=f".{self._path.name[:32]}.", dir=self._path.parent))
-        except OSError as error:
-            raise FileError(self._path, "", f"cannot be made: {error.strerror}", "a writable folder") from None
         return 0
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write a file a row."""
-        assert self._beside is not None
+        assert self._folder is not None
         for row in rows:
             self._number += 1
             text = self._text(dict(zip(self._columns, row, strict=True)))
             try:
-                (self._beside / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
+                (self._folder.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
             except OSError as error:
                 raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
 
     def finish(self) -> None:
         """Move the folder to its place."""
-        assert self._beside is not None
-        self._beside.chmod(0o755)
-        self._beside.rename(self._path)
+        assert self._folder is not None
+        self._folder.commit()
 
     def abort(self) -> None:
         """Remove what was written."""
-        if self._beside is not None:
-            shutil.rmtree(self._beside, ignore_errors=True)
+        if self._folder is not None:
+            self._folder.discard()
 
 
 SINKS: dict[str, Callable[[Path], Sink]] = {

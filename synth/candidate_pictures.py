@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from enumerate.run import Row, Sink
-from graphs.errors import FileError, UnsolvableError
+from graphs.errors import UnsolvableError
+from graphs.files.source import FolderBeside
 from synth.candidates import CandidateJob
 from synth.draw_conformed import draw_conformed
 from synth.draw_figure import save_figure
@@ -55,8 +54,8 @@ class PictureSink:
     """
 
     def __init__(self, inner: Sink, job: CandidateJob, folder: Path) -> None:
-        self._inner, self._job, self._folder = inner, job, folder
-        self._beside: Path | None = None
+        self._inner, self._job, self._place = inner, job, folder
+        self._folder: FolderBeside | None = None
         self._number = 0
 
     def start(self, job: Any) -> int:
@@ -67,14 +66,8 @@ class PictureSink:
         FileError
             If there is something at its place, or it cannot be made.
         """
-        if self._folder.exists():
-            raise FileError(self._folder, "", "exists already", "a new folder")
-        stored = self._inner.start(job)
-        try:
-            self._beside = Path(tempfile.mkdtemp(prefix=f".{self._folder.name[:32]}.", dir=self._folder.parent))
-        except OSError as error:
-            raise FileError(self._folder, "", f"cannot be made: {error.strerror}", "a writable folder") from None
-        return stored
+        self._folder = FolderBeside(self._place)
+        return self._inner.start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Draw, and hand on.
@@ -84,24 +77,23 @@ class PictureSink:
         UnsolvableError
             If there are too many.
         """
-        assert self._beside is not None
+        assert self._folder is not None
         for row in rows:
             self._number += 1
             if self._number > _MOST:
                 raise UnsolvableError(f"more than {_MOST} pictures: ask for fewer candidates")
             figure = picture_of_row(self._job, dict(zip(self._job.columns, row, strict=True)))
-            save_figure(figure, self._beside / f"{self._number:05d}.png")
+            save_figure(figure, self._folder.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)
 
     def finish(self) -> None:
         """Move the folder to its place."""
-        assert self._beside is not None
+        assert self._folder is not None
         self._inner.finish()
-        self._beside.chmod(0o755)
-        self._beside.rename(self._folder)
+        self._folder.commit()
 
     def abort(self) -> None:
         """Remove the pictures."""
-        if self._beside is not None:
-            shutil.rmtree(self._beside, ignore_errors=True)
+        if self._folder is not None:
+            self._folder.discard()
         self._inner.abort()

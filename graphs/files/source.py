@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -17,7 +18,17 @@ from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, shown
 
-__all__ = ["MOST_NODES", "Beside", "Checker", "json_text", "load_json", "read_text", "write_chunks", "write_text"]
+__all__ = [
+    "MOST_NODES",
+    "Beside",
+    "Checker",
+    "FolderBeside",
+    "json_text",
+    "load_json",
+    "read_text",
+    "write_chunks",
+    "write_text",
+]
 
 MOST_NODES = 2_000_000
 """Most links or vertices that a bare number in a file may call for."""
@@ -74,6 +85,38 @@ def write_chunks(path: Path, chunks: Iterable[str]) -> None:
         beside.commit()
     finally:
         beside.discard()
+
+
+class FolderBeside:
+    """A new folder, made beside its place and moved there when it is complete.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    FileError
+        If there is something at its place, or it cannot be made.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if path.exists():
+            raise FileError(path, "", "exists already", "a new folder")
+        self._place = path
+        try:
+            self.path = Path(tempfile.mkdtemp(prefix=f".{path.name[:32]}.", dir=path.parent))
+        except OSError as error:
+            raise FileError(path, "", f"cannot be made: {error.strerror}", "a writable folder") from None
+
+    def commit(self) -> None:
+        """Move the folder to its place."""
+        self.path.chmod(0o755)
+        self.path.rename(self._place)
+
+    def discard(self) -> None:
+        """Remove the folder, unless it was moved."""
+        shutil.rmtree(self.path, ignore_errors=True)
 
 
 class Beside:
