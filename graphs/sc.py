@@ -5,7 +5,7 @@ Source: Wiener 2016, section 3.3 (the SC connectivity graph). Theory: docs/theor
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
@@ -247,38 +247,6 @@ class SCGraph(nx.MultiGraph):
     def with_loops(self, loops: Iterable[Loop], closing: Iterable[Loop] = ()) -> SCGraph:
         """Return the SC graph with the same links and joints and other loops."""
         return SCGraph(self.nodes, self._joints, loops, closing=closing, ground=self.ground)
-
-    def with_crease(self, link: LinkId, moved: Collection[JointId]) -> SCGraph:
-        """Return the graph with a link creased; see :func:`graphs.edits.add_crease`."""
-        from graphs.edits import add_crease
-
-        return add_crease(self, link, moved).graph
-
-    def with_loop(
-        self,
-        a: LinkId,
-        b: LinkId,
-        links: int,
-        *,
-        centre: Centre | str = Centre.FINITE,
-        through: Sequence[JointId] | None = None,
-    ) -> SCGraph:
-        """Return the graph with a chain of links between two; see :func:`graphs.edits.add_loop`."""
-        from graphs.edits import add_loop
-
-        return add_loop(self, a, b, links, centre=centre, through=through).graph
-
-    def with_ride_along(self, a: LinkId, b: LinkId) -> SCGraph:
-        """Return the graph with a ride-along on two links; see :func:`graphs.edits.add_ride_along`."""
-        from graphs.edits import add_ride_along
-
-        return add_ride_along(self, a, b).graph
-
-    def with_locked(self, joint: JointId) -> SCGraph:
-        """Return the graph with a joint locked; see :func:`graphs.edits.lock_joint`."""
-        from graphs.edits import lock_joint
-
-        return lock_joint(self, joint).graph
 
     def relabel(
         self,

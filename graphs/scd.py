@@ -277,36 +277,6 @@ class SCDGraph(SCGraph):
             ground=self.ground,
         )
 
-    def with_crease_between(self, link: LinkId, start: int, end: int | None = None) -> SCGraph:
-        """Return the graph with a link creased; see :func:`graphs.scd_edits.crease_link`."""
-        from graphs.scd_edits import crease_link
-
-        return crease_link(self, link, start, end).graph
-
-    def with_ride_along_at(self, joint: JointId, sides: tuple[int, int] = (3, 3)) -> SCGraph:
-        """Return the graph with a ride-along at a joint; see :func:`graphs.scd_edits.ride_along`."""
-        from graphs.scd_edits import ride_along
-
-        return ride_along(self, joint, sides).graph
-
-    def with_implicit_centre(self, loop: int) -> SCGraph:
-        """Return the graph with a centre off its links; see :func:`graphs.scd_edits.make_implicit`."""
-        from graphs.scd_edits import make_implicit
-
-        return make_implicit(self, loop).graph
-
-    def with_explicit_centre(self, loop: int) -> SCGraph:
-        """Return the graph with a centre on its links; see :func:`graphs.scd_edits.make_explicit`."""
-        from graphs.scd_edits import make_explicit
-
-        return make_explicit(self, loop).graph
-
-    def with_locked(self, joint: JointId) -> SCGraph:
-        """Return the graph with a joint locked; see :func:`graphs.scd_edits.lock_hinge`."""
-        from graphs.scd_edits import lock_hinge
-
-        return lock_hinge(self, joint).graph
-
     def relabel(
         self,
         links: Mapping[Any, LinkId] | None = None,

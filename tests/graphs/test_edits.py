@@ -134,15 +134,15 @@ def test_a_lock_splits_a_loop_that_then_passes_a_link_twice():
     assert sorted(len(loop.joints) for loop in edit.graph.loops) == [2, 2]
 
 
-def test_methods_return_new_graphs():
-    assert len(SIX.with_ride_along(0, 1)) == 8
-    assert len(SIX.with_loop(0, 3, 2, through=[0, 1, 2])) == 8
-    assert len(SIX.with_crease(0, [0])) == 7
-    assert len(SIX.with_locked(0)) == 5
-    assert type(FAN.with_locked(0)) is type(FAN)
-    assert len(FAN.with_ride_along_at(0)) == 7
-    assert len(FAN.with_crease_between(0, CENTRE)) == 6
-    assert FAN.with_implicit_centre(0).with_explicit_centre(0).is_identical(FAN)
+def test_edits_return_new_graphs():
+    assert len(add_ride_along(SIX, 0, 1).graph) == 8
+    assert len(add_loop(SIX, 0, 3, 2, through=[0, 1, 2]).graph) == 8
+    assert len(add_crease(SIX, 0, [0]).graph) == 7
+    assert len(lock_joint(SIX, 0).graph) == 5
+    assert type(lock_hinge(FAN, 0).graph) is type(FAN)
+    assert len(ride_along(FAN, 0).graph) == 7
+    assert len(crease_link(FAN, 0, CENTRE).graph) == 6
+    assert make_explicit(make_implicit(FAN, 0).graph, 0).graph.is_identical(FAN)
     assert len(SIX) == 6
 
 
@@ -164,7 +164,7 @@ def test_methods_return_new_graphs():
         (lambda: ride_along(FAN, 9), "9 is no joint"),
         (lambda: ride_along(FAN, 0, (2, 3)), "a link of 2 sides"),
         (lambda: lock_hinge(FAN, 9), "9 is no joint"),
-        (lambda: ride_along(FAN.with_ride_along_at(0), 0), "no room for a ride-along at joint 0: no open edges"),
+        (lambda: ride_along(ride_along(FAN, 0).graph, 0), "no room for a ride-along at joint 0: no open edges"),
     ],
 )
 def test_edits_that_cannot_be(make, message):
