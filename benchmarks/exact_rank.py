@@ -25,7 +25,7 @@ import numpy as np
 from graphs.closure import closure_of
 from graphs.exact import centres_of_loops, closure_modulo, exact_mobility, matrix_modulo
 from graphs.fields import PRIMES, PrimeField, Reals
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.panels import scd_from_panels
 from graphs.pose import dense
 from graphs.realisation import Realisation, realise

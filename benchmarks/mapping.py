@@ -16,7 +16,7 @@ from time import perf_counter
 
 import numpy as np
 
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.sc import SCGraph
 from synth.behaviour import behaviour
 from synth.cone import cone_reach, link_angles

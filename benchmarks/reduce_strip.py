@@ -17,7 +17,7 @@ from time import perf_counter
 
 import numpy as np
 
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.reduction import reduce_addenda
 from graphs.sc import SCGraph
 

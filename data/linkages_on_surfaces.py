@@ -8,7 +8,7 @@ from __future__ import annotations
 from entries import entries_of
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.sc import SCGraph
 
 cones = entries_of("hyatt", "Hyatt et al. 2020", "000")

@@ -8,7 +8,7 @@ import networkx as nx
 from entries import entries_of
 from wiener_2016 import WATT, WATT_LOOPS
 
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.panels import scd_from_panels
 from graphs.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.reconstruction import reconstruct

@@ -11,7 +11,7 @@ from enumerate.strings import joint_chain, strings
 from graphs.analogues import planar_analogue
 from graphs.edits import add_loop
 from graphs.embedding import sc_from_link_joint_graph
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.panels import scd_from_panels
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph

@@ -24,14 +24,14 @@ from typing import Any
 import networkx as nx
 
 from enumerate.run import Counting, Row, Unit
-from graphs.centres import CentreClass
 from graphs.class_identity import class_code, symmetries_of_links
 from graphs.edits import Edit, add_loop
 from graphs.errors import InvariantError
 from graphs.exact import exact_mobility
 from graphs.files.native import dumps
 from graphs.identity import chain_id
-from graphs.loops import Centre, JointId, LinkId
+from graphs.loops.classes import CentreClass
+from graphs.loops.loop import Centre, JointId, LinkId
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
 
@@ -101,7 +101,7 @@ def addenda(mechanism: SCGraph, delta_dof: int) -> Iterator[Addendum]:
     --------
     On a spherical four-bar: a ride-along on its joint, dyads between neighbours and opposite links, spatial loops:
 
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> [(one.kind, len(one.through)) for one in addenda(four_bar, 0)]
     [('ride-along', 1), ('dyad', 3), ('spatial loop', 1), ('dyad', 2), ('spatial loop', 2)]

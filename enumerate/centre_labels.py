@@ -1,7 +1,7 @@
 """Labels of faces, and the classes of loops with one centre that follow from them, compiled.
 
 Two loops that share two joints have one centre, and so have two classes of loops that share two joints between
-them (`graphs.centres`). Sets of joints are words of 64 bits. Theory: docs/theory/centre-classes.md.
+them (`graphs.loops.classes`). Sets of joints are words of 64 bits. Theory: docs/theory/centre-classes.md.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from enumerate.joint_symmetries import joint_symmetries
 from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 
 __all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
 

@@ -14,7 +14,7 @@ import numpy as np
 from enumerate.compiled import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity import HEURISTIC
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 
 __all__ = ["joint_symmetries", "links_apart"]
 

@@ -65,7 +65,7 @@ def scd_graphs_of(mechanism: SCGraph, max_degree: int, **options: Any) -> Iterat
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> len(list(scd_graphs_of(four_bar, 4)))
     7

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from enumerate.strings import ChainString
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 from graphs.rotation import Side
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph

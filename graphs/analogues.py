@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TypeVar
 
 from graphs.errors import UnsolvableError
-from graphs.loops import Centre, Loop
+from graphs.loops.loop import Centre, Loop
 from graphs.sc import SCGraph
 
 __all__ = ["generalised_form", "planar_analogue", "spherical_analogue"]

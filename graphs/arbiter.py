@@ -38,7 +38,7 @@ def with_exact(report: MobilityReport, mechanism: SCGraph, *, demanded: bool = F
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> from graphs.report import mobility_report
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> with_exact(mobility_report(four_bar), four_bar).exact["mobility"]

@@ -21,7 +21,7 @@ import networkx as nx
 
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 from graphs.mobility import loop_form
 from graphs.report import mechanism_class
 from graphs.sc import SCGraph
@@ -97,7 +97,7 @@ def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tupl
     --------
     A four-bar driven at its ground: the crank, then a dyad.
 
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> [group.links for group in assur_groups(four_bar, 0, [0])]
     [(1,), (2, 3)]
@@ -198,7 +198,7 @@ def reduce_assur(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> Assu
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> [link for link in reduce_assur(four_bar, 0, [0]).graph]
     [0, 1]

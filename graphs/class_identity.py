@@ -12,7 +12,7 @@ from typing import Any
 import bliss_bind
 
 from graphs.identity import HEURISTIC
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 from graphs.sc import SCGraph
 
 __all__ = ["class_code", "symmetries_of_links"]
@@ -29,7 +29,7 @@ def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
     >>> one = SCGraph(4, ring, [Loop((0, 1, 2, 3))])
     >>> class_code(one) == class_code(one.relabel({0: "a"}))
@@ -48,7 +48,7 @@ def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> len(symmetries_of_links(four_bar)) > 0
     True

@@ -15,7 +15,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.fields import Field
-from graphs.loops import Centre, JointId, Joints, Loop, added_independent
+from graphs.loops.loop import Centre, JointId, Joints, Loop, added_independent
 from graphs.realisation import Line, Point
 from graphs.sc import SCGraph
 

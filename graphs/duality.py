@@ -15,7 +15,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.errors import InvariantError
-from graphs.loops import Centre, Loop, split_dependent
+from graphs.loops.loop import Centre, Loop, split_dependent
 from graphs.sc import SCGraph
 from graphs.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
 

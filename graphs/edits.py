@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop, cut_into_cycles, dependent_loop
+from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles, dependent_loop
 from graphs.relative import relative_cgk, relative_spherical_system
 from graphs.report import mobility_report
 from graphs.sc import SCGraph

@@ -13,7 +13,7 @@ from itertools import pairwise
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.loops import Centre, JointId, Joints, LinkId, Loop
+from graphs.loops.loop import Centre, JointId, Joints, LinkId, Loop
 from graphs.sc import SCGraph
 
 __all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]

@@ -13,10 +13,10 @@ from typing import Any
 
 from flint import nmod_mat
 
-from graphs.centres import class_of_loop
 from graphs.closure import Closure, closure_of
 from graphs.errors import NumericalError
 from graphs.fields import PRIMES, PrimeField
+from graphs.loops.classes import class_of_loop
 from graphs.realisation import Realisation, realise
 from graphs.sc import SCGraph
 
@@ -75,7 +75,7 @@ def exact_mobility(
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> stephenson = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (2, 4), (4, 5), (5, 0)],
     ...                      [Loop((0, 1, 2, 3)), Loop((2, 3, 6, 5, 4))])
     >>> exact_mobility(stephenson).mobility

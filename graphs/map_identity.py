@@ -20,10 +20,10 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.centres import centre_classes
 from graphs.closure import signed_cycle
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop, cut_into_cycles
+from graphs.loops.classes import centre_classes
+from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles
 from graphs.rotation import Rotation, Side, trace_faces
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph

@@ -16,7 +16,7 @@ import networkx as nx
 from graphs.closure import closure_of
 from graphs.exact import centres_of_loops, matrix_modulo
 from graphs.fields import PRIMES, PrimeField
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 from graphs.realisation import realise
 from graphs.sc import SCGraph
 
@@ -155,7 +155,7 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> mobility_without(four_bar, 0)
     3

@@ -12,7 +12,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.rotation import face_cycles, trace_faces
 from graphs.scd import SCDGraph
 from graphs.sheet import sides_of_face

@@ -18,7 +18,7 @@ from graphs.closure import Closure, closure_of
 from graphs.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.fields import Reals
-from graphs.loops import JointId
+from graphs.loops.loop import JointId
 from graphs.mobility import overconstraint
 from graphs.polyhedron import PolyhedronModel
 from graphs.realisation import Line, join

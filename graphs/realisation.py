@@ -18,7 +18,7 @@ from typing import Any
 
 from graphs.errors import UnsolvableError
 from graphs.fields import Field, null_vectors
-from graphs.loops import Centre, JointId
+from graphs.loops.loop import Centre, JointId
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
 from graphs.scd_rules import points_of_joints
@@ -76,7 +76,7 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
     ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
     >>> [len(joints) for joints, _ in incidence_of(watt).points]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphs.loops import LinkId
+from graphs.loops.loop import LinkId
 from graphs.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.scd import FaceKind, SCDGraph
 

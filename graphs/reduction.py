@@ -14,7 +14,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import JointId, LinkId, cut_into_cycles, dependent_loop, in_span_of
+from graphs.loops.loop import JointId, LinkId, cut_into_cycles, dependent_loop, in_span_of
 from graphs.reduction_state import Removal, WorkingGraph
 from graphs.report import mobility_report
 from graphs.sc import SCGraph

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 import networkx as nx
 
-from graphs.centres import centre_classes
-from graphs.loops import JointId, Joints, LinkId, Loop, in_span_of
+from graphs.loops.classes import centre_classes
+from graphs.loops.loop import JointId, Joints, LinkId, Loop, in_span_of
 from graphs.sc import SCGraph
 
 __all__ = ["Removal", "WorkingGraph"]

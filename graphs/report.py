@@ -13,7 +13,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import shown
-from graphs.loops import Centre
+from graphs.loops.loop import Centre
 from graphs.mobility import (
     closed_surface,
     loop_form,

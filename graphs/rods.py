@@ -17,11 +17,11 @@ from typing import Any
 
 from flint import nmod_mat
 
-from graphs.centres import centre_classes
 from graphs.errors import NumericalError, UnsolvableError
 from graphs.exact import ExactMobility
 from graphs.fields import PRIMES, Field, PrimeField, null_vectors
-from graphs.loops import Loop
+from graphs.loops.classes import centre_classes
+from graphs.loops.loop import Loop
 from graphs.polyhedron import GROUND, PolyhedronModel, VertexId
 
 __all__ = ["exact_mobility_of_model", "place_model", "velocity_constraints"]
@@ -123,7 +123,8 @@ def _spans(model: PolyhedronModel) -> dict[Hashable, list[tuple[Hashable, ...]]]
 def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
     """Yield the points on the line of each rod that passes through a centre: its ends, and the centres.
 
-    Two points that two lines share are one (`graphs.centres`): remote centres, or a remote centre and a vertex.
+    Two points that two lines share are one (`graphs.loops.classes`): remote centres, or a remote centre and a
+    vertex.
     """
     lines = [[frozenset(rod) for rod in centre.rods] for centre in model.centres if centre.rods]
     if len(lines) < len(model.centres):

@@ -13,9 +13,9 @@ from typing import Any, NoReturn
 
 import networkx as nx
 
-from graphs.centres import CentreClass, centre_classes
 from graphs.errors import InvariantError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop, check_independent, cyclic_order, dependent_loop
+from graphs.loops.classes import CentreClass, centre_classes
+from graphs.loops.loop import Centre, JointId, LinkId, Loop, check_independent, cyclic_order, dependent_loop
 
 __all__ = ["SCGraph"]
 
@@ -227,7 +227,7 @@ class SCGraph(nx.MultiGraph):
         return centre_classes((*self.loops, *self.closing))
 
     def centre_classes(self) -> tuple[CentreClass, ...]:
-        """Return the classes of loops that share a centre; see :func:`graphs.centres.centre_classes`.
+        """Return the classes of loops that share a centre; see :func:`graphs.loops.classes.centre_classes`.
 
         Loop indices count the independent loops first, then the closing ones.
         """

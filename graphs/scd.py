@@ -15,7 +15,7 @@ from types import MappingProxyType
 from typing import Any
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import JointId, LinkId, Loop
+from graphs.loops.loop import JointId, LinkId, Loop
 from graphs.rotation import Face, Side, check_rotation, face_cycles, link_vertices, trace_faces
 from graphs.sc import SCGraph
 from graphs.scd_rules import check_rules, check_sides
@@ -88,7 +88,7 @@ class SCDGraph(SCGraph):
     --------
     A spherical four-bar of four triangles round one explicit centre:
 
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> fourbar = SCDGraph(
     ...     4,
     ...     [(0, 1), (1, 2), (2, 3), (3, 0)],

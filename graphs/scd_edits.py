@@ -12,7 +12,7 @@ from typing import Any
 
 from graphs.edits import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.relative import relative_polyhedron
 from graphs.rotation import Side
 from graphs.scd import FaceKind, SCDGraph

@@ -30,7 +30,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, TypeVar
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.rotation import Face, Rotation
 
 if TYPE_CHECKING:

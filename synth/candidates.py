@@ -21,7 +21,7 @@ from enumerate.conical import ConicalQuery, Portion
 from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity import chain_id
-from graphs.loops import JointId, LinkId
+from graphs.loops.loop import JointId, LinkId
 from graphs.sc import SCGraph
 from synth.candidate_rows import Shape, order_rows, placed_rows
 from synth.chain_cycles import loops_of_chain
@@ -92,7 +92,7 @@ class CandidateJob:
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
     >>> job = CandidateJob(chain, (0,))
     >>> for row in job.rows():

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from graphs.loops import JointId, Loop, cyclic_order
+from graphs.loops.loop import JointId, Loop, cyclic_order
 from graphs.sc import SCGraph
 from synth.first_order import ConformedChain
 

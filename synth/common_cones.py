@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops import JointId
+from graphs.loops.loop import JointId
 from graphs.sc import SCGraph
 from synth.circuit import circuits, wrapped
 from synth.cone import cone_reach
@@ -110,7 +110,7 @@ def common_cones(
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
     >>> angles = dict(zip([("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")], np.radians([120, 95, 45, 85])))
     >>> cones, _ = common_cones(chain, angles)

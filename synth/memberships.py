@@ -11,7 +11,7 @@ from dataclasses import replace
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.loops import JointId
+from graphs.loops.loop import JointId
 from graphs.sc import SCGraph
 
 __all__ = ["memberships"]
@@ -42,7 +42,7 @@ def memberships(chain: SCGraph, names: Sequence[JointId]) -> tuple[SCGraph, ...]
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> len(memberships(four_bar, "OABC"))
     1

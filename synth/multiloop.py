@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import JointId
+from graphs.loops.loop import JointId
 from graphs.sc import SCGraph
 from synth.circuit import Circuits, circuits, wrapped
 from synth.cone import link_angles
@@ -104,7 +104,7 @@ def loop_steps(chain: SCGraph, places: npt.ArrayLike) -> tuple[LoopSteps, ...]:
 
     Examples
     --------
-    >>> from graphs.loops import Loop
+    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> (loop,) = loop_steps(four_bar, np.radians([[0, 90, 180, 270], [0, 180, 90, 270]]))
     >>> loop.circuits.names().tolist(), np.degrees(loop.angles(np.radians(30))[0]).round(4).tolist()

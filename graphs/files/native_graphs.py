@@ -9,7 +9,7 @@ from typing import Any
 from graphs.errors import FileError, shown
 from graphs.files.names import count_or_names, head, is_count, names, written
 from graphs.files.source import Checker
-from graphs.loops import Centre, JointId, LinkId, Loop
+from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
 

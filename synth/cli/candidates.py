@@ -13,7 +13,7 @@ from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_opt
 
 if TYPE_CHECKING:
     from enumerate.run import Sink
-    from graphs.loops import LinkId
+    from graphs.loops.loop import LinkId
     from graphs.sc import SCGraph
     from synth.candidates import CandidateJob, Filter
 

@@ -13,7 +13,7 @@ from synth.cli.output import console, plain, table
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from graphs.loops import JointId
+    from graphs.loops.loop import JointId
     from graphs.sc import SCGraph
     from synth.behaviour import Behaviour
     from synth.common_cones import CommonCone, CommonFamily
@@ -230,7 +230,7 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None) -> OnCone:
 
 def _ring(links: int) -> SCGraph:
     """Return a loop whose link i lies between joints i and i + 1, counted from 1."""
-    from graphs.loops import Loop
+    from graphs.loops.loop import Loop
     from graphs.sc import SCGraph
 
     joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}

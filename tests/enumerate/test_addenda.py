@@ -9,7 +9,7 @@ from graphs.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.exact import exact_mobility
 from graphs.files.formats import read
-from graphs.loops import Centre, Loop
+from graphs.loops.loop import Centre, Loop
 from graphs.reduction import reduce_addenda
 from graphs.sc import SCGraph
 

@@ -18,7 +18,7 @@ from enumerate.sinks import RowSink
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.exact import exact_mobility
 from graphs.identity import automorphisms_of, chain_id
-from graphs.loops import Centre, Loop
+from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import map_id, mechanism_from_map_id
 from graphs.overconstraint import diagnose
 from graphs.reduction import reduce_addenda

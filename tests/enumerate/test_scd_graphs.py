@@ -22,7 +22,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.exact import exact_mobility
 from graphs.files.formats import read
 from graphs.files.native import dumps
-from graphs.loops import Centre, Loop
+from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import map_id, mechanism_from_map_id
 from graphs.reconstruction import reconstruct
 from graphs.rods import exact_mobility_of_model

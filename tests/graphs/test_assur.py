@@ -7,7 +7,7 @@ from graphs.assur import assur_groups, reduce_assur
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.exact import exact_mobility
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.sc import SCGraph
 
 

@@ -5,7 +5,7 @@ from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
 from graphs.class_identity import class_code
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.overconstraint import diagnose
 from graphs.sc import SCGraph
 

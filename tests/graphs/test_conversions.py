@@ -7,7 +7,7 @@ from strategies import scd_graphs
 
 from graphs.conversion import CONVERSIONS, to_polyhedron, to_sc, to_scd, to_sheet, to_vertex_edge
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.panels import oriented_panels, scd_from_panels
 from graphs.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.report import mobility_report

@@ -6,7 +6,7 @@ from strategies import randoms, sc_graphs, scd_graphs
 
 from graphs.edits import add_crease, add_loop, add_ride_along, fresh, lock_joint
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.panels import scd_from_panels
 from graphs.reduction import reduce_addenda
 from graphs.relative import relative_polyhedron

@@ -16,7 +16,7 @@ from graphs.errors import SynthedraError, UnsolvableError
 from graphs.exact import closure_modulo, exact_mobility, matrix_modulo
 from graphs.fields import PRIMES, PrimeField, Reals, null_vectors
 from graphs.files.formats import read
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.mobility import loop_form
 from graphs.overconstraint import diagnose, mobility_without
 from graphs.realisation import Incidence, incidence_of, realise, realise_points

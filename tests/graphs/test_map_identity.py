@@ -5,7 +5,7 @@ from strategies import random_scd
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from graphs.loops import Centre, Loop
+from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import drawing_of, map_code, map_id, map_text, mechanism_from_map_id, symbols_of
 from graphs.rotation import trace_faces
 from graphs.sc import SCGraph

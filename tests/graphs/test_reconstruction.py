@@ -2,7 +2,7 @@ from hypothesis import given
 from strategies import scd_graphs
 
 from graphs.duality import mechanism_of_sheet
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.mobility import mobility_of_model
 from graphs.panels import scd_from_panels
 from graphs.reconstruction import internal_rods, reconstruct, vertex_steps

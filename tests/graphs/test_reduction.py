@@ -10,7 +10,7 @@ from strategies import randoms, scd_graphs
 from graphs.class_identity import class_code
 from graphs.errors import InvariantError
 from graphs.files.formats import read
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.panels import scd_from_panels
 from graphs.reduction import RULES, reduce_addenda
 from graphs.report import mobility_report
@@ -81,7 +81,7 @@ def random_addenda(rng: random.Random, *, size: int = 12) -> SCGraph:
 
 def shuffled_basis(sc: SCGraph, rng: random.Random) -> SCGraph:
     """Replace loops by sums with loops of their class, where these are cycles."""
-    from graphs.loops import cyclic_order
+    from graphs.loops.loop import cyclic_order
 
     current = list(sc.loops)
     for _ in range(rng.randint(0, 4)):

@@ -10,7 +10,7 @@ from strategies import randoms, sc_graphs
 from graphs.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.embedding import block_cycles, sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.report import mobility_report
 from graphs.sc import SCGraph
 

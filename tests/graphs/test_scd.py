@@ -7,7 +7,7 @@ from hypothesis import given
 from strategies import random_scd, randoms, scd_graphs
 
 from graphs.errors import InvariantError
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.mobility import loop_form, polyhedron_equation
 from graphs.report import mobility_report
 from graphs.scd import FaceKind, SCDGraph

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.sc import SCGraph
 from synth.cone import link_angles
 from synth.fourbar import can_close

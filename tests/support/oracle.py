@@ -5,7 +5,7 @@ from __future__ import annotations
 import networkx as nx
 import numpy as np
 
-from graphs.loops import Centre
+from graphs.loops.loop import Centre
 from graphs.sc import SCGraph
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import combinations_with_replacement, permutations, product
 
 from graphs.errors import InvariantError
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.rotation import trace_faces
 from graphs.scd import SCDGraph
 

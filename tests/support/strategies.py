@@ -9,7 +9,7 @@ import networkx as nx
 from hypothesis import strategies as st
 
 from graphs.errors import InvariantError
-from graphs.loops import Centre, Loop
+from graphs.loops.loop import Centre, Loop
 from graphs.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.rotation import face_cycles, trace_faces
 from graphs.sc import SCGraph

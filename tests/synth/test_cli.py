@@ -15,7 +15,7 @@ from commands import run
 from strategies import ODD_NAMES
 
 from graphs.files.formats import read, write
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.polyhedron import PolyhedronModel
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph

@@ -11,7 +11,7 @@ import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.sc import SCGraph
 from synth.common_cones import common_cones
 from synth.cone import link_angles, map_to_cones

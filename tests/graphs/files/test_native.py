@@ -11,7 +11,7 @@ from strategies import ODD_NAMES, models, randoms, sc_graphs, scd_graphs
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.files.native import document, dumps, from_document
-from graphs.loops import Loop
+from graphs.loops.loop import Loop
 from graphs.sc import SCGraph
 from graphs.scd import SCDGraph
 from graphs.vertexedge import VertexEdgeGraph, sc_from_vertex_edge

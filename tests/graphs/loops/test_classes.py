@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from strategies import sc_graphs
 
-from graphs.centres import centre_classes, class_of_loop
 from graphs.errors import InvariantError
-from graphs.loops import Centre, Loop
+from graphs.loops.classes import centre_classes, class_of_loop
+from graphs.loops.loop import Centre, Loop
 
 
 def test_watt_has_two_classes_and_stephenson_one():

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from graphs.errors import InvariantError, shown
-from graphs.loops import Centre, JointId, Loop
+from graphs.loops.loop import Centre, JointId, Loop
 
 __all__ = ["CentreClass", "centre_classes", "class_of_loop"]
 

@@ -1,0 +1,1 @@
+"""Loops of a mechanism, and which of them share a centre."""
