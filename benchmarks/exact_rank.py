@@ -26,12 +26,12 @@ from graphs.closure import closure_of
 from graphs.exact import centres_of_loops, closure_modulo, exact_mobility, matrix_modulo
 from graphs.fields import PRIMES, PrimeField, Reals
 from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
 from graphs.panels import scd_from_panels
 from graphs.pose import dense
 from graphs.realisation import Realisation, realise
 from graphs.reconstruction import reconstruct
 from graphs.rods import exact_mobility_of_model
-from graphs.sc import SCGraph
 
 RUNS = 25
 SYMPY = """

@@ -17,7 +17,7 @@ from time import perf_counter
 import numpy as np
 
 from graphs.loops.loop import Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.behaviour import behaviour
 from synth.cone import cone_reach, link_angles
 from synth.cyclic import circumradii, cone_angles

@@ -18,8 +18,8 @@ from time import perf_counter
 import numpy as np
 
 from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
 from graphs.reduction import reduce_addenda
-from graphs.sc import SCGraph
 
 SIZES = [12_500, 25_000, 50_000, 100_000, 200_000, 400_000]
 RUNS = 3

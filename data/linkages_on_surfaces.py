@@ -9,7 +9,7 @@ from entries import entries_of
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
 from graphs.loops.loop import Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 cones = entries_of("hyatt", "Hyatt et al. 2020", "000")
 cylinders = entries_of("hyatt", "Hyatt et al. 2021", "001")

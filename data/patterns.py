@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, pi, sin, sqrt, tan
 
-from graphs.sheet import Sheet
+from graphs.mechanism.sheet import Sheet
 
 Point = tuple[float, ...]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
 from graphs.files.source import json_text, write_text
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.conical_file import ConicalLinkage, write_conical
 from synth.memberships import memberships
 

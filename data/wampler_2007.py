@@ -9,11 +9,11 @@ from entries import entries_of
 from wiener_2016 import WATT, WATT_LOOPS
 
 from graphs.loops.loop import Loop
+from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.panels import scd_from_panels
-from graphs.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.reconstruction import reconstruct
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
 
 wampler = entries_of("wampler", "Wampler 2007", "004")
 

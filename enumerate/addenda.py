@@ -32,8 +32,8 @@ from graphs.files.native import dumps
 from graphs.identity import chain_id
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre, JointId, LinkId
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["ADDENDUM_COLUMNS", "Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
 

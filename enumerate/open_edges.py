@@ -1,8 +1,8 @@
 """Open edges in the corners of a drawn mechanism: the rules they obey, compiled.
 
-Rules S1 and S2 (`graphs.scd_rules`) look at the points that joints and links share: the centres of the classes,
-and the vertices in faces without a centre that several joints end in. These depend on one thing only: in which
-corners of the faces without a centre there is no open edge. A *pattern* says so for every such corner; it is
+Rules S1 and S2 (`graphs.mechanism.rules`) look at the points that joints and links share: the centres of the
+classes, and the vertices in faces without a centre that several joints end in. These depend on one thing only: in
+which corners of the faces without a centre there is no open edge. A *pattern* says so for every such corner; it is
 valid or not, however many open edges there are elsewhere. Theory: docs/theory/scd-enumeration.md.
 """
 

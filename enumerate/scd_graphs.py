@@ -1,7 +1,7 @@
 """SCD graphs: every valid placement of open edges on every SC graph, and on every plane tree.
 
 The thesis stops at single examples of SCD graphs (section 3.4); here are all of a size, by the rules of
-`graphs.scd_rules` and with the exact rank under the forced geometry (rule S3). Theory:
+`graphs.mechanism.rules` and with the exact rank under the forced geometry (rule S3). Theory:
 docs/theory/scd-enumeration.md.
 """
 
@@ -20,9 +20,9 @@ from enumerate.scd_query import PlacementQuery, SCDQuery
 from enumerate.sinks import CountSink
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.map_identity import map_code, map_id, mechanism_from_map_id
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.report import mobility_report
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
 
 __all__ = ["all_mechanisms", "count_scd_graphs", "mechanism_of", "scd_graphs", "scd_graphs_of", "scd_rows"]
 

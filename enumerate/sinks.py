@@ -19,7 +19,7 @@ from graphs.files.native import dumps
 from graphs.files.source import Beside, FolderBeside
 from graphs.identity import chain_from_id
 from graphs.map_identity import mechanism_from_map_id
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["SINKS", "CountSink", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
 

@@ -10,9 +10,9 @@ from itertools import pairwise
 from enumerate.strings import ChainString
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import JointId, LinkId
-from graphs.rotation import Side
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.drawing import Side
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["chain_sc", "chain_scd", "string_of_chain"]
 

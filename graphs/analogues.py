@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from graphs.errors import UnsolvableError
 from graphs.loops.loop import Centre, Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["generalised_form", "planar_analogue", "spherical_analogue"]
 

@@ -9,13 +9,13 @@ from dataclasses import replace
 
 from graphs.errors import NumericalError, UnsolvableError, shown
 from graphs.exact import exact_mobility
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 from graphs.overconstraint import diagnose
-from graphs.polyhedron import PolyhedronModel
 from graphs.pose import pose_mobility, pose_mobility_of_model
 from graphs.report import MobilityReport
 from graphs.rods import exact_mobility_of_model
-from graphs.sc import SCGraph
-from graphs.sheet import Sheet
 
 __all__ = ["MOST_JOINTS", "model_with_exact", "with_exact", "with_pose"]
 

@@ -13,7 +13,7 @@ import bliss_bind
 
 from graphs.identity import HEURISTIC
 from graphs.loops.loop import JointId, LinkId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["class_code", "symmetries_of_links"]
 

@@ -16,8 +16,8 @@ import networkx as nx
 
 from graphs.fields import Field
 from graphs.loops.loop import Centre, JointId, Joints, Loop, added_independent
+from graphs.mechanism.sc import SCGraph
 from graphs.realisation import Line, Point
-from graphs.sc import SCGraph
 
 __all__ = ["Closure", "closure_of", "independent_cycles", "signed_cycle"]
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Centre, Loop, split_dependent
-from graphs.sc import SCGraph
-from graphs.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
 

@@ -12,9 +12,9 @@ from typing import Any
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles, dependent_loop
+from graphs.mechanism.sc import SCGraph
 from graphs.relative import relative_cgk, relative_spherical_system
 from graphs.report import mobility_report
-from graphs.sc import SCGraph
 
 __all__ = ["Edit", "add_crease", "add_loop", "add_ride_along", "fresh", "lock_joint"]
 

@@ -14,7 +14,7 @@ import networkx as nx
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Centre, JointId, Joints, LinkId, Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]
 

@@ -17,8 +17,8 @@ from graphs.closure import Closure, closure_of
 from graphs.errors import NumericalError
 from graphs.fields import PRIMES, PrimeField
 from graphs.loops.classes import class_of_loop
+from graphs.mechanism.sc import SCGraph
 from graphs.realisation import Realisation, realise
-from graphs.sc import SCGraph
 
 __all__ = ["ExactMobility", "closure_modulo", "exact_mobility", "matrix_modulo"]
 

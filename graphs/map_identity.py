@@ -24,9 +24,9 @@ from graphs.closure import signed_cycle
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles
-from graphs.rotation import Rotation, Side, trace_faces
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.drawing import Rotation, Side, trace_faces
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["drawing_of", "map_code", "map_id", "map_text", "mechanism_from_map_id", "symbols_of"]
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from graphs.polyhedron import PolyhedronModel
+    from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
     "closed_surface",
@@ -241,7 +241,7 @@ def mobility_of_model(model: PolyhedronModel) -> int:
 
     Examples
     --------
-    >>> from graphs.polyhedron import PolyhedronModel
+    >>> from graphs.mechanism.polyhedron import PolyhedronModel
     >>> mobility_of_model(PolyhedronModel(3, [(0, 1), (1, 2), (2, 0)]))
     0
     """

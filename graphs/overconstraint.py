@@ -17,8 +17,8 @@ from graphs.closure import closure_of
 from graphs.exact import centres_of_loops, matrix_modulo
 from graphs.fields import PRIMES, PrimeField
 from graphs.loops.loop import JointId, LinkId
+from graphs.mechanism.sc import SCGraph
 from graphs.realisation import realise
-from graphs.sc import SCGraph
 
 __all__ = ["Diagnosis", "diagnose", "mobility_without"]
 

@@ -13,9 +13,9 @@ from typing import Any
 
 from graphs.errors import InvariantError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
-from graphs.rotation import face_cycles, trace_faces
-from graphs.scd import SCDGraph
-from graphs.sheet import sides_of_face
+from graphs.mechanism.drawing import face_cycles, trace_faces
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import sides_of_face
 
 __all__ = ["oriented_panels", "scd_from_panels"]
 

@@ -19,12 +19,12 @@ from graphs.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.fields import Reals
 from graphs.loops.loop import JointId
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet, in_one_plane
 from graphs.mobility import overconstraint
-from graphs.polyhedron import PolyhedronModel
 from graphs.realisation import Line, join
 from graphs.rods import velocity_constraints
-from graphs.sc import SCGraph
-from graphs.sheet import Sheet, in_one_plane
 from graphs.spectrum import Spectrum, spectrum
 
 __all__ = [

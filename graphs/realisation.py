@@ -19,9 +19,9 @@ from typing import Any
 from graphs.errors import UnsolvableError
 from graphs.fields import Field, null_vectors
 from graphs.loops.loop import Centre, JointId
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
-from graphs.scd_rules import points_of_joints
+from graphs.mechanism.rules import points_of_joints
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["Incidence", "Realisation", "incidence_of", "realise", "realise_points"]
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphs.loops.loop import LinkId
-from graphs.polyhedron import PolyhedronModel, RemoteCentre
-from graphs.scd import FaceKind, SCDGraph
+from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
+from graphs.mechanism.scd import FaceKind, SCDGraph
 
 __all__ = ["VertexStep", "internal_rods", "reconstruct", "vertex_steps"]
 

@@ -14,7 +14,7 @@ import networkx as nx
 
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import JointId, Joints, LinkId, Loop, in_span_of
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["Removal", "WorkingGraph"]
 

@@ -14,6 +14,9 @@ import networkx as nx
 
 from graphs.errors import shown
 from graphs.loops.loop import Centre
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mobility import (
     closed_surface,
     loop_form,
@@ -28,9 +31,6 @@ from graphs.mobility import (
     wampler_rods,
     wampler_scissors,
 )
-from graphs.polyhedron import PolyhedronModel
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
 
 __all__ = ["EquationResult", "MobilityReport", "mechanism_class", "mobility_report"]
 

@@ -22,7 +22,7 @@ from graphs.exact import ExactMobility
 from graphs.fields import PRIMES, Field, PrimeField, null_vectors
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
-from graphs.polyhedron import GROUND, PolyhedronModel, VertexId
+from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
 
 __all__ = ["exact_mobility_of_model", "place_model", "velocity_constraints"]
 

@@ -13,9 +13,9 @@ from typing import Any
 from graphs.edits import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
+from graphs.mechanism.drawing import Side
+from graphs.mechanism.scd import FaceKind, SCDGraph
 from graphs.relative import relative_polyhedron
-from graphs.rotation import Side
-from graphs.scd import FaceKind, SCDGraph
 
 __all__ = ["crease_link", "lock_hinge", "make_explicit", "make_implicit", "ride_along"]
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 import shapely
 
 from graphs.errors import InvariantError
-from graphs.sheet import Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
 __all__ = ["MOST", "TOLERANCES", "Lines", "trace_sheet"]
 

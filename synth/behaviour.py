@@ -101,7 +101,7 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
     Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle, a link next to the longest
     as ground.
 
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
     >>> found = behaviour(ConformedChain.of(chain), np.radians([40, 90, 140, 0]))
     >>> [Way(way).name for way in found.ways], bool(found.one_way)
@@ -187,7 +187,7 @@ def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 140]))).round(9).tolist()
     [[0.0, 140.0], [0.0, 40.0], [40.0, 50.0], [90.0, 50.0]]

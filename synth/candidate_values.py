@@ -69,7 +69,7 @@ def half_turns(
 
     Examples
     --------
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> pairs, found = half_turns(chain, np.radians([0, 180, 90, 300]))
     >>> [pair for pair, is_so in zip(pairs, found) if is_so]
@@ -100,7 +100,7 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
 
     Examples
     --------
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> arc_choices(chain, np.radians([[0, 40, 90, 140]]))[0].max(axis=-1).tolist()
     [7, 1, 2, 4]
@@ -143,7 +143,7 @@ def layers(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     --------
     An open four-bar round the circle, and one on less than half of it, whose longest link lies over the rest:
 
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> layers(chain, np.radians([[0, 90, 180, 270], [0, 40, 90, 140]])).tolist()
     [1, 2]

@@ -22,7 +22,7 @@ from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity import chain_id
 from graphs.loops.loop import JointId, LinkId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.candidate_rows import Shape, order_rows, placed_rows
 from synth.chain_cycles import loops_of_chain
 from synth.circuit import wrapped

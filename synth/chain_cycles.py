@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
 from graphs.loops.loop import JointId, Loop, cyclic_order
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.first_order import ConformedChain
 
 __all__ = ["loops_of_chain", "signed_cycles"]

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import JointId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.circuit import circuits, wrapped
 from synth.cone import cone_reach
 from synth.loopsum import LoopRoots, half_steps, loop_roots, sign_patterns

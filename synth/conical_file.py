@@ -21,7 +21,7 @@ from graphs.files.names import VERSION, written
 from graphs.files.native_graphs import read_sc, sc_document
 from graphs.files.source import Checker, json_text, load_json, write_text
 from graphs.loops.loop import JointId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.multiloop import Pair, places_of_steps
 
 __all__ = ["ConicalLinkage", "conical_text", "read_conical", "write_conical"]

@@ -59,7 +59,7 @@ def draw_conformed(
 
     Examples
     --------
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
     >>> len(draw_conformed(chain, np.radians([40, 90, 140, 0]), 0.4).axes)
     2

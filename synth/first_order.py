@@ -22,7 +22,7 @@ import numpy.typing as npt
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import JointId, LinkId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
 

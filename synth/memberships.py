@@ -12,7 +12,7 @@ import networkx as nx
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import JointId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["memberships"]
 

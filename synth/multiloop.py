@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from graphs.errors import InvariantError, shown
 from graphs.loops.loop import JointId
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.circuit import Circuits, circuits, wrapped
 from synth.cone import link_angles
 

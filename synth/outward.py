@@ -185,7 +185,7 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
 
     Examples
     --------
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
     >>> [formulas[0].text(chain.joints) for formulas in joint_rates(chain)]
     ['[A B C]', '- [O B C]', '[O A C]', '- [O A B]']
@@ -239,7 +239,7 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     --------
     A four-bar with ground link C O: joint A turns about O.
 
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
     >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]
     ['sin(A - O) [A B C]', 'sin(B - C) [O A B]']

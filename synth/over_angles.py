@@ -197,7 +197,7 @@ def over_angles(chain: ConformedChain | Prepared, places: npt.ArrayLike, samples
     --------
     Hyatt et al. 2021, Table 4: a four-bar with all joints on half the circle, ground and coupler two sides.
 
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
     >>> found = over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]])
     >>> [Allowed(one).name for one in found.linkage]
@@ -296,7 +296,7 @@ def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> n
     --------
     A four-bar has full rank if no two of its joints coincide:
 
-    >>> from graphs.sc import SCGraph
+    >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
     [True, True]

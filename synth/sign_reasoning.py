@@ -98,7 +98,7 @@ class Relations:
 
         Examples
         --------
-        >>> from graphs.sc import SCGraph
+        >>> from graphs.mechanism.sc import SCGraph
         >>> len(Relations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
         26
         """

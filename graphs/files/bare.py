@@ -17,7 +17,7 @@ import networkx as nx
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.source import MOST_NODES, Checker, read_text
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = [
     "as_sc",

@@ -8,7 +8,7 @@ import numpy as np
 
 from graphs.errors import FileError, shown
 from graphs.files.source import Checker, read_text
-from graphs.sheet import Sheet, flat_places
+from graphs.mechanism.sheet import Sheet, flat_places
 from graphs.tracing import MOST, Lines, trace_sheet
 
 __all__ = ["cp_text", "sheet_from_cp"]

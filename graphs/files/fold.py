@@ -1,7 +1,7 @@
 """FOLD files, 1.0 to 1.2: the frame that holds the pattern; faces that are not given are traced.
 
-Read as a :class:`graphs.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The format
-is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
+Read as a :class:`graphs.mechanism.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The
+format is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
 demands.
 """
 
@@ -14,7 +14,7 @@ from typing import Any
 from graphs.errors import FileError
 from graphs.files.fold_frames import resolved_frame
 from graphs.files.source import MOST_NODES, Checker, json_text
-from graphs.sheet import FLAT, HINGES, Sheet
+from graphs.mechanism.sheet import FLAT, HINGES, Sheet
 
 __all__ = ["fold_text", "sheet_from_fold"]
 

@@ -24,7 +24,7 @@ from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.files.native import dumps, from_document
 from graphs.files.obj import obj_text, sheet_from_obj
 from graphs.files.source import load_json, write_text
-from graphs.sheet import Sheet
+from graphs.mechanism.sheet import Sheet
 
 __all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_frame", "write"]
 

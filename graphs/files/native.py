@@ -14,10 +14,10 @@ from graphs.files.names import VERSION, head, tuple_of, written
 from graphs.files.native_graphs import read_sc, read_scd, sc_document
 from graphs.files.native_models import polyhedron_document, read_polyhedron
 from graphs.files.source import Checker, json_text
-from graphs.polyhedron import PolyhedronModel
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
-from graphs.vertexedge import VertexEdgeGraph
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.vertex_edge import VertexEdgeGraph
 
 __all__ = ["FORMATS", "NativeObject", "document", "dumps", "from_document"]
 

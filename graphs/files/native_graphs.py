@@ -10,8 +10,8 @@ from graphs.errors import FileError, shown
 from graphs.files.names import count_or_names, head, is_count, names, written
 from graphs.files.source import Checker
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["read_sc", "read_scd", "sc_document"]
 

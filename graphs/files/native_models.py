@@ -7,7 +7,7 @@ from typing import Any
 
 from graphs.files.names import count_or_names, head, names, tuple_of, written
 from graphs.files.source import Checker
-from graphs.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
+from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 
 __all__ = ["polyhedron_document", "read_polyhedron"]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.source import Checker, read_text
-from graphs.sheet import Sheet
+from graphs.mechanism.sheet import Sheet
 
 _CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +(-?\d{1,4}(?:\.\d{1,17})?))?")
 

@@ -40,7 +40,7 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
     from enumerate.addenda import AddendumCountJob, AddendumJob
     from graphs.conversion import to_sc
     from graphs.files.formats import read
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
 
     thing = read(file)
     with about(file):

@@ -14,7 +14,7 @@ from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_opt
 if TYPE_CHECKING:
     from enumerate.run import Sink
     from graphs.loops.loop import LinkId
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
     from synth.candidates import CandidateJob, Filter
 
 __all__ = ["conical"]
@@ -136,7 +136,7 @@ def _chain(name: str) -> SCGraph:
     from graphs.files.formats import read
     from graphs.files.source import load_json
     from graphs.identity import chain_from_id
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
     from synth.conical_file import read_conical
 
     if name.lower() in chain_names():

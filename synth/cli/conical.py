@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from graphs.loops.loop import JointId
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
     from synth.behaviour import Behaviour
     from synth.common_cones import CommonCone, CommonFamily
     from synth.conical_file import ConicalLinkage
@@ -231,7 +231,7 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None) -> OnCone:
 def _ring(links: int) -> SCGraph:
     """Return a loop whose link i lies between joints i and i + 1, counted from 1."""
     from graphs.loops.loop import Loop
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
 
     joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}
     return SCGraph(range(1, links + 1), joints, [Loop(tuple(joints))])

@@ -39,7 +39,7 @@ def convert(source: str, target: str, kind: str | None, form: str | None, as_jso
     from graphs.analogues import generalised_form, planar_analogue, spherical_analogue
     from graphs.conversion import CONVERSIONS, to_sc
     from graphs.files.formats import read, write
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
 
     mechanism = read(source)
     with about(source):

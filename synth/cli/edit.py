@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
 
     from graphs.edits import Edit
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
 
 __all__ = ["edit"]
 
@@ -46,7 +46,7 @@ def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]
     """
     from graphs.conversion import to_sc
     from graphs.files.formats import read, write
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
 
     thing = read(file)
     with about(file):
@@ -106,7 +106,7 @@ def _joint_named(sc: SCGraph, name: str) -> Hashable:
 
 def _crease(sc: SCGraph, text: str) -> Edit:
     from graphs.edits import add_crease
-    from graphs.scd import SCDGraph
+    from graphs.mechanism.scd import SCDGraph
     from graphs.scd_edits import crease_link
 
     name, _, rest = text.partition(":")
@@ -120,7 +120,7 @@ def _crease(sc: SCGraph, text: str) -> Edit:
 
 def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
     from graphs.edits import add_loop
-    from graphs.scd import SCDGraph
+    from graphs.mechanism.scd import SCDGraph
 
     a, b, k = _words(text, 3, option)
     bare = sc.sc_graph() if isinstance(sc, SCDGraph) else sc
@@ -129,7 +129,7 @@ def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
 
 def _ride_along(sc: SCGraph, text: str) -> Edit:
     from graphs.edits import add_ride_along
-    from graphs.scd import SCDGraph
+    from graphs.mechanism.scd import SCDGraph
     from graphs.scd_edits import ride_along
 
     a, b = (link_named(sc, word) for word in _words(text, 2, "--add-ride-along"))
@@ -140,7 +140,7 @@ def _ride_along(sc: SCGraph, text: str) -> Edit:
 
 def _centre(sc: SCGraph, text: str, option: str) -> Edit:
     from graphs.errors import UnsolvableError
-    from graphs.scd import SCDGraph
+    from graphs.mechanism.scd import SCDGraph
     from graphs.scd_edits import make_explicit, make_implicit
 
     if not isinstance(sc, SCDGraph):
@@ -150,7 +150,7 @@ def _centre(sc: SCGraph, text: str, option: str) -> Edit:
 
 def _lock(sc: SCGraph, text: str) -> Edit:
     from graphs.edits import lock_joint
-    from graphs.scd import SCDGraph
+    from graphs.mechanism.scd import SCDGraph
     from graphs.scd_edits import lock_hinge
 
     joint = _joint_named(sc, text)

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from graphs.conversion import Mechanism
+    from graphs.mechanism.sheet import Sheet
     from graphs.report import MobilityReport
-    from graphs.sheet import Sheet
 
 __all__ = ["mobility"]
 
@@ -91,10 +91,10 @@ def _report(
 ) -> MobilityReport:
     from graphs.arbiter import model_with_exact, with_exact
     from graphs.conversion import to_sc
-    from graphs.polyhedron import PolyhedronModel
+    from graphs.mechanism.polyhedron import PolyhedronModel
+    from graphs.mechanism.sc import SCGraph
+    from graphs.mechanism.sheet import Sheet
     from graphs.report import mobility_report
-    from graphs.sc import SCGraph
-    from graphs.sheet import Sheet
 
     if isinstance(mechanism, Sheet):
         return _report_of_sheet(label, mechanism, exact, hinge_flat, pose)

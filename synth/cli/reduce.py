@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     import networkx as nx
     from rich.tree import Tree
 
+    from graphs.mechanism.sc import SCGraph
     from graphs.reduction import Reduction
-    from graphs.sc import SCGraph
 
 __all__ = ["link_named", "reduce_command"]
 

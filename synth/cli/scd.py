@@ -86,7 +86,7 @@ def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
     from enumerate.scd_graphs import mechanism_of
     from graphs.conversion import to_sc
     from graphs.files.formats import read
-    from graphs.sc import SCGraph
+    from graphs.mechanism.sc import SCGraph
 
     thing = read(file)
     with about(file):

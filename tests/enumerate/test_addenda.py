@@ -10,8 +10,8 @@ from graphs.errors import InvariantError
 from graphs.exact import exact_mobility
 from graphs.files.formats import read
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.sc import SCGraph
 from graphs.reduction import reduce_addenda
-from graphs.sc import SCGraph
 
 FILES = ["watt", "stephenson", "six-bar-loop-spherical", "eight-bar", "hybrid-ten-bar", "stephenson-planar"]
 

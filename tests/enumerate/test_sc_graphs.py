@@ -20,9 +20,9 @@ from graphs.exact import exact_mobility
 from graphs.identity import automorphisms_of, chain_id
 from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import map_id, mechanism_from_map_id
+from graphs.mechanism.sc import SCGraph
 from graphs.overconstraint import diagnose
 from graphs.reduction import reduce_addenda
-from graphs.sc import SCGraph
 
 COUNTS = {
     1: {4: 1, 6: 4, 8: 54, 10: 1564, 12: 66594, 14: 3404097},

@@ -24,10 +24,10 @@ from graphs.files.formats import read
 from graphs.files.native import dumps
 from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import map_id, mechanism_from_map_id
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import FaceKind
 from graphs.reconstruction import reconstruct
 from graphs.rods import exact_mobility_of_model
-from graphs.sc import SCGraph
-from graphs.scd import FaceKind
 
 COUNTS = [
     (4, 1, 3, 1),

@@ -8,7 +8,7 @@ from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.exact import exact_mobility
 from graphs.loops.loop import Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 
 def one_centre(graph):

@@ -17,12 +17,12 @@ from graphs.exact import closure_modulo, exact_mobility, matrix_modulo
 from graphs.fields import PRIMES, PrimeField, Reals, null_vectors
 from graphs.files.formats import read
 from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 from graphs.mobility import loop_form
 from graphs.overconstraint import diagnose, mobility_without
 from graphs.realisation import Incidence, incidence_of, realise, realise_points
 from graphs.report import mobility_report
-from graphs.sc import SCGraph
-from graphs.sheet import Sheet
 
 
 def count(sc):

@@ -7,9 +7,9 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import drawing_of, map_code, map_id, map_text, mechanism_from_map_id, symbols_of
-from graphs.rotation import trace_faces
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.drawing import trace_faces
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 RING = [(0, 1), (1, 2), (2, 3), (3, 0)]
 

@@ -7,9 +7,9 @@ import pytest
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read, read_frame
+from graphs.mechanism.sheet import Sheet
 from graphs.mobility import loop_form
 from graphs.pose import closure_at_pose, dense, pose_mobility
-from graphs.sheet import Sheet
 from graphs.spectrum import spectrum
 
 

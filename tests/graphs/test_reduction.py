@@ -11,10 +11,10 @@ from graphs.class_identity import class_code
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
 from graphs.panels import scd_from_panels
 from graphs.reduction import RULES, reduce_addenda
 from graphs.report import mobility_report
-from graphs.sc import SCGraph
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 

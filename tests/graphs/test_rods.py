@@ -10,13 +10,13 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.exact import exact_mobility
 from graphs.fields import PRIMES, PrimeField
 from graphs.files.formats import read
+from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mobility import mobility_of_model
-from graphs.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.pose import pose_mobility_of_axes, pose_mobility_of_model
 from graphs.reconstruction import reconstruct
 from graphs.rods import exact_mobility_of_model, place_model
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
 
 
 def test_models_of_wampler(data):

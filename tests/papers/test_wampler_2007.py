@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
+from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mobility import spherical_system, traditional_cgk, wampler_points, wampler_rods
-from graphs.polyhedron import PolyhedronModel
 from graphs.report import mobility_report
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "wampler"

@@ -14,6 +14,9 @@ from graphs.class_identity import class_code
 from graphs.conversion import to_polyhedron
 from graphs.edits import add_loop
 from graphs.files.formats import read
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mobility import (
     modified_cgk,
     overconstraint,
@@ -21,12 +24,9 @@ from graphs.mobility import (
     spherical_system,
     traditional_cgk,
 )
-from graphs.polyhedron import PolyhedronModel
 from graphs.reduction import reduce_addenda
 from graphs.relative import relative_polyhedron, relative_spherical_system
 from graphs.report import mobility_report
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 EXAMPLES = {

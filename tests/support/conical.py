@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.loops.loop import Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.cone import link_angles
 from synth.fourbar import can_close
 

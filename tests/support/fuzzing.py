@@ -14,9 +14,9 @@ from graphs.conversion import to_sc
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, read_all, write
-from graphs.polyhedron import PolyhedronModel
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sheet import Sheet
 from graphs.report import mobility_report
-from graphs.sheet import Sheet
 
 SECONDS = 5
 GIGABYTE = 2**30

@@ -6,7 +6,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.loops.loop import Centre
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 
 def placed_centres(sc: SCGraph, rng: np.random.Generator) -> list[np.ndarray] | None:

@@ -6,8 +6,8 @@ from itertools import combinations_with_replacement, permutations, product
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
-from graphs.rotation import trace_faces
-from graphs.scd import SCDGraph
+from graphs.mechanism.drawing import trace_faces
+from graphs.mechanism.scd import SCDGraph
 
 
 def drawings(joints):

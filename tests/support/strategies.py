@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Centre, Loop
-from graphs.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
-from graphs.rotation import face_cycles, trace_faces
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.drawing import face_cycles, trace_faces
+from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 ODD_NAMES = [
     "<script>alert(1)</script>",

@@ -7,7 +7,7 @@ import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, random_linkages, steps_of
 
 from graphs.errors import InvariantError
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.behaviour import Way, behaviour, icrl, instant_centres, link_arcs, shadow_allows
 from synth.conformed import joint_axes
 from synth.first_order import ConformedChain, first_order, pole_axes

@@ -21,7 +21,7 @@ from enumerate.sinks import RowSink
 from enumerate.store import SqliteSink, read_rows
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.behaviour import link_arcs
 from synth.candidates import CandidateJob, Filter
 from synth.chain_cycles import loops_of_chain

@@ -16,9 +16,9 @@ from strategies import ODD_NAMES
 
 from graphs.files.formats import read, write
 from graphs.loops.loop import Loop
-from graphs.polyhedron import PolyhedronModel
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 KEYS = {"file", "class", "links", "joints", "loops", "centres", "mobility", "equations", "exact", "pose",
         "repairs", "warnings"}  # fmt: skip
@@ -356,7 +356,7 @@ def test_help_needs_neither_networkx_nor_rich():
         "import sys; from synth.cli.main import main\n"
         "try: main(['--help'])\n"
         "except SystemExit: pass\n"
-        "heavy = {'networkx', 'numpy', 'rich', 'graphs.sc'} & set(sys.modules)\n"
+        "heavy = {'networkx', 'numpy', 'rich', 'graphs.mechanism.sc'} & set(sys.modules)\n"
         "sys.exit(f'imported: {heavy}' if heavy else 0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)

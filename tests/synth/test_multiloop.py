@@ -12,7 +12,7 @@ from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 from synth.common_cones import common_cones
 from synth.cone import link_angles, map_to_cones
 from synth.conformed import angles_between, joint_axes

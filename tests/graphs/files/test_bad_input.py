@@ -8,7 +8,7 @@ import pytest
 
 from graphs.errors import FileError, shown
 from graphs.files.formats import read, write
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 SC = {"format": "synthedra/sc", "version": 1, "links": 4, "joints": [[0, 1], [1, 2], [2, 3], [3, 0]],
       "loops": [{"joints": [0, 1, 2, 3], "centre": "finite"}]}  # fmt: skip

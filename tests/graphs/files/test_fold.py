@@ -8,7 +8,7 @@ from graphs.duality import mechanism_of_sheet
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.files.formats import read, write
-from graphs.sheet import Sheet
+from graphs.mechanism.sheet import Sheet
 
 SQUARE = {
     "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],

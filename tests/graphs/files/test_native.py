@@ -12,9 +12,9 @@ from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.files.native import document, dumps, from_document
 from graphs.loops.loop import Loop
-from graphs.sc import SCGraph
-from graphs.scd import SCDGraph
-from graphs.vertexedge import VertexEdgeGraph, sc_from_vertex_edge
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge
 
 ROOT = Path(__file__).resolve().parents[3]
 SCHEMAS = {

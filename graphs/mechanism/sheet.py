@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.polyhedron import PolyhedronModel
+from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
     "COLLINEAR",

@@ -7,8 +7,8 @@ from hypothesis import given
 from strategies import models, randoms
 
 from graphs.errors import InvariantError
+from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mobility import mobility_of_model, wampler_ground_free, wampler_scissors
-from graphs.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.report import mobility_report
 
 TRIANGLE = [(0, 1), (1, 2), (2, 0)]

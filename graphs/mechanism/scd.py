@@ -2,7 +2,7 @@
 
 The order of joints and open edges round each link draws the graph on the sphere and so fixes the polyhedron
 model: which vertices there are and which link has which. Source: Wiener 2016, section 3.4.
-Theory: docs/theory/scd-graphs.md. The rules a valid SCD graph obeys are in :mod:`graphs.scd_rules`.
+Theory: docs/theory/scd-graphs.md. The rules a valid SCD graph obeys are in :mod:`graphs.mechanism.rules`.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import Any
 
 from graphs.errors import InvariantError, shown
 from graphs.loops.loop import JointId, LinkId, Loop
-from graphs.rotation import Face, Side, check_rotation, face_cycles, link_vertices, trace_faces
-from graphs.sc import SCGraph
-from graphs.scd_rules import check_rules, check_sides
+from graphs.mechanism.drawing import Face, Side, check_rotation, face_cycles, link_vertices, trace_faces
+from graphs.mechanism.rules import check_rules, check_sides
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["FaceKind", "FeatureCounts", "SCDGraph"]
 
@@ -72,7 +72,7 @@ class SCDGraph(SCGraph):
     Parameters
     ----------
     links, joints, loops, closing, ground
-        As in :class:`graphs.sc.SCGraph`. The graph is connected.
+        As in :class:`graphs.mechanism.sc.SCGraph`. The graph is connected.
     rotation : mapping of link to sequence of sides
         The sides of each link counter-clockwise: joint ids, and None for an open edge.
     outer : (joint, "left" or "right"), optional
@@ -82,7 +82,7 @@ class SCDGraph(SCGraph):
     Raises
     ------
     InvariantError
-        Naming the rule that is broken; the rules are listed in :mod:`graphs.scd_rules`.
+        Naming the rule that is broken; the rules are listed in :mod:`graphs.mechanism.rules`.
 
     Examples
     --------

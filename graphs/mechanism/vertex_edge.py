@@ -17,7 +17,7 @@ import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop, split_dependent
-from graphs.sc import SCGraph
+from graphs.mechanism.sc import SCGraph
 
 __all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]
 

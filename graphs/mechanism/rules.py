@@ -31,10 +31,10 @@ from typing import TYPE_CHECKING, TypeVar
 
 from graphs.errors import InvariantError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
-from graphs.rotation import Face, Rotation
+from graphs.mechanism.drawing import Face, Rotation
 
 if TYPE_CHECKING:
-    from graphs.scd import SCDGraph
+    from graphs.mechanism.scd import SCDGraph
 
 K = TypeVar("K", bound=Hashable)
 

@@ -1,0 +1,1 @@
+"""What a mechanism is: SC and SCD graphs, polyhedron models, vertex-edge graphs, sheets."""
