@@ -18,11 +18,11 @@ from enumerate.run import run
 from enumerate.scd_jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
 from enumerate.scd_query import PlacementQuery, SCDQuery
 from enumerate.sinks import CountSink
+from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.map_identity import map_code, map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.report import mobility_report
 
 __all__ = ["all_mechanisms", "count_scd_graphs", "mechanism_of", "scd_graphs", "scd_graphs_of", "scd_rows"]
 

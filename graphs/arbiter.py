@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from graphs.count.report import MobilityReport
 from graphs.errors import NumericalError, UnsolvableError, shown
 from graphs.exact import exact_mobility
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -14,7 +15,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.overconstraint import diagnose
 from graphs.pose import pose_mobility, pose_mobility_of_model
-from graphs.report import MobilityReport
 from graphs.rods import exact_mobility_of_model
 
 __all__ = ["MOST_JOINTS", "model_with_exact", "with_exact", "with_pose"]
@@ -39,7 +39,7 @@ def with_exact(report: MobilityReport, mechanism: SCGraph, *, demanded: bool = F
     Examples
     --------
     >>> from graphs.loops.loop import Loop
-    >>> from graphs.report import mobility_report
+    >>> from graphs.count.report import mobility_report
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> with_exact(mobility_report(four_bar), four_bar).exact["mobility"]
     1

@@ -19,12 +19,12 @@ from typing import Any
 
 import networkx as nx
 
+from graphs.count.equations import loop_form
+from graphs.count.report import mechanism_class
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
-from graphs.mobility import loop_form
-from graphs.report import mechanism_class
 
 __all__ = ["AssurGroup", "AssurReduction", "assur_groups", "reduce_assur"]
 

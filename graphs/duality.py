@@ -73,7 +73,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
 
     Examples
     --------
-    >>> from graphs.report import mobility_report
+    >>> from graphs.count.report import mobility_report
     >>> fan = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)))
     >>> mobility_report(mechanism_of_sheet(fan).sc).mobility
     1

@@ -10,11 +10,11 @@ from collections.abc import Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from graphs.count.relative import relative_cgk, relative_spherical_system
+from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles, dependent_loop
 from graphs.mechanism.sc import SCGraph
-from graphs.relative import relative_cgk, relative_spherical_system
-from graphs.report import mobility_report
 
 __all__ = ["Edit", "add_crease", "add_loop", "add_ride_along", "fresh", "lock_joint"]
 

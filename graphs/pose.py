@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.closure import Closure, closure_of
+from graphs.count.equations import overconstraint
 from graphs.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.fields import Reals
@@ -22,7 +23,6 @@ from graphs.loops.loop import JointId
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, in_one_plane
-from graphs.mobility import overconstraint
 from graphs.realisation import Line, join
 from graphs.rods import velocity_constraints
 from graphs.spectrum import Spectrum, spectrum

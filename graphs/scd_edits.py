@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from graphs.count.relative import relative_polyhedron
 from graphs.edits import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.mechanism.drawing import Side
 from graphs.mechanism.scd import FaceKind, SCDGraph
-from graphs.relative import relative_polyhedron
 
 __all__ = ["crease_link", "lock_hinge", "make_explicit", "make_implicit", "ride_along"]
 

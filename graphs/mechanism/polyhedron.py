@@ -91,7 +91,7 @@ class PolyhedronModel(nx.Graph):
     Two triangles hinged along a rod (a revolute joint):
 
     >>> hinge = PolyhedronModel(4, [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)])
-    >>> from graphs.mobility import mobility_of_model
+    >>> from graphs.count.equations import mobility_of_model
     >>> mobility_of_model(hinge)
     1
     """

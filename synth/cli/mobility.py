@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from graphs.conversion import Mechanism
+    from graphs.count.report import MobilityReport
     from graphs.mechanism.sheet import Sheet
-    from graphs.report import MobilityReport
 
 __all__ = ["mobility"]
 
@@ -91,10 +91,10 @@ def _report(
 ) -> MobilityReport:
     from graphs.arbiter import model_with_exact, with_exact
     from graphs.conversion import to_sc
+    from graphs.count.report import mobility_report
     from graphs.mechanism.polyhedron import PolyhedronModel
     from graphs.mechanism.sc import SCGraph
     from graphs.mechanism.sheet import Sheet
-    from graphs.report import mobility_report
 
     if isinstance(mechanism, Sheet):
         return _report_of_sheet(label, mechanism, exact, hinge_flat, pose)
@@ -112,9 +112,9 @@ def _report_of_sheet(
 ) -> MobilityReport:
     """Report a crease pattern; where flat edges matter, say what it is the other way round."""
     from graphs.arbiter import with_exact, with_pose
+    from graphs.count.report import mobility_report
     from graphs.duality import mechanism_of_sheet
     from graphs.files.formats import read_frame
-    from graphs.report import mobility_report
 
     found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     report = mobility_report(found.sc)

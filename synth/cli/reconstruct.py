@@ -24,8 +24,8 @@ def reconstruct(file: str, output: str | None, as_json: bool) -> None:
       synth reconstruct data/wiener/six-bar.json -o model.json
     """
     from graphs.conversion import to_polyhedron, to_scd
+    from graphs.count.equations import mobility_of_model
     from graphs.files.formats import read, write
-    from graphs.mobility import mobility_of_model
     from graphs.reconstruction import vertex_steps
 
     thing = read(file)

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from graphs.count.report import mobility_report
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, write
-from graphs.report import mobility_report
 
 COLUMNS = {
     "N": "N_panels(F merged)",

@@ -4,11 +4,11 @@ from math import cos, sin, tan
 import numpy as np
 import pytest
 
+from graphs.count.equations import loop_form
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read, read_frame
 from graphs.mechanism.sheet import Sheet
-from graphs.mobility import loop_form
 from graphs.pose import closure_at_pose, dense, pose_mobility
 from graphs.spectrum import spectrum
 

@@ -1,11 +1,11 @@
 from hypothesis import given
 from strategies import scd_graphs
 
+from graphs.count.equations import mobility_of_model
 from graphs.duality import mechanism_of_sheet
 from graphs.loops.loop import Loop
 from graphs.mechanism.scd import FaceKind, SCDGraph
 from graphs.mechanism.sheet import sheet_from_model
-from graphs.mobility import mobility_of_model
 from graphs.panels import scd_from_panels
 from graphs.reconstruction import internal_rods, reconstruct, vertex_steps
 

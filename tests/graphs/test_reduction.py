@@ -8,13 +8,13 @@ from oracle import numeric_mobility
 from strategies import randoms, scd_graphs
 
 from graphs.class_identity import class_code
+from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.panels import scd_from_panels
 from graphs.reduction import RULES, reduce_addenda
-from graphs.report import mobility_report
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 

@@ -10,8 +10,8 @@ from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
 
 from enumerate.conical import Portion
 from enumerate.rounds import canonical_row
+from graphs.count.report import mobility_report
 from graphs.files.formats import read
-from graphs.report import mobility_report
 from synth.candidates import CandidateJob
 from synth.circuit import azimuths, circuits, table1
 from synth.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles

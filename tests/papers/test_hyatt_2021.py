@@ -10,8 +10,8 @@ from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, rando
 
 from enumerate.rounds import Rounds, count_by_burnside, placements
 from graphs.analogues import planar_analogue
+from graphs.count.report import mobility_report
 from graphs.files.formats import read
-from graphs.report import mobility_report
 from synth.behaviour import behaviour, shadow_allows
 from synth.candidates import CandidateJob
 from synth.cone import cone_reach, largest_cone_angle, link_angles, map_to_cones, projected_angles

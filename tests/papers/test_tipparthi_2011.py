@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.reduction import reduce_addenda
-from graphs.report import mobility_report
 from synth.burmester import dyads_of_five
 from synth.hoop import hoop, hoop_sequence, pair_name
 from synth.order import analyse_order

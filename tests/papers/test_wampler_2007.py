@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphs.count.equations import spherical_system, traditional_cgk, wampler_points, wampler_rods
+from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mobility import spherical_system, traditional_cgk, wampler_points, wampler_rods
-from graphs.report import mobility_report
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "wampler"
 

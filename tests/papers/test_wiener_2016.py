@@ -12,21 +12,21 @@ from enumerate.string_graphs import chain_scd, string_of_chain
 from enumerate.strings import ChainString, count_strings, joint_chain, strings
 from graphs.class_identity import class_code
 from graphs.conversion import to_polyhedron
-from graphs.edits import add_loop
-from graphs.files.formats import read
-from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.scd import SCDGraph
-from graphs.mobility import (
+from graphs.count.equations import (
     modified_cgk,
     overconstraint,
     polyhedron_equation,
     spherical_system,
     traditional_cgk,
 )
+from graphs.count.relative import relative_polyhedron, relative_spherical_system
+from graphs.count.report import mobility_report
+from graphs.edits import add_loop
+from graphs.files.formats import read
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.reduction import reduce_addenda
-from graphs.relative import relative_polyhedron, relative_spherical_system
-from graphs.report import mobility_report
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 EXAMPLES = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from graphs.conversion import to_sc
+from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
-from graphs.report import mobility_report
 
 KEYS = {"N": "links", "J": "joints", "V": "vertices", "C": "implicit_centres",
         "E_ext": "external_edges", "E_int": "internal_edges", "E": "edges", "L": "on_line"}  # fmt: skip

@@ -11,12 +11,12 @@ import tempfile
 from pathlib import Path
 
 from graphs.conversion import to_sc
+from graphs.count.report import mobility_report
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, read_all, write
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
-from graphs.report import mobility_report
 
 SECONDS = 5
 GIGABYTE = 2**30

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from strategies import models, randoms
 
+from graphs.count.equations import mobility_of_model, wampler_ground_free, wampler_scissors
+from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
-from graphs.mobility import mobility_of_model, wampler_ground_free, wampler_scissors
-from graphs.report import mobility_report
 
 TRIANGLE = [(0, 1), (1, 2), (2, 0)]
 

@@ -8,11 +8,11 @@ from oracle import numeric_mobility
 from strategies import randoms, sc_graphs
 
 from graphs.analogues import generalised_form, planar_analogue, spherical_analogue
+from graphs.count.report import mobility_report
 from graphs.embedding import block_cycles, sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.report import mobility_report
 
 WATT = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
 WATT_LOOPS = [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]

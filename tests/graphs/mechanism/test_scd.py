@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from strategies import random_scd, randoms, scd_graphs
 
+from graphs.count.equations import loop_form, polyhedron_equation
+from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
 from graphs.mechanism.rules import points_of_joints, points_of_links
 from graphs.mechanism.scd import FaceKind, SCDGraph
-from graphs.mobility import loop_form, polyhedron_equation
-from graphs.report import mobility_report
 
 FOUR = [(0, 1), (1, 2), (2, 3), (3, 0)]
 RING = [Loop((0, 1, 2, 3))]

@@ -2,11 +2,11 @@ import json
 
 import pytest
 
+from graphs.count.report import mobility_report
 from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError
 from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.mechanism.sheet import Sheet
-from graphs.report import mobility_report
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 

@@ -4,9 +4,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import scd_graphs
 
-from graphs.mobility import modified_cgk, overconstraint, polyhedron_equation, spherical_system
-from graphs.relative import relative_cgk, relative_polyhedron, relative_spherical_system
-from graphs.report import mobility_report
+from graphs.count.equations import modified_cgk, overconstraint, polyhedron_equation, spherical_system
+from graphs.count.relative import relative_cgk, relative_polyhedron, relative_spherical_system
+from graphs.count.report import mobility_report
 
 counts = st.integers(0, 10**6)
 

@@ -12,12 +12,7 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.errors import shown
-from graphs.loops.loop import Centre
-from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.scd import SCDGraph
-from graphs.mobility import (
+from graphs.count.equations import (
     closed_surface,
     loop_form,
     mobility_of_model,
@@ -31,6 +26,11 @@ from graphs.mobility import (
     wampler_rods,
     wampler_scissors,
 )
+from graphs.errors import shown
+from graphs.loops.loop import Centre
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["EquationResult", "MobilityReport", "mechanism_class", "mobility_report"]
 

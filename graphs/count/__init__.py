@@ -1,0 +1,1 @@
+"""Mobility by count: the equations, their differences, and which of them apply."""
