@@ -27,13 +27,13 @@ from enumerate.run import Counting, Row, Unit
 from graphs.class_identity import class_code, symmetries_of_links
 from graphs.edits import Edit, add_loop
 from graphs.errors import InvariantError
-from graphs.exact import exact_mobility
 from graphs.files.native import dumps
 from graphs.identity import chain_id
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre, JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.rank.generic import exact_mobility
 
 __all__ = ["ADDENDUM_COLUMNS", "Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
 

@@ -1,8 +1,8 @@
 """The exact rank of drawn mechanisms, many at a time, compiled.
 
-The same rank as `graphs.exact.exact_mobility` finds, by other code: a random member of the type modulo a prime
-of 31 bits, its loops closed face by face. It is done twice, modulo two primes; chance can make a rank too small,
-never too large (about once in 10^7 graphs and prime), so the larger one counts. Theory:
+The same rank as `graphs.rank.generic.exact_mobility` finds, by other code: a random member of the type modulo a
+prime of 31 bits, its loops closed face by face. It is done twice, modulo two primes; chance can make a rank too
+small, never too large (about once in 10^7 graphs and prime), so the larger one counts. Theory:
 docs/theory/exact-mobility.md.
 """
 

@@ -9,13 +9,13 @@ from dataclasses import replace
 
 from graphs.count.report import MobilityReport
 from graphs.errors import NumericalError, UnsolvableError, shown
-from graphs.exact import exact_mobility
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.overconstraint import diagnose
-from graphs.pose import pose_mobility, pose_mobility_of_model
-from graphs.rods import exact_mobility_of_model
+from graphs.rank.generic import exact_mobility
+from graphs.rank.overconstraint import diagnose
+from graphs.rank.pose import pose_mobility, pose_mobility_of_model
+from graphs.rank.rods import exact_mobility_of_model
 
 __all__ = ["MOST_JOINTS", "model_with_exact", "with_exact", "with_pose"]
 

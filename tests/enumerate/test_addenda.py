@@ -7,10 +7,10 @@ from enumerate.sinks import CountSink
 from graphs.class_identity import class_code
 from graphs.edits import add_ride_along
 from graphs.errors import InvariantError
-from graphs.exact import exact_mobility
 from graphs.files.formats import read
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.rank.generic import exact_mobility
 from graphs.reduction import reduce_addenda
 
 FILES = ["watt", "stephenson", "six-bar-loop-spherical", "eight-bar", "hybrid-ten-bar", "stephenson-planar"]

@@ -19,15 +19,15 @@ from enumerate.scd_query import PlacementQuery, SCDQuery
 from enumerate.sinks import CountSink, RowSink
 from graphs.conversion import to_sc
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.exact import exact_mobility
 from graphs.files.formats import read
 from graphs.files.native import dumps
 from graphs.loops.loop import Centre, Loop
 from graphs.map_identity import map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import FaceKind
+from graphs.rank.generic import exact_mobility
+from graphs.rank.rods import exact_mobility_of_model
 from graphs.reconstruction import reconstruct
-from graphs.rods import exact_mobility_of_model
 
 COUNTS = [
     (4, 1, 3, 1),

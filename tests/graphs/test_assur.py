@@ -6,9 +6,9 @@ from rigidity import chains_by_geng
 from graphs.assur import assur_groups, reduce_assur
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.exact import exact_mobility
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.rank.generic import exact_mobility
 
 
 def one_centre(graph):

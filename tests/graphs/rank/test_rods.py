@@ -8,15 +8,15 @@ from strategies import random_scd
 
 from graphs.count.equations import mobility_of_model
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.exact import exact_mobility
-from graphs.fields import PRIMES, PrimeField
 from graphs.files.formats import read
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.pose import pose_mobility_of_axes, pose_mobility_of_model
+from graphs.rank.fields import PRIMES, PrimeField
+from graphs.rank.generic import exact_mobility
+from graphs.rank.pose import pose_mobility_of_axes, pose_mobility_of_model
+from graphs.rank.rods import exact_mobility_of_model, place_model
 from graphs.reconstruction import reconstruct
-from graphs.rods import exact_mobility_of_model, place_model
 
 
 def test_models_of_wampler(data):

@@ -9,8 +9,8 @@ from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read, read_frame
 from graphs.mechanism.sheet import Sheet
-from graphs.pose import closure_at_pose, dense, pose_mobility
-from graphs.spectrum import spectrum
+from graphs.rank.pose import closure_at_pose, dense, pose_mobility
+from graphs.rank.singular_values import spectrum
 
 
 def folded_mesh(rows, columns, seed=None):

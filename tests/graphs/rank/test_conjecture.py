@@ -7,7 +7,7 @@ from rigidity import chains_by_geng
 from graphs.class_identity import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.overconstraint import diagnose
+from graphs.rank.overconstraint import diagnose
 
 
 def sc_graphs(links, dof):

@@ -13,12 +13,12 @@ from typing import Any
 
 from flint import nmod_mat
 
-from graphs.closure import Closure, closure_of
 from graphs.errors import NumericalError
-from graphs.fields import PRIMES, PrimeField
 from graphs.loops.classes import class_of_loop
 from graphs.mechanism.sc import SCGraph
-from graphs.realisation import Realisation, realise
+from graphs.rank.closure import Closure, closure_of
+from graphs.rank.fields import PRIMES, PrimeField
+from graphs.rank.general_member import Realisation, realise
 
 __all__ = ["ExactMobility", "closure_modulo", "exact_mobility", "matrix_modulo"]
 
@@ -69,7 +69,7 @@ def exact_mobility(
     Raises
     ------
     UnsolvableError
-        If the type could not be placed (`graphs.realisation.realise`).
+        If the type could not be placed (`graphs.rank.general_member.realise`).
     NumericalError
         If the primes give different ranks, which all but never happens; another seed settles it.
 

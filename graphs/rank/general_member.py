@@ -17,11 +17,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphs.errors import UnsolvableError
-from graphs.fields import Field, null_vectors
 from graphs.loops.loop import Centre, JointId
 from graphs.mechanism.rules import points_of_joints
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.rank.fields import Field, null_vectors
 
 __all__ = ["Incidence", "Realisation", "incidence_of", "realise", "realise_points"]
 
@@ -129,7 +129,7 @@ def realise_points(incidence: Incidence, field: Field) -> Realisation:
     --------
     Two axes through one point, in a field of seven numbers:
 
-    >>> from graphs.fields import PrimeField
+    >>> from graphs.rank.fields import PrimeField
     >>> placed = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(7))
     >>> len(placed.points), len(placed.axes)
     (1, 2)
@@ -216,7 +216,7 @@ def join(p: Sequence[Any], q: Sequence[Any], field: Field) -> Line:
 
     Examples
     --------
-    >>> from graphs.fields import Reals
+    >>> from graphs.rank.fields import Reals
     >>> join((0, 0, 0, 1), (1, 0, 0, 1), Reals())
     ((1, 0, 0), (0, 0, 0))
     """

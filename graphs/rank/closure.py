@@ -14,10 +14,10 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.fields import Field
 from graphs.loops.loop import Centre, JointId, Joints, Loop, added_independent
 from graphs.mechanism.sc import SCGraph
-from graphs.realisation import Line, Point
+from graphs.rank.fields import Field
+from graphs.rank.general_member import Line, Point
 
 __all__ = ["Closure", "closure_of", "independent_cycles", "signed_cycle"]
 

@@ -14,18 +14,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.closure import Closure, closure_of
 from graphs.count.equations import overconstraint
 from graphs.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.fields import Reals
 from graphs.loops.loop import JointId
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, in_one_plane
-from graphs.realisation import Line, join
-from graphs.rods import velocity_constraints
-from graphs.spectrum import Spectrum, spectrum
+from graphs.rank.closure import Closure, closure_of
+from graphs.rank.fields import Reals
+from graphs.rank.general_member import Line, join
+from graphs.rank.rods import velocity_constraints
+from graphs.rank.singular_values import Spectrum, spectrum
 
 __all__ = [
     "PoseMobility",

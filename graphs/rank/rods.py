@@ -18,11 +18,11 @@ from typing import Any
 from flint import nmod_mat
 
 from graphs.errors import NumericalError, UnsolvableError
-from graphs.exact import ExactMobility
-from graphs.fields import PRIMES, Field, PrimeField, null_vectors
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
+from graphs.rank.fields import PRIMES, Field, PrimeField, null_vectors
+from graphs.rank.generic import ExactMobility
 
 __all__ = ["exact_mobility_of_model", "place_model", "velocity_constraints"]
 

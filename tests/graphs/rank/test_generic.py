@@ -9,20 +9,20 @@ from oracle import numeric_mobility
 from rigidity import chains_by_geng
 from strategies import random_sc
 
-from graphs.closure import Closure, independent_cycles, signed_cycle
 from graphs.conversion import to_sc
 from graphs.count.equations import loop_form
 from graphs.count.report import mobility_report
 from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import SynthedraError, UnsolvableError
-from graphs.exact import closure_modulo, exact_mobility, matrix_modulo
-from graphs.fields import PRIMES, PrimeField, Reals, null_vectors
 from graphs.files.formats import read
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.overconstraint import diagnose, mobility_without
-from graphs.realisation import Incidence, incidence_of, realise, realise_points
+from graphs.rank.closure import Closure, independent_cycles, signed_cycle
+from graphs.rank.fields import PRIMES, PrimeField, Reals, null_vectors
+from graphs.rank.general_member import Incidence, incidence_of, realise, realise_points
+from graphs.rank.generic import closure_modulo, exact_mobility, matrix_modulo
+from graphs.rank.overconstraint import diagnose, mobility_without
 
 
 def count(sc):

@@ -13,12 +13,12 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.closure import closure_of
-from graphs.exact import centres_of_loops, matrix_modulo
-from graphs.fields import PRIMES, PrimeField
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
-from graphs.realisation import realise
+from graphs.rank.closure import closure_of
+from graphs.rank.fields import PRIMES, PrimeField
+from graphs.rank.general_member import realise
+from graphs.rank.generic import centres_of_loops, matrix_modulo
 
 __all__ = ["Diagnosis", "diagnose", "mobility_without"]
 
@@ -70,7 +70,7 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
     mechanism : SCGraph or SCDGraph
     prime : int, optional
     forced : bool, optional
-        As for `graphs.exact.exact_mobility`.
+        As for `graphs.rank.generic.exact_mobility`.
     seed : int, optional
 
     Raises
@@ -146,7 +146,7 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
     """Return the generic mobility once a joint is cut, all other axes left where they are.
 
     A joint is *critical* if that changes the mobility, *redundant* if not. Links that fall apart count as in
-    `graphs.exact.exact_mobility`: a fixed link for each part.
+    `graphs.rank.generic.exact_mobility`: a fixed link for each part.
 
     Parameters
     ----------

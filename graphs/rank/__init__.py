@@ -1,0 +1,1 @@
+"""Mobility by rank: exact for a general member of a type, numerical at a pose."""
