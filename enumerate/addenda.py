@@ -24,11 +24,11 @@ from typing import Any
 import networkx as nx
 
 from enumerate.run import Counting, Row, Unit
-from graphs.class_identity import class_code, symmetries_of_links
 from graphs.edits import Edit, add_loop
 from graphs.errors import InvariantError
 from graphs.files.native import dumps
-from graphs.identity import chain_id
+from graphs.identity.chains import chain_id
+from graphs.identity.classes import class_code, symmetries_of_links
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre, JointId, LinkId
 from graphs.mechanism.sc import SCGraph

@@ -19,7 +19,7 @@ from enumerate.cycle_index import count_connected
 from enumerate.fractionated import Block, block_choices, glued, shapes
 from enumerate.run import Counting, Row, Unit
 from graphs.errors import UnsolvableError
-from graphs.identity import chain_from_id
+from graphs.identity.chains import chain_from_id
 
 __all__ = ["ChainJob", "CountJob", "count_job"]
 

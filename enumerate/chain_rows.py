@@ -27,7 +27,7 @@ from enumerate.listing import (
     symmetries_of,
 )
 from enumerate.run import Row
-from graphs.identity import automorphisms_of, canonical_order
+from graphs.identity.chains import automorphisms_of, canonical_order
 
 __all__ = [
     "COLUMNS",

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations_with_replacement, groupby, product
 
-from graphs.identity import automorphisms_of
+from graphs.identity.chains import automorphisms_of
 
 __all__ = ["Block", "block_choices", "glued", "shapes"]
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from enumerate.compiled import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.identity import HEURISTIC
+from graphs.identity.chains import HEURISTIC
 from graphs.loops.loop import JointId, LinkId
 
 __all__ = ["joint_symmetries", "links_apart"]

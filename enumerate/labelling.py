@@ -5,7 +5,7 @@ each vertex of a cell in turn, and refine again, until every vertex has a colour
 of all such leaves is the canonical form. Branches whose colours refine otherwise than the best one's are cut.
 Branches that are images of each other are *not*: every automorphism is met once, as a leaf equal to the best, and
 the enumerators need them all. Made for the graphs of this package (2-connected, three joints or more at each
-vertex, few vertices), whose groups are small; ids of mechanisms come from `graphs.identity`.
+vertex, few vertices), whose groups are small; ids of mechanisms come from `graphs.identity.chains`.
 
 Source: McKay and Piperno, *Practical graph isomorphism, II*, J. Symb. Comput. 60 (2014), section 2.
 """

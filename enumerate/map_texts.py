@@ -1,4 +1,4 @@
-"""Texts of the codes of maps, many at a time: the ids of `graphs.map_identity`."""
+"""Texts of the codes of maps, many at a time: the ids of `graphs.identity.drawings`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from enumerate.compiled import Bytes, Ints
 from enumerate.maps import END, JOINT, OPEN
-from graphs.map_identity import map_text
+from graphs.identity.drawings import map_text
 
 __all__ = ["LABEL_LETTERS", "map_ids"]
 

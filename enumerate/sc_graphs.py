@@ -18,7 +18,7 @@ from enumerate.sc_forms import FormJob
 from enumerate.sc_jobs import SCJob, sc_count_job
 from enumerate.sc_query import SCQuery
 from enumerate.sinks import CountSink
-from graphs.map_identity import mechanism_from_map_id
+from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["chain_forms", "count_sc_graphs", "sc_graphs", "sc_rows"]

@@ -20,7 +20,7 @@ from enumerate.scd_query import PlacementQuery, SCDQuery
 from enumerate.sinks import CountSink
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.map_identity import map_code, map_id, mechanism_from_map_id
+from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 
@@ -158,7 +158,7 @@ def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMech
     Raises
     ------
     UnsolvableError
-        If the loops are not faces (`graphs.map_identity.map_id`), or the mobility cannot be counted.
+        If the loops are not faces (`graphs.identity.drawings.map_id`), or the mobility cannot be counted.
     InvariantError
         If there are too many joints.
     """

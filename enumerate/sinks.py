@@ -17,8 +17,8 @@ from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.native import dumps
 from graphs.files.source import Beside, FolderBeside
-from graphs.identity import chain_from_id
-from graphs.map_identity import mechanism_from_map_id
+from graphs.identity.chains import chain_from_id
+from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["SINKS", "CountSink", "RowSink", "SortedSink", "mechanism_text", "sink_for"]

@@ -20,7 +20,7 @@ from enumerate.compiled import Ints
 from enumerate.conical import ConicalQuery, Portion
 from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.identity import chain_id
+from graphs.identity.chains import chain_id
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.candidate_rows import Shape, order_rows, placed_rows

@@ -135,7 +135,7 @@ def _chain(name: str) -> SCGraph:
     from graphs.errors import FileError
     from graphs.files.formats import read
     from graphs.files.source import load_json
-    from graphs.identity import chain_from_id
+    from graphs.identity.chains import chain_from_id
     from graphs.mechanism.sc import SCGraph
     from synth.conical_file import read_conical
 

@@ -4,10 +4,10 @@ import pytest
 from enumerate.addenda import AddendumCountJob, AddendumJob, addenda
 from enumerate.run import run
 from enumerate.sinks import CountSink
-from graphs.class_identity import class_code
 from graphs.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
+from graphs.identity.classes import class_code
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.generic import exact_mobility

@@ -11,7 +11,7 @@ from enumerate.chains import chain_rows, chains, count_chains
 from enumerate.fractionated import glued, shapes
 from enumerate.inputs import are_inputs, input_choices
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.identity import automorphisms_of, chain_id
+from graphs.identity.chains import automorphisms_of, chain_id
 
 COUNTS = {
     1: {4: 1, 6: 2, 8: 16, 10: 230, 12: 6856, 14: 318162},

@@ -15,7 +15,7 @@ from enumerate.layers import fewest_layers
 from enumerate.names import chain_named
 from enumerate.rounds import Rounds, canonical_row, count_by_burnside, count_by_orbits, placements, prefixes
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.identity import chain_from_id
+from graphs.identity.chains import chain_from_id
 
 COUNTS = {
     "four-bar": (2, {(2, 2): 3}),

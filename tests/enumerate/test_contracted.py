@@ -7,7 +7,7 @@ import pytest
 from enumerate.contracted import contracted_graphs, cubic_graphs, decode
 from enumerate.labelling import canonical_labels
 from graphs.errors import InvariantError
-from graphs.identity import chain_id
+from graphs.identity.chains import chain_id
 
 
 def as_multigraph(adjacency):

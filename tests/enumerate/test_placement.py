@@ -7,7 +7,7 @@ import pytest
 from enumerate.contracted import contracted_graphs
 from enumerate.counting import count_by_burnside, count_by_orbits, count_of_graph
 from enumerate.listing import frame_of, orbits_of_all, placements_of
-from graphs.identity import automorphisms_of, chain_id
+from graphs.identity.chains import automorphisms_of, chain_id
 
 
 def chain(ends, n, x):

@@ -16,9 +16,9 @@ from enumerate.sc_jobs import SCJob
 from enumerate.sc_query import SCQuery
 from enumerate.sinks import RowSink
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.identity import automorphisms_of, chain_id
+from graphs.identity.chains import automorphisms_of, chain_id
+from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
-from graphs.map_identity import map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.generic import exact_mobility
 from graphs.rank.overconstraint import diagnose

@@ -21,8 +21,8 @@ from graphs.conversion import to_sc
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.files.native import dumps
+from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
-from graphs.map_identity import map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import FaceKind
 from graphs.rank.generic import exact_mobility

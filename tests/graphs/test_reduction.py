@@ -7,10 +7,10 @@ from hypothesis import given
 from oracle import numeric_mobility
 from strategies import randoms, scd_graphs
 
-from graphs.class_identity import class_code
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.files.formats import read
+from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.panels import scd_from_panels

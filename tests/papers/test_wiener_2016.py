@@ -10,7 +10,6 @@ from oracle import numeric_mobility
 
 from enumerate.string_graphs import chain_scd, string_of_chain
 from enumerate.strings import ChainString, count_strings, joint_chain, strings
-from graphs.class_identity import class_code
 from graphs.conversion import to_polyhedron
 from graphs.count.equations import (
     modified_cgk,
@@ -23,6 +22,7 @@ from graphs.count.relative import relative_polyhedron, relative_spherical_system
 from graphs.count.report import mobility_report
 from graphs.edits import add_loop
 from graphs.files.formats import read
+from graphs.identity.classes import class_code
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

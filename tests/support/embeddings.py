@@ -6,7 +6,7 @@ from itertools import permutations, product
 
 import networkx as nx
 
-from graphs.identity import chain_id
+from graphs.identity.chains import chain_id
 
 
 def spherical_embeddings(graph):

@@ -10,8 +10,8 @@ from commands import run
 
 from enumerate.store import read_rows
 from graphs.files.formats import read
-from graphs.identity import chain_id
-from graphs.map_identity import map_id
+from graphs.identity.chains import chain_id
+from graphs.identity.drawings import map_id
 
 
 def test_enumerate_strings(tmp_path):

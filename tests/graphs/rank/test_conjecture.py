@@ -4,7 +4,7 @@ import pytest
 from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
-from graphs.class_identity import class_code
+from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.overconstraint import diagnose

@@ -11,7 +11,7 @@ from typing import Any
 
 import bliss_bind
 
-from graphs.identity import HEURISTIC
+from graphs.identity.chains import HEURISTIC
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 

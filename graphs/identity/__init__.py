@@ -1,0 +1,1 @@
+"""Canonical ids: of chains, of drawn mechanisms, of centre classes."""
