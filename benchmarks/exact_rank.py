@@ -22,16 +22,16 @@ from time import perf_counter
 
 import numpy as np
 
+from graphs.convert.panels import scd_from_panels
+from graphs.convert.reconstruction import reconstruct
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.panels import scd_from_panels
 from graphs.rank.closure import closure_of
 from graphs.rank.fields import PRIMES, PrimeField, Reals
 from graphs.rank.general_member import Realisation, realise
 from graphs.rank.generic import centres_of_loops, closure_modulo, exact_mobility, matrix_modulo
 from graphs.rank.pose import dense
 from graphs.rank.rods import exact_mobility_of_model
-from graphs.reconstruction import reconstruct
 
 RUNS = 25
 SYMPY = """

@@ -8,12 +8,12 @@ import networkx as nx
 from entries import entries_of
 from wiener_2016 import WATT, WATT_LOOPS
 
+from graphs.convert.panels import scd_from_panels
+from graphs.convert.reconstruction import reconstruct
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.panels import scd_from_panels
-from graphs.reconstruction import reconstruct
 
 wampler = entries_of("wampler", "Wampler 2007", "004")
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from enumerate.run import Job, Row, Sink
 from enumerate.store import SqliteSink
-from graphs.embedding import sc_from_link_joint_graph
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.native import dumps
 from graphs.files.source import Beside, FolderBeside

@@ -19,9 +19,9 @@ from typing import Any
 
 import networkx as nx
 
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.count.equations import loop_form
 from graphs.count.report import mechanism_class
-from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph

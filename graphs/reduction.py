@@ -168,7 +168,7 @@ def reduce_addenda(
     --------
     A double strip of three by two squares is a four-bar with a ride-along:
 
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> squares = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10)]
     >>> reduction = reduce_addenda(scd_from_panels(squares))
     >>> len(reduction.graph), [step.removed for step in reduction.steps]

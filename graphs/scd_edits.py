@@ -47,7 +47,7 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> mesh = scd_from_panels([(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)])
     >>> corner, opposite = mesh.vertices[0][0], mesh.vertices[0][2]
     >>> edit = crease_link(mesh, 0, corner, opposite)
@@ -114,7 +114,7 @@ def make_implicit(scd: SCDGraph, loop: int) -> Edit:
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> edit = make_implicit(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]), 0)
     >>> edit.predicted, edit.counted, edit.graph.counts.implicit_centres
     (0, 0, 1)
@@ -151,7 +151,7 @@ def make_explicit(scd: SCDGraph, loop: int) -> Edit:
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
     >>> make_explicit(make_implicit(fan, 0).graph, 0).graph.is_identical(fan)
     True
@@ -194,7 +194,7 @@ def ride_along(scd: SCDGraph, joint: JointId, sides: tuple[int, int] = (3, 3)) -
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> fan = scd_from_panels([(0, k, k % 6 + 1) for k in range(1, 7)])
     >>> edit = ride_along(fan, 0)
     >>> edit.predicted, edit.counted, len(edit.graph.loops)
@@ -237,7 +237,7 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> edit = lock_hinge(scd_from_panels([(0, k, k % 5 + 1) for k in range(1, 6)]), 0)
     >>> edit.predicted, edit.counted
     (-1, -1)

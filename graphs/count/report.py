@@ -131,7 +131,7 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> report = mobility_report(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
     >>> report.mechanism_class, report.mobility, report.equations["polyhedron"].value
     ('spherical', 1, 1)

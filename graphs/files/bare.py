@@ -1,7 +1,7 @@
 """Bare link-joint graphs: graph6 and sparse6 (nauty), GraphML, and edge lists.
 
 Such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
-centres (:func:`graphs.embedding.sc_from_link_joint_graph`); written, loops and centres are lost.
+centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, loops and centres are lost.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from xml.etree.ElementTree import ParseError
 
 import networkx as nx
 
-from graphs.embedding import sc_from_link_joint_graph
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.source import MOST_NODES, Checker, read_text
 from graphs.mechanism.sc import SCGraph

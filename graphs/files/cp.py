@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from graphs.convert.tracing import MOST, Lines, trace_sheet
 from graphs.errors import FileError, shown
 from graphs.files.source import Checker, read_text
 from graphs.mechanism.sheet import Sheet, flat_places
-from graphs.tracing import MOST, Lines, trace_sheet
 
 __all__ = ["cp_text", "sheet_from_cp"]
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphs.conversion import Mechanism, to_sc, to_sheet
+from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError
 from graphs.files.bare import (
     as_sc,

@@ -17,10 +17,10 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
+from graphs.convert.tracing import MOST, Lines, trace_sheet
 from graphs.errors import FileError, shown
 from graphs.files.source import Checker, read_text
 from graphs.mechanism.sheet import Sheet, flat_places
-from graphs.tracing import MOST, Lines, trace_sheet
 
 __all__ = ["letter_of_colour", "sheet_from_svg", "svg_text"]
 

@@ -1,6 +1,6 @@
 """A sheet: vertices, edges and faces of a crease pattern.
 
-The mechanism it is: :mod:`graphs.duality`. Theory: docs/theory/crease-patterns.md.
+The mechanism it is: :mod:`graphs.convert.duality`. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Sheet:
 
     Examples
     --------
-    >>> from graphs.duality import mechanism_of_sheet
+    >>> from graphs.convert.duality import mechanism_of_sheet
     >>> square = Sheet(4, ((0, 1), (1, 2), (2, 3), (3, 0), (0, 2)), "BBBBV", ((0, 1, 2), (0, 2, 3)))
     >>> len(mechanism_of_sheet(square).sc.joints)
     1

@@ -83,7 +83,7 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
     A square twist of nine panels: as many equations as joints, none idle, and nothing moves.
 
     >>> from graphs.files.formats import read
-    >>> from graphs.conversion import to_sc
+    >>> from graphs.convert.table import to_sc
     >>> found = diagnose(to_sc(read("data/wiener/square-twist.fold")))
     >>> found.mobility, found.idle, len(found.immobile), len(found.clusters)
     (0, 0, 12, 1)

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.count.equations import overconstraint
-from graphs.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import JointId
 from graphs.mechanism.polyhedron import PolyhedronModel

@@ -38,7 +38,7 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
     """
     options = RunOptions.taken_from(rest)
     from enumerate.addenda import AddendumCountJob, AddendumJob
-    from graphs.conversion import to_sc
+    from graphs.convert.table import to_sc
     from graphs.files.formats import read
     from graphs.mechanism.sc import SCGraph
 

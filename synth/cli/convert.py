@@ -37,7 +37,7 @@ def convert(source: str, target: str, kind: str | None, form: str | None, as_jso
       synth convert watt.json planar-watt.json --form planar
     """
     from graphs.analogues import generalised_form, planar_analogue, spherical_analogue
-    from graphs.conversion import CONVERSIONS, to_sc
+    from graphs.convert.table import CONVERSIONS, to_sc
     from graphs.files.formats import read, write
     from graphs.mechanism.sc import SCGraph
 

@@ -44,7 +44,7 @@ def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]
     Example:
       synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
     """
-    from graphs.conversion import to_sc
+    from graphs.convert.table import to_sc
     from graphs.files.formats import read, write
     from graphs.mechanism.sc import SCGraph
 

@@ -16,7 +16,7 @@ from synth.cli.output import about, console, entries, plain, print_json, table
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from graphs.conversion import Mechanism
+    from graphs.convert.table import Mechanism
     from graphs.count.report import MobilityReport
     from graphs.mechanism.sheet import Sheet
 
@@ -90,7 +90,7 @@ def _report(
     label: str, mechanism: Mechanism, exact: bool | None, hinge_flat: bool, pose: int | None
 ) -> MobilityReport:
     from graphs.arbiter import model_with_exact, with_exact
-    from graphs.conversion import to_sc
+    from graphs.convert.table import to_sc
     from graphs.count.report import mobility_report
     from graphs.mechanism.polyhedron import PolyhedronModel
     from graphs.mechanism.sc import SCGraph
@@ -112,8 +112,8 @@ def _report_of_sheet(
 ) -> MobilityReport:
     """Report a crease pattern; where flat edges matter, say what it is the other way round."""
     from graphs.arbiter import with_exact, with_pose
+    from graphs.convert.duality import mechanism_of_sheet
     from graphs.count.report import mobility_report
-    from graphs.duality import mechanism_of_sheet
     from graphs.files.formats import read_frame
 
     found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)

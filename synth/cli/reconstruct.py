@@ -23,10 +23,10 @@ def reconstruct(file: str, output: str | None, as_json: bool) -> None:
     Example:
       synth reconstruct data/wiener/six-bar.json -o model.json
     """
-    from graphs.conversion import to_polyhedron, to_scd
+    from graphs.convert.reconstruction import vertex_steps
+    from graphs.convert.table import to_polyhedron, to_scd
     from graphs.count.equations import mobility_of_model
     from graphs.files.formats import read, write
-    from graphs.reconstruction import vertex_steps
 
     thing = read(file)
     with about(file):

@@ -58,7 +58,7 @@ def reduce_command(
       synth reduce data/wiener/fortune-teller.json -o eight-bar.json
       synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
-    from graphs.conversion import to_sc
+    from graphs.convert.table import to_sc
     from graphs.files.formats import read, write
     from graphs.reduction import reduce_addenda
 

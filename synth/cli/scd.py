@@ -84,7 +84,7 @@ def scd(
 
 def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
     from enumerate.scd_graphs import mechanism_of
-    from graphs.conversion import to_sc
+    from graphs.convert.table import to_sc
     from graphs.files.formats import read
     from graphs.mechanism.sc import SCGraph
 

@@ -17,7 +17,8 @@ from enumerate.scd_graphs import (
 from enumerate.scd_jobs import SCDJob, scd_count_job
 from enumerate.scd_query import PlacementQuery, SCDQuery
 from enumerate.sinks import CountSink, RowSink
-from graphs.conversion import to_sc
+from graphs.convert.reconstruction import reconstruct
+from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.files.native import dumps
@@ -27,7 +28,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import FaceKind
 from graphs.rank.generic import exact_mobility
 from graphs.rank.rods import exact_mobility_of_model
-from graphs.reconstruction import reconstruct
 
 COUNTS = [
     (4, 1, 3, 1),

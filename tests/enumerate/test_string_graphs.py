@@ -4,10 +4,10 @@ from hypothesis import strategies as st
 
 from enumerate.string_graphs import chain_sc, chain_scd, string_of_chain
 from enumerate.strings import ChainString, strings
+from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.scd import SCDGraph
-from graphs.panels import scd_from_panels
 
 
 @st.composite

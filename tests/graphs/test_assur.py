@@ -4,7 +4,7 @@ import pytest
 from rigidity import chains_by_geng
 
 from graphs.assur import assur_groups, reduce_assur
-from graphs.embedding import sc_from_link_joint_graph
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph

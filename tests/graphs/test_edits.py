@@ -4,13 +4,13 @@ import pytest
 from hypothesis import given
 from strategies import randoms, sc_graphs, scd_graphs
 
+from graphs.convert.panels import scd_from_panels
 from graphs.count.relative import relative_polyhedron
 from graphs.edits import add_crease, add_loop, add_ride_along, fresh, lock_joint
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import FaceKind
-from graphs.panels import scd_from_panels
 from graphs.reduction import reduce_addenda
 from graphs.scd_edits import crease_link, lock_hinge, make_explicit, make_implicit, ride_along
 

@@ -7,13 +7,13 @@ from hypothesis import given
 from oracle import numeric_mobility
 from strategies import randoms, scd_graphs
 
+from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.panels import scd_from_panels
 from graphs.reduction import RULES, reduce_addenda
 
 DATA = Path(__file__).resolve().parents[2] / "data"
@@ -242,7 +242,7 @@ def test_classes_are_kept_though_their_joints_go():
 
 def test_a_closed_surface_stays_closed():
     """A ride-along on a tetrahedron of four panels: the closing loop changes, the count does not."""
-    from graphs.embedding import sc_from_link_joint_graph
+    from graphs.convert.link_joint import sc_from_link_joint_graph
 
     graph = nx.MultiGraph(nx.complete_graph(4))
     nx.add_path(graph, [0, 4, 5, 1])

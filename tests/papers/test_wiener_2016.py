@@ -10,7 +10,7 @@ from oracle import numeric_mobility
 
 from enumerate.string_graphs import chain_scd, string_of_chain
 from enumerate.strings import ChainString, count_strings, joint_chain, strings
-from graphs.conversion import to_polyhedron
+from graphs.convert.table import to_polyhedron
 from graphs.count.equations import (
     modified_cgk,
     overconstraint,

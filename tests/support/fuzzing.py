@@ -10,9 +10,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-from graphs.conversion import to_sc
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.table import to_sc
 from graphs.count.report import mobility_report
-from graphs.duality import mechanism_of_sheet
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, read_all, write
 from graphs.mechanism.polyhedron import PolyhedronModel

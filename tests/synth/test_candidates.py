@@ -19,7 +19,7 @@ from enumerate.run import Interrupted
 from enumerate.run import run as run_job
 from enumerate.sinks import RowSink
 from enumerate.store import SqliteSink, read_rows
-from graphs.embedding import sc_from_link_joint_graph
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sc import SCGraph
 from synth.behaviour import link_arcs

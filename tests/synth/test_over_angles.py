@@ -9,7 +9,7 @@ from conical import FOUR_BAR, STEPHENSON, WATT
 from enumerate.chains import chains
 from enumerate.joint_symmetries import links_apart
 from enumerate.rounds import Rounds, placements
-from graphs.embedding import sc_from_link_joint_graph
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from synth.behaviour import link_arcs
 from synth.candidate_values import layers, loop_circuits
 from synth.candidates import CandidateJob

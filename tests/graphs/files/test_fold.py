@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from graphs.duality import mechanism_of_sheet
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.files.formats import read, write

@@ -140,7 +140,7 @@ def test_what_is_no_id(code):
 def test_closed_surfaces_have_no_id():
     import networkx as nx
 
-    from graphs.embedding import sc_from_link_joint_graph
+    from graphs.convert.link_joint import sc_from_link_joint_graph
 
     with pytest.raises(UnsolvableError, match="outer face"):
         map_id(sc_from_link_joint_graph(nx.octahedral_graph(), Centre.FINITE, closed=True))

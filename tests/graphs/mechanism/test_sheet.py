@@ -2,8 +2,8 @@ import json
 
 import pytest
 
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
-from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError
 from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.mechanism.sheet import Sheet

@@ -9,10 +9,10 @@ from oracle import numeric_mobility
 from rigidity import chains_by_geng
 from strategies import random_sc
 
-from graphs.conversion import to_sc
+from graphs.convert.link_joint import sc_from_link_joint_graph
+from graphs.convert.table import to_sc
 from graphs.count.equations import loop_form
 from graphs.count.report import mobility_report
-from graphs.embedding import sc_from_link_joint_graph
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
 from graphs.loops.loop import Loop

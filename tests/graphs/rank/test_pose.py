@@ -4,8 +4,8 @@ from math import cos, sin, tan
 import numpy as np
 import pytest
 
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.equations import loop_form
-from graphs.duality import mechanism_of_sheet
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read, read_frame
 from graphs.mechanism.sheet import Sheet
@@ -106,7 +106,7 @@ def test_scale_and_place_do_not_matter():
 
 
 DIFFERENT = {
-    # More or fewer vertices than the reference sees: tests/graphs/test_crease_patterns.py says why.
+    # More or fewer vertices than the reference sees: tests/graphs/convert/test_crease_patterns.py says why.
     "ossvg_FTpoly7.svg": "split lines",
     "ossvg_whirlpool.svg": "lines miss each other",
     "ossvg_HexTriFlatFoldableTess.svg": "split lines",

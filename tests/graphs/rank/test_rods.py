@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from strategies import random_scd
 
+from graphs.convert.reconstruction import reconstruct
 from graphs.count.equations import mobility_of_model
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
@@ -16,7 +17,6 @@ from graphs.rank.fields import PRIMES, PrimeField
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility_of_axes, pose_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model, place_model
-from graphs.reconstruction import reconstruct
 
 
 def test_models_of_wampler(data):

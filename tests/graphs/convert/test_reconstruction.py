@@ -1,13 +1,13 @@
 from hypothesis import given
 from strategies import scd_graphs
 
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.panels import scd_from_panels
+from graphs.convert.reconstruction import internal_rods, reconstruct, vertex_steps
 from graphs.count.equations import mobility_of_model
-from graphs.duality import mechanism_of_sheet
 from graphs.loops.loop import Loop
 from graphs.mechanism.scd import FaceKind, SCDGraph
 from graphs.mechanism.sheet import sheet_from_model
-from graphs.panels import scd_from_panels
-from graphs.reconstruction import internal_rods, reconstruct, vertex_steps
 
 
 @given(scd_graphs)

@@ -1,7 +1,7 @@
 """From any object that a file may hold to any other.
 
 One function a target; each says what stands in the way where there is no road. The roads themselves are in
-:mod:`graphs.reconstruction`, :mod:`graphs.panels`, :mod:`graphs.mechanism.sheet` and
+:mod:`graphs.convert.reconstruction`, :mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and
 :mod:`graphs.mechanism.vertex_edge`.
 """
 
@@ -10,15 +10,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 
-from graphs.duality import mechanism_of_sheet
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.panels import oriented_panels, scd_from_panels
+from graphs.convert.reconstruction import reconstruct
 from graphs.errors import UnsolvableError
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, sheet_from_model, sides_of_face
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
-from graphs.panels import oriented_panels, scd_from_panels
-from graphs.reconstruction import reconstruct
 
 __all__ = ["CONVERSIONS", "Mechanism", "to_polyhedron", "to_sc", "to_scd", "to_sheet", "to_vertex_edge"]
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
-from graphs.duality import mechanism_of_sheet
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, write
 

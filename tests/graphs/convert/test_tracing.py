@@ -9,11 +9,11 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphs.duality import mechanism_of_sheet
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.tracing import Lines, trace_sheet
 from graphs.errors import InvariantError
 from graphs.files.cp import cp_text, sheet_from_cp
 from graphs.files.formats import read, write
-from graphs.tracing import Lines, trace_sheet
 
 SQUARE = [((0, 0), (1, 0)), ((1, 0), (1, 1)), ((1, 1), (0, 1)), ((0, 1), (0, 0))]
 

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from strategies import scd_graphs
 
-from graphs.conversion import CONVERSIONS, to_polyhedron, to_sc, to_scd, to_sheet, to_vertex_edge
+from graphs.convert.panels import oriented_panels, scd_from_panels
+from graphs.convert.table import CONVERSIONS, to_polyhedron, to_sc, to_scd, to_sheet, to_vertex_edge
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
@@ -13,7 +14,6 @@ from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
-from graphs.panels import oriented_panels, scd_from_panels
 
 GRID = VertexEdgeGraph(
     {"A": ("ab", "a1", "a2", "ac"), "B": ("b1", "b2", "ab", "bd"), "C": ("cd", "ac", "c1", "c2"),

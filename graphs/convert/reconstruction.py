@@ -41,7 +41,7 @@ def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> fan = scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")])
     >>> [step.kind.value for step in vertex_steps(fan)]
     ['outer', 'outer', 'outer', 'explicit']
@@ -94,7 +94,7 @@ def reconstruct(scd: SCDGraph) -> PolyhedronModel:
 
     Examples
     --------
-    >>> from graphs.panels import scd_from_panels
+    >>> from graphs.convert.panels import scd_from_panels
     >>> model = reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
     >>> len(model), model.number_of_edges()
     (4, 6)
