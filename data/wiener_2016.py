@@ -8,14 +8,14 @@ from entries import entries_of
 
 from enumerate.string_graphs import chain_scd
 from enumerate.strings import joint_chain, strings
-from graphs.analogues import planar_analogue
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import scd_from_panels
-from graphs.edits import add_loop
+from graphs.edit.analogues import planar_analogue
+from graphs.edit.sc import add_loop
+from graphs.edit.scd import crease_link, ride_along
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.scd_edits import crease_link, ride_along
 
 wiener = entries_of("wiener", "Wiener 2016", "003")
 

@@ -24,7 +24,7 @@ from typing import Any
 import networkx as nx
 
 from enumerate.run import Counting, Row, Unit
-from graphs.edits import Edit, add_loop
+from graphs.edit.sc import Edit, add_loop
 from graphs.errors import InvariantError
 from graphs.files.native import dumps
 from graphs.identity.chains import chain_id

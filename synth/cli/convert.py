@@ -36,8 +36,8 @@ def convert(source: str, target: str, kind: str | None, form: str | None, as_jso
       synth convert crease-pattern.fold model.json --to polyhedron
       synth convert watt.json planar-watt.json --form planar
     """
-    from graphs.analogues import generalised_form, planar_analogue, spherical_analogue
     from graphs.convert.table import CONVERSIONS, to_sc
+    from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
     from graphs.files.formats import read, write
     from graphs.mechanism.sc import SCGraph
 

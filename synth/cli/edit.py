@@ -13,7 +13,7 @@ from synth.cli.reduce import link_named
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-    from graphs.edits import Edit
+    from graphs.edit.sc import Edit
     from graphs.mechanism.sc import SCGraph
 
 __all__ = ["edit"]
@@ -105,9 +105,9 @@ def _joint_named(sc: SCGraph, name: str) -> Hashable:
 
 
 def _crease(sc: SCGraph, text: str) -> Edit:
-    from graphs.edits import add_crease
+    from graphs.edit.sc import add_crease
+    from graphs.edit.scd import crease_link
     from graphs.mechanism.scd import SCDGraph
-    from graphs.scd_edits import crease_link
 
     name, _, rest = text.partition(":")
     link, words = link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
@@ -119,7 +119,7 @@ def _crease(sc: SCGraph, text: str) -> Edit:
 
 
 def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
-    from graphs.edits import add_loop
+    from graphs.edit.sc import add_loop
     from graphs.mechanism.scd import SCDGraph
 
     a, b, k = _words(text, 3, option)
@@ -128,9 +128,9 @@ def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
 
 
 def _ride_along(sc: SCGraph, text: str) -> Edit:
-    from graphs.edits import add_ride_along
+    from graphs.edit.sc import add_ride_along
+    from graphs.edit.scd import ride_along
     from graphs.mechanism.scd import SCDGraph
-    from graphs.scd_edits import ride_along
 
     a, b = (link_named(sc, word) for word in _words(text, 2, "--add-ride-along"))
     if isinstance(sc, SCDGraph) and sc.has_edge(a, b):
@@ -139,9 +139,9 @@ def _ride_along(sc: SCGraph, text: str) -> Edit:
 
 
 def _centre(sc: SCGraph, text: str, option: str) -> Edit:
+    from graphs.edit.scd import make_explicit, make_implicit
     from graphs.errors import UnsolvableError
     from graphs.mechanism.scd import SCDGraph
-    from graphs.scd_edits import make_explicit, make_implicit
 
     if not isinstance(sc, SCDGraph):
         raise UnsolvableError(f"{option} needs the sides of the links: an SCD graph")
@@ -149,9 +149,9 @@ def _centre(sc: SCGraph, text: str, option: str) -> Edit:
 
 
 def _lock(sc: SCGraph, text: str) -> Edit:
-    from graphs.edits import lock_joint
+    from graphs.edit.sc import lock_joint
+    from graphs.edit.scd import lock_hinge
     from graphs.mechanism.scd import SCDGraph
-    from graphs.scd_edits import lock_hinge
 
     joint = _joint_named(sc, text)
     return lock_hinge(sc, joint) if isinstance(sc, SCDGraph) else lock_joint(sc, joint)

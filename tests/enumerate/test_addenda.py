@@ -4,7 +4,7 @@ import pytest
 from enumerate.addenda import AddendumCountJob, AddendumJob, addenda
 from enumerate.run import run
 from enumerate.sinks import CountSink
-from graphs.edits import add_ride_along
+from graphs.edit.sc import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.identity.classes import class_code

@@ -9,8 +9,8 @@ import pytest
 from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, random_linkages
 
 from enumerate.rounds import Rounds, count_by_burnside, placements
-from graphs.analogues import planar_analogue
 from graphs.count.report import mobility_report
+from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
 from synth.behaviour import behaviour, shadow_allows
 from synth.candidates import CandidateJob

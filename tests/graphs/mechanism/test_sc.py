@@ -7,9 +7,9 @@ from hypothesis import given
 from oracle import numeric_mobility
 from strategies import randoms, sc_graphs
 
-from graphs.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.convert.link_joint import block_cycles, sc_from_link_joint_graph
 from graphs.count.report import mobility_report
+from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph

@@ -1,7 +1,7 @@
 """Edits of SCD graphs: the sides of the links are kept, and Eq. 7 predicts the change of mobility.
 
 Source: Wiener 2016, sections 4.2.2 to 4.2.4 and 6.3.2, Eq. 7. Edits of SC graphs, whose links have no shape,
-are in :mod:`graphs.edits`. Theory: docs/theory/edits.md.
+are in :mod:`graphs.edit.sc`. Theory: docs/theory/edits.md.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphs.count.relative import relative_polyhedron
-from graphs.edits import Edit, fresh
+from graphs.edit.sc import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.mechanism.drawing import Side

@@ -6,13 +6,13 @@ from strategies import randoms, sc_graphs, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
 from graphs.count.relative import relative_polyhedron
-from graphs.edits import add_crease, add_loop, add_ride_along, fresh, lock_joint
+from graphs.edit.sc import add_crease, add_loop, add_ride_along, fresh, lock_joint
+from graphs.edit.scd import crease_link, lock_hinge, make_explicit, make_implicit, ride_along
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import FaceKind
 from graphs.reduction import reduce_addenda
-from graphs.scd_edits import crease_link, lock_hinge, make_explicit, make_implicit, ride_along
 
 SIX = SCGraph(6, [(i, (i + 1) % 6) for i in range(6)], [Loop(range(6))])
 FAN = scd_from_panels([(0, k, k % 5 + 1) for k in range(1, 6)])

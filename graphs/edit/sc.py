@@ -1,7 +1,7 @@
 """Edits of SC graphs, each with the change of mobility that the relative equations predict.
 
 An edit returns a new graph; nothing is changed in place. Source: Wiener 2016, sections 4.2 and 6.3.2, Eqs. 5 and
-6. Edits that keep the sides of the links are in :mod:`graphs.scd_edits`. Theory: docs/theory/edits.md.
+6. Edits that keep the sides of the links are in :mod:`graphs.edit.scd`. Theory: docs/theory/edits.md.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""Edits of SC and SCD graphs, with the change of mobility they predict."""
