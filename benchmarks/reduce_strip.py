@@ -19,7 +19,7 @@ import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.reduction import reduce_addenda
+from graphs.reduce.ride_alongs import reduce_addenda
 
 SIZES = [12_500, 25_000, 50_000, 100_000, 200_000, 400_000]
 RUNS = 3

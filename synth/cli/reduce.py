@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.tree import Tree
 
     from graphs.mechanism.sc import SCGraph
-    from graphs.reduction import Reduction
+    from graphs.reduce.ride_alongs import Reduction
 
 __all__ = ["link_named", "reduce_command"]
 
@@ -60,7 +60,7 @@ def reduce_command(
     """
     from graphs.convert.table import to_sc
     from graphs.files.formats import read, write
-    from graphs.reduction import reduce_addenda
+    from graphs.reduce.ride_alongs import reduce_addenda
 
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input belong to --rule assur")
@@ -83,8 +83,8 @@ def reduce_command(
 def _reduce_assur(
     file: str, sc: SCGraph, output: str | None, ground: str | None, inputs: tuple[str, ...], as_json: bool
 ) -> None:
-    from graphs.assur import reduce_assur
     from graphs.files.formats import write
+    from graphs.reduce.assur import reduce_assur
 
     fixed = sc.ground if ground is None else link_named(sc, ground)
     if fixed is None or not inputs:

@@ -11,7 +11,7 @@ from graphs.identity.classes import class_code
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.generic import exact_mobility
-from graphs.reduction import reduce_addenda
+from graphs.reduce.ride_alongs import reduce_addenda
 
 FILES = ["watt", "stephenson", "six-bar-loop-spherical", "eight-bar", "hybrid-ten-bar", "stephenson-planar"]
 

@@ -22,7 +22,7 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.generic import exact_mobility
 from graphs.rank.overconstraint import diagnose
-from graphs.reduction import reduce_addenda
+from graphs.reduce.ride_alongs import reduce_addenda
 
 COUNTS = {
     1: {4: 1, 6: 4, 8: 54, 10: 1564, 12: 66594, 14: 3404097},

@@ -7,7 +7,7 @@ import pytest
 
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
-from graphs.reduction import reduce_addenda
+from graphs.reduce.ride_alongs import reduce_addenda
 from synth.burmester import dyads_of_five
 from synth.hoop import hoop, hoop_sequence, pair_name
 from synth.order import analyse_order

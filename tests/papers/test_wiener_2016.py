@@ -26,7 +26,7 @@ from graphs.identity.classes import class_code
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.reduction import reduce_addenda
+from graphs.reduce.ride_alongs import reduce_addenda
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 EXAMPLES = {

@@ -12,7 +12,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import FaceKind
-from graphs.reduction import reduce_addenda
+from graphs.reduce.ride_alongs import reduce_addenda
 
 SIX = SCGraph(6, [(i, (i + 1) % 6) for i in range(6)], [Loop(range(6))])
 FAN = scd_from_panels([(0, k, k % 5 + 1) for k in range(1, 6)])

@@ -17,7 +17,7 @@ from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, shown
 from graphs.loops.loop import JointId, LinkId, cut_into_cycles, dependent_loop, in_span_of
 from graphs.mechanism.sc import SCGraph
-from graphs.reduction_state import Removal, WorkingGraph
+from graphs.reduce.working import Removal, WorkingGraph
 
 __all__ = ["RULES", "Reduction", "ReductionStep", "reduce_addenda"]
 

@@ -14,9 +14,9 @@ from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.reduction import RULES, reduce_addenda
+from graphs.reduce.ride_alongs import RULES, reduce_addenda
 
-DATA = Path(__file__).resolve().parents[2] / "data"
+DATA = Path(__file__).resolve().parents[3] / "data"
 
 
 def mobility(sc):

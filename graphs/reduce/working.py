@@ -1,7 +1,7 @@
 """The mutable working copy on which a reduction is done and undone.
 
 Loops are sets of joints here, so that changing a long loop costs as much as what changes. See
-:mod:`graphs.reduction` for what a step is.
+:mod:`graphs.reduce.ride_alongs` for what a step is.
 """
 
 from __future__ import annotations

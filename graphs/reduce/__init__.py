@@ -1,0 +1,1 @@
+"""Reduction: ride-alongs and dyads taken off, Assur groups."""
