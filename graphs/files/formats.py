@@ -20,9 +20,9 @@ from graphs.files.bare import (
     read_graph6,
     read_graphml,
 )
-from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.files.native import dumps, from_document
-from graphs.files.obj import obj_text, sheet_from_obj
+from graphs.files.patterns.fold import fold_text, sheet_from_fold
+from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.source import load_json, write_text
 from graphs.mechanism.sheet import Sheet
 
@@ -184,13 +184,13 @@ def _read_edges(path: Path) -> Iterator[tuple[str, Mechanism]]:
 
 
 def _read_cp(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.cp import sheet_from_cp  # tracing loads shapely
+    from graphs.files.patterns.cp import sheet_from_cp  # tracing loads shapely
 
     yield "", sheet_from_cp(path)
 
 
 def _read_svg(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.svg import sheet_from_svg
+    from graphs.files.patterns.svg import sheet_from_svg
 
     yield "", sheet_from_svg(path)
 
@@ -228,7 +228,7 @@ def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 
 
 def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    from graphs.files.cp import cp_text
+    from graphs.files.patterns.cp import cp_text
 
     sheet = to_sheet(mechanism)
     unknown = ("that creases are unassigned: they are written as valleys",) if "U" in sheet.assignments else ()
@@ -236,7 +236,7 @@ def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 
 
 def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    from graphs.files.svg import svg_text
+    from graphs.files.patterns.svg import svg_text
 
     return svg_text(to_sheet(mechanism)), ("which lines bound which face",)
 

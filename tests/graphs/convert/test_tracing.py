@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.tracing import Lines, trace_sheet
 from graphs.errors import InvariantError
-from graphs.files.cp import cp_text, sheet_from_cp
 from graphs.files.formats import read, write
+from graphs.files.patterns.cp import cp_text, sheet_from_cp
 
 SQUARE = [((0, 0), (1, 0)), ((1, 0), (1, 1)), ((1, 1), (0, 1)), ((0, 1), (0, 0))]
 

@@ -6,8 +6,8 @@ import pytest
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, UnsolvableError
-from graphs.files.fold import fold_text, sheet_from_fold
 from graphs.files.formats import read, write
+from graphs.files.patterns.fold import fold_text, sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 
 SQUARE = {

@@ -5,7 +5,7 @@ import pytest
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
-from graphs.files.fold import fold_text, sheet_from_fold
+from graphs.files.patterns.fold import fold_text, sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError
-from graphs.files.fold_frames import resolved_frame
+from graphs.files.patterns.fold_frames import resolved_frame
 from graphs.files.source import MOST_NODES, Checker, json_text
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet
 

@@ -1,0 +1,1 @@
+"""Crease patterns: FOLD, .cp, SVG, OBJ."""
