@@ -18,7 +18,7 @@ import wampler_2007
 import wiener_2016
 
 from graphs.files.formats import write
-from graphs.files.native_orientations import orientations_document
+from graphs.files.native.orientations import orientations_document
 from graphs.files.source import json_text
 
 HERE = Path(__file__).resolve().parent

@@ -26,7 +26,7 @@ import networkx as nx
 from enumerate.run import Counting, Row, Unit
 from graphs.edit.sc import Edit, add_loop
 from graphs.errors import InvariantError
-from graphs.files.native import dumps
+from graphs.files.native.documents import dumps
 from graphs.identity.chains import chain_id
 from graphs.identity.classes import class_code, symmetries_of_links
 from graphs.loops.classes import CentreClass

@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, shown
-from graphs.files.names import VERSION, written
-from graphs.files.native_graphs import read_sc, sc_document
+from graphs.files.native.graphs import read_sc, sc_document
+from graphs.files.native.names import VERSION, written
 from graphs.files.source import Checker, json_text, load_json, write_text
 from graphs.loops.loop import JointId
 from graphs.mechanism.sc import SCGraph

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
-from graphs.files.native_orientations import orientation_rows, orientations_document
+from graphs.files.native.orientations import orientation_rows, orientations_document
 from graphs.files.source import json_text, write_text
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from graphs.files.bare import (
     read_graph6,
     read_graphml,
 )
-from graphs.files.native import dumps, from_document
+from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, sheet_from_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.source import load_json, write_text

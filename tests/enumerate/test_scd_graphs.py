@@ -21,7 +21,7 @@ from graphs.convert.reconstruction import reconstruct
 from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from graphs.files.native import dumps
+from graphs.files.native.documents import dumps
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph

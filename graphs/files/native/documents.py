@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, shown
-from graphs.files.names import VERSION, head, tuple_of, written
-from graphs.files.native_graphs import read_sc, read_scd, sc_document
-from graphs.files.native_models import polyhedron_document, read_polyhedron
+from graphs.files.native.graphs import read_sc, read_scd, sc_document
+from graphs.files.native.models import polyhedron_document, read_polyhedron
+from graphs.files.native.names import VERSION, head, tuple_of, written
 from graphs.files.source import Checker, json_text
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph

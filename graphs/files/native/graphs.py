@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from graphs.errors import FileError, shown
-from graphs.files.names import count_or_names, head, is_count, names, written
+from graphs.files.native.names import count_or_names, head, is_count, names, written
 from graphs.files.source import Checker
 from graphs.loops.loop import Centre, JointId, LinkId, Loop
 from graphs.mechanism.sc import SCGraph
