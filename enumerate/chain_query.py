@@ -8,8 +8,8 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from enumerate.compiled import Bytes
 from enumerate.contracted import MOST_LOOPS, decode
+from enumerate.kernel.compiled import Bytes
 from graphs.errors import InvariantError
 
 __all__ = ["ChainQuery", "Range", "is_planar", "within"]

@@ -14,9 +14,9 @@ import networkx as nx
 import numpy as np
 
 from enumerate.chain_query import ChainQuery, is_planar
-from enumerate.compiled import Bytes, Ints
 from enumerate.contracted import decode
 from enumerate.inputs import input_choices
+from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.listing import (
     frame_of,
     graph6_rows,

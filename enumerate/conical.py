@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from enumerate.compiled import Ints
 from enumerate.joint_symmetries import joint_symmetries
+from enumerate.kernel.compiled import Ints
 from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError

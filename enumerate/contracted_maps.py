@@ -3,7 +3,7 @@
 A chain drawn on the sphere becomes, when its binary links are taken out, a 2-connected map in which every link has
 three joints or more, parallel joints allowed. Maps come from each other like the graphs of
 `enumerate.contracted`: cubic ones with one more loop by a joint across a face, the others by contracting joints,
-where a map is 2-connected as long as no face meets a link twice. Codes are those of `enumerate.maps`.
+where a map is 2-connected as long as no face meets a link twice. Codes are those of `enumerate.kernel.maps`.
 Theory: docs/theory/sc-enumeration.md.
 """
 
@@ -13,10 +13,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled
 from enumerate.contracted import cheapest_degree
-from enumerate.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
-from enumerate.row_set import empty_set, insert
+from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
+from enumerate.kernel.row_set import empty_set, insert
 from graphs.errors import InvariantError
 
 __all__ = ["MOST_MAP_LOOPS", "contracted_maps", "cubic_maps", "map_symmetries"]
@@ -38,7 +38,8 @@ def contracted_maps(loops: int) -> Iterator[tuple[int, Bytes]]:
     links : int
         n, from 2 (L - 1) down to 2.
     codes : uint8[k, 3 n + 2 (L - 1)]
-        One row a map, no two equal or mirror images on the sphere; `enumerate.maps.decode_map` gives the map.
+        One row a map, no two equal or mirror images on the sphere; `enumerate.kernel.maps.decode_map` gives the
+        map.
 
     Raises
     ------

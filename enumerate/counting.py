@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, Words, compiled
 from enumerate.contracted import decode
-from enumerate.labelling import canonical_labels
+from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
+from enumerate.kernel.labelling import canonical_labels
 from enumerate.placement import conditions, no_prefix, permutations, place, rigid_sets, slots
 
 __all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]

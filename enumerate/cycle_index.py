@@ -26,8 +26,8 @@ from math import factorial
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints
 from enumerate.contracted import contracted_graphs, decode
+from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.listing import frame_of
 from enumerate.placement import conditions, place, rigid_sets
 

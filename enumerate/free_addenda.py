@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Ints, Words, compiled
+from enumerate.kernel.compiled import Ints, Words, compiled
 
 __all__ = ["reduced_joints"]
 

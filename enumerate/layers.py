@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Ints, compiled
+from enumerate.kernel.compiled import Ints, compiled
 
 __all__ = ["fewest_layers"]
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled
 from enumerate.contracted import decode
-from enumerate.labelling import canonical_labels
+from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.labelling import canonical_labels
 from enumerate.placement import conditions, no_prefix, permutations, place, rigid_sets, slots
 
 __all__ = [

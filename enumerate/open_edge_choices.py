@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.centre_labels import FINITE, INFINITE, OUTER, SPATIAL, classes_of, joints_of_faces
-from enumerate.compiled import Bytes, Ints, compiled
 from enumerate.embedded import code_of
-from enumerate.maps import decode_map, faces_of, symmetries_of_map
+from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, SPATIAL, classes_of, joints_of_faces
+from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
+from enumerate.kernel.ranks import mobility_of
 from enumerate.open_edges import CLOSED, OPENED, has_centre, label_faces, patterns, points_of_pattern
-from enumerate.ranks import mobility_of
 
 __all__ = [
     "TOO_MANY",

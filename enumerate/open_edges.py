@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.centre_labels import FINITE, INFINITE
-from enumerate.compiled import Bytes, Ints, Words, compiled, doubled
-from enumerate.ranks import FREE
+from enumerate.kernel.centre_labels import FINITE, INFINITE
+from enumerate.kernel.compiled import Bytes, Ints, Words, compiled, doubled
+from enumerate.kernel.ranks import FREE
 
 __all__ = ["ANY", "CLOSED", "OPENED", "has_centre", "label_faces", "patterns", "points_of_pattern"]
 

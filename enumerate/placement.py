@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, Words, compiled, doubled
+from enumerate.kernel.compiled import Bytes, Ints, Words, compiled, doubled
 
 __all__ = ["conditions", "no_prefix", "permutations", "place", "rigid_sets", "slots"]
 

@@ -1,4 +1,4 @@
-"""Plane trees: open chains drawn in the plane, each once up to mirror images, as codes of `enumerate.maps`.
+"""Plane trees: open chains drawn in the plane, each once up to mirror images, as codes of `enumerate.kernel.maps`.
 
 A tree comes from one with a link less by a leaf in one of its corners.
 """
@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled
 from enumerate.embedded import code_of
-from enumerate.maps import END, JOINT, decode_map, from_turns
-from enumerate.row_set import empty_set, insert
+from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.maps import END, JOINT, decode_map, from_turns
+from enumerate.kernel.row_set import empty_set, insert
 
 __all__ = ["plane_trees"]
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints
 from enumerate.contracted_maps import contracted_maps
 from enumerate.embedded import outer_faces
-from enumerate.maps import decode_map
+from enumerate.kernel.compiled import Bytes, Ints
+from enumerate.kernel.maps import decode_map
 from enumerate.run import Counting, Row, Unit
 from enumerate.sc_listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc_query import SCQuery

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
-from enumerate.compiled import Bytes, Ints, Words, compiled
 from enumerate.counting import count_fixed, count_in
 from enumerate.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
 from enumerate.free_addenda import reduced_joints
+from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
+from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
+from enumerate.kernel.ranks import class_points, mobility_of
 from enumerate.listing import list_placements
-from enumerate.ranks import class_points, mobility_of
 
 __all__ = [
     "centres_of_all",
@@ -113,7 +113,7 @@ def list_drawn(
     dof : int
         The rank of a mechanism with spatial loops must say so, and every joint of it must move.
     spatial, infinite
-        As for `enumerate.centre_labels.labellings`.
+        As for `enumerate.kernel.centre_labels.labellings`.
 
     Returns
     -------

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from enumerate.centre_labels import MOST_JOINTS
 from enumerate.chain_query import ChainQuery, Range
 from enumerate.contracted_maps import MOST_MAP_LOOPS
+from enumerate.kernel.centre_labels import MOST_JOINTS
 from graphs.errors import InvariantError
 
 __all__ = ["SCQuery"]

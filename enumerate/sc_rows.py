@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from enumerate.chain_rows import assortment_text, chain_ids
-from enumerate.compiled import Bytes, Flags, Ints
-from enumerate.map_texts import map_ids
+from enumerate.kernel.compiled import Bytes, Flags, Ints
+from enumerate.kernel.map_texts import map_ids
 from enumerate.run import Row
 from enumerate.sc_listing import centres_of_all, describe, list_drawn
 from enumerate.sc_query import SCQuery
@@ -46,7 +46,7 @@ class DrawnChains:
     x : uint8[r, m]
         Binary links on each joint.
     labels : int64[r, F]
-        Labels of the faces (`enumerate.centre_labels`).
+        Labels of the faces (`enumerate.kernel.centre_labels`).
     order : int64[r]
         Number of symmetries.
     """

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Flags, Ints, compiled
+from enumerate.kernel.compiled import Bytes, Flags, Ints, compiled
 from enumerate.open_edge_choices import (
     TOO_MANY,
     all_explicit,

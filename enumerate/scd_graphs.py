@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.centre_labels import FINITE, MOST_JOINTS, OUTER
-from enumerate.map_texts import LABEL_LETTERS
+from enumerate.kernel.centre_labels import FINITE, MOST_JOINTS, OUTER
+from enumerate.kernel.map_texts import LABEL_LETTERS
 from enumerate.run import run
 from enumerate.scd_jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
 from enumerate.scd_query import PlacementQuery, SCDQuery

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints
+from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.open_edge_choices import numbers_of_placements
 from enumerate.plane_trees import plane_trees
 from enumerate.run import Counting, Row, Unit

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled, doubled
 from enumerate.embedded import code_of
-from enumerate.maps import END
+from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
+from enumerate.kernel.maps import END
 from enumerate.open_edge_choices import (
     all_explicit,
     corner_states,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.centre_labels import SPATIAL
 from enumerate.chain_rows import chain_ids
-from enumerate.compiled import Bytes, Ints
-from enumerate.map_texts import map_ids
+from enumerate.kernel.centre_labels import SPATIAL
+from enumerate.kernel.compiled import Bytes, Ints
+from enumerate.kernel.map_texts import map_ids
 from enumerate.open_edge_choices import outline
 from enumerate.run import Row
 from enumerate.sc_rows import within_limits

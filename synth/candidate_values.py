@@ -12,7 +12,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.compiled import Ints
+from enumerate.kernel.compiled import Ints
 from enumerate.layers import fewest_layers
 from synth.circuit import Circuits, circuits, wrapped
 from synth.cone import link_angles

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.compiled import Ints
 from enumerate.conical import ConicalQuery, Portion
+from enumerate.kernel.compiled import Ints
 from enumerate.run import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id

@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.compiled import Ints, compiled
+from enumerate.kernel.compiled import Ints, compiled
 
 __all__ = ["arc_sets", "sign_of_sum"]
 

@@ -20,7 +20,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.compiled import Ints
+from enumerate.kernel.compiled import Ints
 from graphs.errors import NumericalError
 from synth.first_order import ConformedChain
 from synth.outward import OutwardRate, joint_rates, outward_rates

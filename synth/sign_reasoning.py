@@ -18,7 +18,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.compiled import Ints, compiled
+from enumerate.kernel.compiled import Ints, compiled
 from synth.first_order import ConformedChain
 
 __all__ = ["Relations"]

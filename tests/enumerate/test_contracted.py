@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from enumerate.contracted import contracted_graphs, cubic_graphs, decode
-from enumerate.labelling import canonical_labels
+from enumerate.kernel.labelling import canonical_labels
 from graphs.errors import InvariantError
 from graphs.identity.chains import chain_id
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled, doubled
+from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
 
 __all__ = ["empty_set", "insert"]
 

@@ -6,14 +6,14 @@ from string import ascii_letters
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints
-from enumerate.maps import END, JOINT, OPEN
+from enumerate.kernel.compiled import Bytes, Ints
+from enumerate.kernel.maps import END, JOINT, OPEN
 from graphs.identity.drawings import map_text
 
 __all__ = ["LABEL_LETTERS", "map_ids"]
 
 LABEL_LETTERS = "ofis"
-"""Letters of the labels of `enumerate.centre_labels`."""
+"""Letters of the labels of `enumerate.kernel.centre_labels`."""
 
 _LETTERS = np.full(256, ord("?"), np.uint8)
 _LETTERS[[OPEN, END]] = np.frombuffer(b"-.", np.uint8)

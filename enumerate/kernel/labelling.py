@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Words, compiled, doubled
+from enumerate.kernel.compiled import Bytes, Words, compiled, doubled
 
 __all__ = ["MOST_VERTICES", "canonical_labels", "refine"]
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from enumerate.labelling import canonical_labels
+from enumerate.kernel.labelling import canonical_labels
 
 
 def matrix(graph):

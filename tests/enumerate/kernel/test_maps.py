@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from enumerate.contracted_maps import MOST_MAP_LOOPS, contracted_maps, cubic_maps, map_symmetries
-from enumerate.maps import decode_map, faces_of
+from enumerate.kernel.maps import decode_map, faces_of
 from enumerate.plane_trees import plane_trees
 from graphs.errors import InvariantError
 

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.compiled import Bytes, Ints, compiled, doubled
+from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
 
 __all__ = ["END", "JOINT", "OPEN", "canonical_map", "decode_map", "faces_of", "from_turns", "symmetries_of_map"]
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.centre_labels import FINITE, OUTER
-from enumerate.compiled import Ints, Words, compiled
+from enumerate.kernel.centre_labels import FINITE, OUTER
+from enumerate.kernel.compiled import Ints, Words, compiled
 
 __all__ = ["FREE", "RANK_PRIMES", "class_points", "mobility_of"]
 
