@@ -19,7 +19,7 @@ from time import perf_counter
 
 from enumerate.chains import chains
 from enumerate.conical import ConicalQuery, count_conical_orders
-from enumerate.store import read_rows
+from enumerate.runner.store import read_rows
 
 RESULTS = Path(__file__).parent / "results" / "conical_candidates.json"
 JOBS = {

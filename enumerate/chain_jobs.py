@@ -17,7 +17,7 @@ from enumerate.counting import count_by_burnside, count_by_orbits, count_of_grap
 from enumerate.cycle_index import count_connected
 from enumerate.fractionated import Block, block_choices, glued, shapes
 from enumerate.kernel.compiled import Bytes, Ints
-from enumerate.run import Counting, Row, Unit
+from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
 

@@ -26,7 +26,7 @@ from enumerate.listing import (
     placements_of,
     symmetries_of,
 )
-from enumerate.run import Row
+from enumerate.runner.running import Row
 from graphs.identity.chains import automorphisms_of, canonical_order
 
 __all__ = [

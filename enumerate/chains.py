@@ -17,8 +17,8 @@ import networkx as nx
 
 from enumerate.chain_jobs import ChainJob, count_job
 from enumerate.chain_query import ChainQuery
-from enumerate.run import run
-from enumerate.sinks import CountSink
+from enumerate.runner.running import run
+from enumerate.runner.sinks import CountSink
 from graphs.identity.chains import chain_from_id
 
 __all__ = ["chain_rows", "chains", "count_chains"]

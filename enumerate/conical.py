@@ -16,7 +16,7 @@ from typing import Any
 from enumerate.joint_symmetries import joint_symmetries
 from enumerate.kernel.compiled import Ints
 from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
-from enumerate.run import Counting, Row, Unit
+from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import JointId, LinkId
 

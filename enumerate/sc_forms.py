@@ -13,7 +13,7 @@ from typing import Any
 from enumerate.contracted import graph_key
 from enumerate.embedded import joint_matrix, outer_faces
 from enumerate.names import name_of
-from enumerate.run import Row, Unit
+from enumerate.runner.running import Row, Unit
 from enumerate.sc_jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units, maps_for, number_in
 from enumerate.sc_query import SCQuery
 from enumerate.sc_rows import SC_COLUMNS, sc_rows_of

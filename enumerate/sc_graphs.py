@@ -13,11 +13,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from enumerate.run import run
+from enumerate.runner.running import run
+from enumerate.runner.sinks import CountSink
 from enumerate.sc_forms import FormJob
 from enumerate.sc_jobs import SCJob, sc_count_job
 from enumerate.sc_query import SCQuery
-from enumerate.sinks import CountSink
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 

@@ -13,7 +13,7 @@ from enumerate.contracted_maps import contracted_maps
 from enumerate.embedded import outer_faces
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.maps import decode_map
-from enumerate.run import Counting, Row, Unit
+from enumerate.runner.running import Counting, Row, Unit
 from enumerate.sc_listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc_query import SCQuery
 from enumerate.sc_rows import SC_COLUMNS, DrawnChains, sc_rows_of

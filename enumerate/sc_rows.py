@@ -10,7 +10,7 @@ import numpy as np
 from enumerate.chain_rows import assortment_text, chain_ids
 from enumerate.kernel.compiled import Bytes, Flags, Ints
 from enumerate.kernel.map_texts import map_ids
-from enumerate.run import Row
+from enumerate.runner.running import Row
 from enumerate.sc_listing import centres_of_all, describe, list_drawn
 from enumerate.sc_query import SCQuery
 

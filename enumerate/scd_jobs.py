@@ -11,7 +11,7 @@ import numpy as np
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.open_edge_choices import numbers_of_placements
 from enumerate.plane_trees import plane_trees
-from enumerate.run import Counting, Row, Unit
+from enumerate.runner.running import Counting, Row, Unit
 from enumerate.sc_jobs import MapPart, drawn_of, map_units
 from enumerate.sc_listing import codes_of_all
 from enumerate.sc_query import SCQuery

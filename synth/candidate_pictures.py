@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.run import Row, Sink
+from enumerate.runner.running import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.source import FolderBeside
 from synth.candidates import CandidateJob

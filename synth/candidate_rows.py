@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.kernel.compiled import Ints
-from enumerate.run import Row
+from enumerate.runner.running import Row
 from synth.behaviour import Way, behaviour_of_motion, link_arcs
 from synth.candidate_values import four_bar_classes, half_turns, layers, loop_circuits
 from synth.circuit import wrapped

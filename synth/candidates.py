@@ -1,4 +1,4 @@
-"""Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.run`).
+"""Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.runner.running`).
 
 A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
 Candidates come from `enumerate.conical`; what is said of them from `synth.candidate_values`, `synth.over_angles`,
@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from enumerate.conical import ConicalQuery, Portion
 from enumerate.kernel.compiled import Ints
-from enumerate.run import Counting, Row, Unit
+from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id
 from graphs.loops.loop import JointId, LinkId

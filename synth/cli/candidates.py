@@ -12,7 +12,7 @@ from synth.cli.output import about, plain
 from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.run import Sink
+    from enumerate.runner.running import Sink
     from graphs.loops.loop import LinkId
     from graphs.mechanism.sc import SCGraph
     from synth.candidates import CandidateJob, Filter
@@ -190,7 +190,7 @@ def _around(sink: Sink, job: CandidateJob, sort: str | None, pictures: str | Non
 
         sink = PictureSink(sink, job, Path(pictures))
     if sort is not None:
-        from enumerate.sinks import SortedSink
+        from enumerate.runner.sinks import SortedSink
 
         sink = SortedSink(sink, sort)
     return sink

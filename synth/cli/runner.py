@@ -14,7 +14,7 @@ import click
 from synth.cli.output import console, plain, print_json, table
 
 if TYPE_CHECKING:
-    from enumerate.run import Job, Progress, Row, Sink
+    from enumerate.runner.running import Job, Progress, Row, Sink
 
 __all__ = ["Limits", "RunOptions", "run_count", "run_rows", "runner_options"]
 
@@ -100,7 +100,7 @@ def runner_options(function: F) -> F:
 
 def run_count(job: Job, options: RunOptions) -> None:
     """Run a job that counts, and print the number."""
-    from enumerate.sinks import CountSink
+    from enumerate.runner.sinks import CountSink
 
     if options.output is not None:
         raise click.UsageError("--count stores nothing; leave out -o, or --count")
@@ -117,7 +117,7 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
 
     ``wrapped`` makes of the sink another that does something with the rows before.
     """
-    from enumerate.sinks import RowSink, sink_for
+    from enumerate.runner.sinks import RowSink, sink_for
 
     if options.output is not None:
         progress = _run(job, wrapped(sink_for(options.output, resume=options.resume)), options)
@@ -139,7 +139,7 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
 
 
 def _run(job: Job, sink: Sink, options: RunOptions) -> Progress:
-    from enumerate.run import Interrupted, run
+    from enumerate.runner.running import Interrupted, run
 
     meter = _Meter(options.quiet or not sys.stderr.isatty())
     try:

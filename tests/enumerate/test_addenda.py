@@ -2,8 +2,8 @@ import networkx as nx
 import pytest
 
 from enumerate.addenda import AddendumCountJob, AddendumJob, addenda
-from enumerate.run import run
-from enumerate.sinks import CountSink
+from enumerate.runner.running import run
+from enumerate.runner.sinks import CountSink
 from graphs.edit.sc import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read

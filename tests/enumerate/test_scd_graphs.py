@@ -4,7 +4,8 @@ from scd_oracle import code, scd_codes
 
 from enumerate import scd_jobs
 from enumerate.open_edge_choices import number_of_placements
-from enumerate.run import run
+from enumerate.runner.running import run
+from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.sc_graphs import sc_rows
 from enumerate.scd_graphs import (
     all_mechanisms,
@@ -16,7 +17,6 @@ from enumerate.scd_graphs import (
 )
 from enumerate.scd_jobs import SCDJob, scd_count_job
 from enumerate.scd_query import PlacementQuery, SCDQuery
-from enumerate.sinks import CountSink, RowSink
 from graphs.convert.reconstruction import reconstruct
 from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError

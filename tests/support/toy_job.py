@@ -7,7 +7,7 @@ import signal
 from dataclasses import dataclass
 from pathlib import Path
 
-from enumerate.run import Unit
+from enumerate.runner.running import Unit
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ from enumerate.chains import chains
 from enumerate.conical import Portion, count_conical_orders
 from enumerate.joint_symmetries import links_apart
 from enumerate.rounds import canonical_row
-from enumerate.run import Interrupted
-from enumerate.run import run as run_job
-from enumerate.sinks import RowSink
-from enumerate.store import SqliteSink, read_rows
+from enumerate.runner.running import Interrupted
+from enumerate.runner.running import run as run_job
+from enumerate.runner.sinks import RowSink
+from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sc import SCGraph

@@ -9,7 +9,7 @@ import shlex
 import pytest
 from commands import run
 
-from enumerate.store import read_rows
+from enumerate.runner.store import read_rows
 from synth.conical_file import read_conical
 
 

@@ -8,7 +8,7 @@ import re
 import pytest
 from commands import run
 
-from enumerate.store import read_rows
+from enumerate.runner.store import read_rows
 from graphs.files.formats import read
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id

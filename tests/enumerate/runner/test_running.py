@@ -13,9 +13,9 @@ from toy_job import Squares
 
 from enumerate.chain_jobs import ChainJob
 from enumerate.chain_query import ChainQuery
-from enumerate.run import Interrupted, run
-from enumerate.sinks import CountSink, RowSink
-from enumerate.store import SqliteSink, read_meta, read_rows
+from enumerate.runner.running import Interrupted, run
+from enumerate.runner.sinks import CountSink, RowSink
+from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from graphs.errors import StoreError
 
 SYNTH = [sys.executable, "-m", "synth.cli"]
