@@ -12,7 +12,7 @@ import numpy as np
 
 from enumerate.chain_query import ChainQuery
 from enumerate.chain_rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
-from enumerate.contracted import contracted_graphs
+from enumerate.contracted.graphs import contracted_graphs
 from enumerate.counting import count_by_burnside, count_by_orbits, count_of_graph
 from enumerate.cycle_index import count_connected
 from enumerate.fractionated import Block, block_choices, glued, shapes

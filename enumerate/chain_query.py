@@ -8,7 +8,7 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from enumerate.contracted import MOST_LOOPS, decode
+from enumerate.contracted.graphs import MOST_LOOPS, decode
 from enumerate.kernel.compiled import Bytes
 from graphs.errors import InvariantError
 

@@ -14,10 +14,8 @@ import networkx as nx
 import numpy as np
 
 from enumerate.chain_query import ChainQuery, is_planar
-from enumerate.contracted import decode
-from enumerate.inputs import input_choices
-from enumerate.kernel.compiled import Bytes, Ints
-from enumerate.listing import (
+from enumerate.contracted.graphs import decode
+from enumerate.contracted.listing import (
     frame_of,
     graph6_rows,
     joints_of_all,
@@ -26,6 +24,8 @@ from enumerate.listing import (
     placements_of,
     symmetries_of,
 )
+from enumerate.inputs import input_choices
+from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.runner.running import Row
 from graphs.identity.chains import automorphisms_of, canonical_order
 

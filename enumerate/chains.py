@@ -1,8 +1,8 @@
 """Kinematic chains: all link-joint graphs of N links and M degrees of freedom without rigid sub-chains.
 
-A chain with L >= 2 loops is a contracted graph (`enumerate.contracted`) with binary links placed on its joints
-(`enumerate.placement`), so work grows with the number of chains and not with that of graphs; a chain of one loop
-is a ring. Numbers are found in two ways (`enumerate.counting`). Theory: docs/theory/chains.md.
+A chain with L >= 2 loops is a contracted graph (`enumerate.contracted.graphs`) with binary links placed on its
+joints (`enumerate.contracted.binary_links`), so work grows with the number of chains and not with that of graphs;
+a chain of one loop is a ring. Numbers are found in two ways (`enumerate.counting`). Theory: docs/theory/chains.md.
 
 Source: Yan and Hwang, *The specialization of mechanisms*, Mech. Mach. Theory 26 (1991), for the words; the method
 is DESIGN, section 6. OEIS A233288 has the numbers for M = 1.

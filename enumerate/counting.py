@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.contracted import decode
+from enumerate.contracted.binary_links import conditions, no_prefix, permutations, place, rigid_sets, slots
+from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
 from enumerate.kernel.labelling import canonical_labels
-from enumerate.placement import conditions, no_prefix, permutations, place, rigid_sets, slots
 
 __all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
 
@@ -78,9 +78,9 @@ def count_in(
     Parameters
     ----------
     ends, first, moved
-        Joints, first parallel ones, and permutations of the joints: `enumerate.placement`.
+        Joints, first parallel ones, and permutations of the joints: `enumerate.contracted.binary_links`.
     sets, needs
-        As `enumerate.placement.rigid_sets` returns them.
+        As `enumerate.contracted.binary_links.rigid_sets` returns them.
     n, links, most, only, prefix
         As for `count_of_graph`.
     """

@@ -26,10 +26,10 @@ from math import factorial
 
 import numpy as np
 
-from enumerate.contracted import contracted_graphs, decode
+from enumerate.contracted.binary_links import conditions, place, rigid_sets
+from enumerate.contracted.graphs import contracted_graphs, decode
+from enumerate.contracted.listing import frame_of
 from enumerate.kernel.compiled import Bytes, Ints
-from enumerate.listing import frame_of
-from enumerate.placement import conditions, place, rigid_sets
 
 __all__ = ["block_cycle_index", "count_connected"]
 

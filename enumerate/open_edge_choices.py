@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.embedded import code_of
+from enumerate.contracted.embedded import code_of
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, SPATIAL, classes_of, joints_of_faces
 from enumerate.kernel.compiled import Bytes, Ints, compiled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map

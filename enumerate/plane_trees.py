@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.embedded import code_of
+from enumerate.contracted.embedded import code_of
 from enumerate.kernel.compiled import Bytes, Ints, compiled
 from enumerate.kernel.maps import END, JOINT, decode_map, from_turns
 from enumerate.kernel.row_set import empty_set, insert

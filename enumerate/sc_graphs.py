@@ -1,8 +1,9 @@
 """SC graphs: every planar chain, drawn on the sphere in every way, with every outer face.
 
-A drawn chain is a contracted map (`enumerate.contracted_maps`) with binary links on its joints
-(`enumerate.placement`); the bounded faces are its loops, with centres as general as the joints allow. Work grows
-with the number of SC graphs. Numbers are found in two ways. Theory: docs/theory/sc-enumeration.md.
+A drawn chain is a contracted map (`enumerate.contracted.maps`) with binary links on its joints
+(`enumerate.contracted.binary_links`); the bounded faces are its loops, with centres as general as the joints
+allow. Work grows with the number of SC graphs. Numbers are found in two ways. Theory:
+docs/theory/sc-enumeration.md.
 
 Source: Wiener 2016, sections 3.3 and 6.4, which names an exhaustive type synthesis as the use of SC graphs; the
 method is DESIGN, section 6.

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.contracted_maps import contracted_maps
-from enumerate.embedded import outer_faces
+from enumerate.contracted.embedded import outer_faces
+from enumerate.contracted.maps import contracted_maps
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.maps import decode_map
 from enumerate.runner.running import Counting, Row, Unit

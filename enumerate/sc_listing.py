@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from enumerate.contracted.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
+from enumerate.contracted.listing import list_placements
 from enumerate.counting import count_fixed, count_in
-from enumerate.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
 from enumerate.free_addenda import reduced_joints
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
 from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
 from enumerate.kernel.ranks import class_points, mobility_of
-from enumerate.listing import list_placements
 
 __all__ = [
     "centres_of_all",

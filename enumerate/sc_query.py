@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from enumerate.chain_query import ChainQuery, Range
-from enumerate.contracted_maps import MOST_MAP_LOOPS
+from enumerate.contracted.maps import MOST_MAP_LOOPS
 from enumerate.kernel.centre_labels import MOST_JOINTS
 from graphs.errors import InvariantError
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.embedded import code_of
+from enumerate.contracted.embedded import code_of
 from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
 from enumerate.kernel.maps import END
 from enumerate.open_edge_choices import (

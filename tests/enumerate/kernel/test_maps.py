@@ -5,7 +5,7 @@ from math import comb, factorial
 import numpy as np
 import pytest
 
-from enumerate.contracted_maps import MOST_MAP_LOOPS, contracted_maps, cubic_maps, map_symmetries
+from enumerate.contracted.maps import MOST_MAP_LOOPS, contracted_maps, cubic_maps, map_symmetries
 from enumerate.kernel.maps import decode_map, faces_of
 from enumerate.plane_trees import plane_trees
 from graphs.errors import InvariantError

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.contracted_maps import map_symmetries
+from enumerate.contracted.binary_links import rigid_sets
+from enumerate.contracted.maps import map_symmetries
 from enumerate.kernel.compiled import Bytes, Ints, compiled
 from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns
-from enumerate.placement import rigid_sets
 
 __all__ = ["code_of", "expanded", "joint_matrix", "outer_faces", "outer_frame", "ring", "sets_of"]
 

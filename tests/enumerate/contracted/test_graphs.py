@@ -4,7 +4,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from enumerate.contracted import contracted_graphs, cubic_graphs, decode
+from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, decode
 from enumerate.kernel.labelling import canonical_labels
 from graphs.errors import InvariantError
 from graphs.identity.chains import chain_id

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.contracted import decode
+from enumerate.contracted.binary_links import conditions, no_prefix, permutations, place, rigid_sets, slots
+from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import Bytes, Ints, compiled
 from enumerate.kernel.labelling import canonical_labels
-from enumerate.placement import conditions, no_prefix, permutations, place, rigid_sets, slots
 
 __all__ = [
     "frame_of",

@@ -2,9 +2,9 @@
 
 A chain drawn on the sphere becomes, when its binary links are taken out, a 2-connected map in which every link has
 three joints or more, parallel joints allowed. Maps come from each other like the graphs of
-`enumerate.contracted`: cubic ones with one more loop by a joint across a face, the others by contracting joints,
-where a map is 2-connected as long as no face meets a link twice. Codes are those of `enumerate.kernel.maps`.
-Theory: docs/theory/sc-enumeration.md.
+`enumerate.contracted.graphs`: cubic ones with one more loop by a joint across a face, the others by contracting
+joints, where a map is 2-connected as long as no face meets a link twice. Codes are those of
+`enumerate.kernel.maps`. Theory: docs/theory/sc-enumeration.md.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from enumerate.contracted import cheapest_degree
+from enumerate.contracted.graphs import cheapest_degree
 from enumerate.kernel.compiled import Bytes, Ints, compiled
 from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from enumerate.kernel.row_set import empty_set, insert

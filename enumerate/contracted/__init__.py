@@ -1,0 +1,1 @@
+"""Contracted graphs and maps, and binary links placed on their joints."""
