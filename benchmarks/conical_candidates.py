@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 from time import perf_counter
 
-from enumerate.chains import chains
+from enumerate.chains.kinematic import chains
 from enumerate.conical import ConicalQuery, count_conical_orders
 from enumerate.runner.store import read_rows
 

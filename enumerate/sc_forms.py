@@ -10,9 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from enumerate.chains.names import name_of
 from enumerate.contracted.embedded import joint_matrix, outer_faces
 from enumerate.contracted.graphs import graph_key
-from enumerate.names import name_of
 from enumerate.runner.running import Row, Unit
 from enumerate.sc_jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units, maps_for, number_in
 from enumerate.sc_query import SCQuery

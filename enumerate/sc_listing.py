@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from enumerate.chains.counting import count_fixed, count_in
 from enumerate.contracted.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
 from enumerate.contracted.listing import list_placements
-from enumerate.counting import count_fixed, count_in
 from enumerate.free_addenda import reduced_joints
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
 from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
@@ -37,7 +37,7 @@ def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int,
     outer : int
         The outer face; -1 for embeddings in the sphere without one.
     links, most, only, prefix
-        As for `enumerate.counting.count_of_graph`.
+        As for `enumerate.chains.counting.count_of_graph`.
     """
     ends, moved, _ = outer_frame(code, outer)
     sets, needs = sets_of(code, n)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from enumerate.chain_query import ChainQuery, Range
+from enumerate.chains.query import ChainQuery, Range
 from enumerate.contracted.maps import MOST_MAP_LOOPS
 from enumerate.kernel.centre_labels import MOST_JOINTS
 from graphs.errors import InvariantError

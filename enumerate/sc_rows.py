@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from enumerate.chain_rows import assortment_text, chain_ids
+from enumerate.chains.rows import assortment_text, chain_ids
 from enumerate.kernel.compiled import Bytes, Flags, Ints
 from enumerate.kernel.map_texts import map_ids
 from enumerate.runner.running import Row
@@ -60,7 +60,7 @@ class DrawnChains:
 
     @classmethod
     def of(cls, query: SCQuery, code: Bytes, n: int, outer: int, only: int, prefix: Ints) -> DrawnChains:
-        """List them, or those that begin in one way (`enumerate.counting.count_of_graph`)."""
+        """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
         most = query.chains.most
         x, labels, order = list_drawn(
             code, n, outer, query.links, most, only, prefix, query.dof, query.spatial, query.infinite

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from enumerate.chain_query import Range
+from enumerate.chains.query import Range
 from enumerate.sc_query import SCQuery
 from graphs.errors import InvariantError
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.chain_rows import chain_ids
+from enumerate.chains.rows import chain_ids
 from enumerate.kernel.centre_labels import SPATIAL
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.map_texts import map_ids

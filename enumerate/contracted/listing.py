@@ -41,7 +41,7 @@ def placements_of(code: Bytes, n: int, links: int, most: int, only: int, prefix:
     Parameters
     ----------
     code, n, links, most, only, prefix
-        As for `enumerate.counting.count_of_graph`.
+        As for `enumerate.chains.counting.count_of_graph`.
 
     Returns
     -------

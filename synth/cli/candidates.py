@@ -129,7 +129,7 @@ def _check_usage(
 
 def _chain(name: str) -> SCGraph:
     """Return the chain of a name, an id or a file."""
-    from enumerate.names import chain_named, chain_names
+    from enumerate.chains.names import chain_named, chain_names
     from graphs.convert.link_joint import sc_from_link_joint_graph
     from graphs.convert.table import to_sc
     from graphs.errors import FileError

@@ -63,8 +63,8 @@ def chains(
     options = RunOptions.taken_from(rest)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
-    from enumerate.chain_jobs import ChainJob, count_job
-    from enumerate.chain_query import ChainQuery
+    from enumerate.chains.jobs import ChainJob, count_job
+    from enumerate.chains.query import ChainQuery
 
     query = ChainQuery(
         links, dof, **rest, longest_string=longest_string or (0, None), symmetry=symmetry or (1, None)

@@ -8,11 +8,11 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from enumerate.chains import chains
+from enumerate.chains.kinematic import chains
+from enumerate.chains.names import chain_named
 from enumerate.conical import ConicalQuery, conical_orders, count_conical_orders
 from enumerate.joint_symmetries import joint_symmetries, links_apart
 from enumerate.layers import fewest_layers
-from enumerate.names import chain_named
 from enumerate.rounds import Rounds, canonical_row, count_by_burnside, count_by_orbits, placements, prefixes
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_from_id

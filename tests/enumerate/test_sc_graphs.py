@@ -9,7 +9,7 @@ from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
 from enumerate import sc_jobs
-from enumerate.chains import chain_rows
+from enumerate.chains.kinematic import chain_rows
 from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
 from enumerate.sc_graphs import chain_forms, count_sc_graphs, sc_graphs, sc_rows

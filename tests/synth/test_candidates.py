@@ -11,7 +11,7 @@ import pytest
 from conical import STEPHENSON, WATT
 from rebuilt import Space, closing_error
 
-from enumerate.chains import chains
+from enumerate.chains.kinematic import chains
 from enumerate.conical import Portion, count_conical_orders
 from enumerate.joint_symmetries import links_apart
 from enumerate.rounds import canonical_row

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT
 
-from enumerate.chains import chains
+from enumerate.chains.kinematic import chains
 from enumerate.joint_symmetries import links_apart
 from enumerate.rounds import Rounds, placements
 from graphs.convert.link_joint import sc_from_link_joint_graph

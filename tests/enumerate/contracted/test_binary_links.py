@@ -4,9 +4,9 @@ import networkx as nx
 import numpy as np
 import pytest
 
+from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
 from enumerate.contracted.graphs import contracted_graphs
 from enumerate.contracted.listing import frame_of, orbits_of_all, placements_of
-from enumerate.counting import count_by_burnside, count_by_orbits, count_of_graph
 from graphs.identity.chains import automorphisms_of, chain_id
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from toy_job import Squares
 
-from enumerate.chain_jobs import ChainJob
-from enumerate.chain_query import ChainQuery
+from enumerate.chains.jobs import ChainJob
+from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import Interrupted, run
 from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows

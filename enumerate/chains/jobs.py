@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.chain_query import ChainQuery
-from enumerate.chain_rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
+from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
+from enumerate.chains.cycle_index import count_connected
+from enumerate.chains.fractionated import Block, block_choices, glued, shapes
+from enumerate.chains.query import ChainQuery
+from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.graphs import contracted_graphs
-from enumerate.counting import count_by_burnside, count_by_orbits, count_of_graph
-from enumerate.cycle_index import count_connected
-from enumerate.fractionated import Block, block_choices, glued, shapes
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import UnsolvableError

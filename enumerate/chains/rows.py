@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import networkx as nx
 import numpy as np
 
-from enumerate.chain_query import ChainQuery, is_planar
+from enumerate.chains.inputs import input_choices
+from enumerate.chains.query import ChainQuery, is_planar
 from enumerate.contracted.graphs import decode
 from enumerate.contracted.listing import (
     frame_of,
@@ -24,7 +25,6 @@ from enumerate.contracted.listing import (
     placements_of,
     symmetries_of,
 )
-from enumerate.inputs import input_choices
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.runner.running import Row
 from graphs.identity.chains import automorphisms_of, canonical_order
@@ -85,7 +85,7 @@ class GraphChains:
 
     @classmethod
     def of(cls, query: ChainQuery, code: Bytes, n: int, only: int, prefix: Ints) -> GraphChains:
-        """List them, or those that begin in one way (`enumerate.counting.count_of_graph`)."""
+        """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
         x, order = placements_of(code, n, query.links, query.most, only, prefix)
         kept = np.ones(len(x), bool)
         if query.longest_string[0] > 0:

@@ -2,7 +2,8 @@
 
 A chain with L >= 2 loops is a contracted graph (`enumerate.contracted.graphs`) with binary links placed on its
 joints (`enumerate.contracted.binary_links`), so work grows with the number of chains and not with that of graphs;
-a chain of one loop is a ring. Numbers are found in two ways (`enumerate.counting`). Theory: docs/theory/chains.md.
+a chain of one loop is a ring. Numbers are found in two ways (`enumerate.chains.counting`). Theory:
+docs/theory/chains.md.
 
 Source: Yan and Hwang, *The specialization of mechanisms*, Mech. Mach. Theory 26 (1991), for the words; the method
 is DESIGN, section 6. OEIS A233288 has the numbers for M = 1.
@@ -15,8 +16,8 @@ from typing import Any
 
 import networkx as nx
 
-from enumerate.chain_jobs import ChainJob, count_job
-from enumerate.chain_query import ChainQuery
+from enumerate.chains.jobs import ChainJob, count_job
+from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink
 from graphs.identity.chains import chain_from_id

@@ -7,9 +7,9 @@ import networkx as nx
 import pytest
 from rigidity import chains_by_geng
 
-from enumerate.chains import chain_rows, chains, count_chains
-from enumerate.fractionated import glued, shapes
-from enumerate.inputs import are_inputs, input_choices
+from enumerate.chains.fractionated import glued, shapes
+from enumerate.chains.inputs import are_inputs, input_choices
+from enumerate.chains.kinematic import chain_rows, chains, count_chains
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id
 
