@@ -18,10 +18,10 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
-from enumerate.sc_graphs import count_sc_graphs
-from enumerate.sc_jobs import SCJob, drawn_of
-from enumerate.sc_listing import describe
-from enumerate.sc_query import SCQuery
+from enumerate.sc.graphs import count_sc_graphs
+from enumerate.sc.jobs import SCJob, drawn_of
+from enumerate.sc.listing import describe
+from enumerate.sc.query import SCQuery
 from enumerate.scd_graphs import all_mechanisms
 from enumerate.scd_jobs import AllMechanisms, SCDJob
 from enumerate.scd_rows import placements_on

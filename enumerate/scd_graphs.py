@@ -35,7 +35,7 @@ def scd_graphs(links: int, dof: int, max_degree: int, **options: Any) -> Iterato
     Parameters
     ----------
     links, dof : int
-        With M = N - 1 open chains, else as for `enumerate.sc_graphs.sc_graphs`.
+        With M = N - 1 open chains, else as for `enumerate.sc.graphs.sc_graphs`.
     max_degree : int
         The most sides of a link.
     **options
@@ -86,7 +86,7 @@ def scd_rows(links: int, dof: int, max_degree: int, **options: Any) -> Iterator[
 
     Keys: ``code`` (its id), ``sc`` (id of its SC graph), ``chain`` (id of the link-joint graph), ``links``,
     ``joints``, ``dof``, ``loops``, ``spatial``, ``centres``, ``infinite`` (as for
-    `enumerate.sc_graphs.sc_rows`), ``sides`` (numbers of links with 3, 4, ... sides), ``open_edges``,
+    `enumerate.sc.graphs.sc_rows`), ``sides`` (numbers of links with 3, 4, ... sides), ``open_edges``,
     ``vertices`` (of the polyhedron model), ``explicit``, ``implicit`` (centres of loops), ``symmetry``,
     ``exact_dof`` (joints minus rank, vertices placed too).
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from enumerate.chains.query import Range
-from enumerate.sc_query import SCQuery
+from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError
 
 __all__ = ["PlacementQuery", "SCDQuery"]
@@ -74,7 +74,7 @@ class SCDQuery:
         With M = N - 1 the mechanisms are open chains: trees of N >= 2 links.
     placements : PlacementQuery
     spatial, infinite
-        As for `enumerate.sc_query.SCQuery`.
+        As for `enumerate.sc.query.SCQuery`.
 
     Raises
     ------

@@ -10,7 +10,7 @@ from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.map_texts import map_ids
 from enumerate.open_edge_choices import outline
 from enumerate.runner.running import Row
-from enumerate.sc_rows import within_limits
+from enumerate.sc.rows import within_limits
 from enumerate.scd_listing import list_placements_of, sides_of_all
 from enumerate.scd_query import PlacementQuery
 

@@ -59,9 +59,9 @@ def sc(
     options = RunOptions.taken_from(rest)
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings say how --count counts; add --count")
-    from enumerate.sc_forms import FormJob
-    from enumerate.sc_jobs import SCJob, sc_count_job
-    from enumerate.sc_query import SCQuery
+    from enumerate.sc.forms import FormJob
+    from enumerate.sc.jobs import SCJob, sc_count_job
+    from enumerate.sc.query import SCQuery
 
     query = SCQuery(
         links,

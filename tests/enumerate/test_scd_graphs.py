@@ -6,7 +6,7 @@ from enumerate import scd_jobs
 from enumerate.open_edge_choices import number_of_placements
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink, RowSink
-from enumerate.sc_graphs import sc_rows
+from enumerate.sc.graphs import sc_rows
 from enumerate.scd_graphs import (
     all_mechanisms,
     count_scd_graphs,

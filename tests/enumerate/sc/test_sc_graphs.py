@@ -8,13 +8,12 @@ import pytest
 from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
-from enumerate import sc_jobs
 from enumerate.chains.kinematic import chain_rows
 from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
-from enumerate.sc_graphs import chain_forms, count_sc_graphs, sc_graphs, sc_rows
-from enumerate.sc_jobs import SCJob
-from enumerate.sc_query import SCQuery
+from enumerate.sc.graphs import chain_forms, count_sc_graphs, sc_graphs, sc_rows
+from enumerate.sc.jobs import SCJob
+from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id
 from graphs.identity.drawings import map_id, mechanism_from_map_id

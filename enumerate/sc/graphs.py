@@ -16,9 +16,9 @@ from typing import Any
 
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink
-from enumerate.sc_forms import FormJob
-from enumerate.sc_jobs import SCJob, sc_count_job
-from enumerate.sc_query import SCQuery
+from enumerate.sc.forms import FormJob
+from enumerate.sc.jobs import SCJob, sc_count_job
+from enumerate.sc.query import SCQuery
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 

@@ -1,0 +1,1 @@
+"""All SC graphs."""
