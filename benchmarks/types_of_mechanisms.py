@@ -22,9 +22,9 @@ from enumerate.sc.graphs import count_sc_graphs
 from enumerate.sc.jobs import SCJob, drawn_of
 from enumerate.sc.listing import describe
 from enumerate.sc.query import SCQuery
-from enumerate.scd_graphs import all_mechanisms
-from enumerate.scd_jobs import AllMechanisms, SCDJob
-from enumerate.scd_rows import placements_on
+from enumerate.scd.graphs import all_mechanisms
+from enumerate.scd.jobs import AllMechanisms, SCDJob
+from enumerate.scd.rows import placements_on
 
 RESULTS = Path(__file__).parent / "results" / "types_of_mechanisms.json"
 RUNS = 3

@@ -11,7 +11,7 @@ from synth.cli.output import about
 from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.scd_jobs import Mechanisms
+    from enumerate.scd.jobs import Mechanisms
 
 __all__ = ["scd"]
 
@@ -60,7 +60,7 @@ def scd(
     options = RunOptions.taken_from(rest)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
-    from enumerate.scd_jobs import SCDJob, scd_count_job
+    from enumerate.scd.jobs import SCDJob, scd_count_job
 
     filters = {**rest, "vertices": vertices or (0, None)}
     mechanisms: Mechanisms
@@ -71,7 +71,7 @@ def scd(
     elif links is None or dof is None:
         raise click.UsageError("give --links and --dof, or --of FILE")
     else:
-        from enumerate.scd_graphs import all_mechanisms
+        from enumerate.scd.graphs import all_mechanisms
 
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.query.tree:
@@ -83,7 +83,7 @@ def scd(
 
 
 def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
-    from enumerate.scd_graphs import mechanism_of
+    from enumerate.scd.graphs import mechanism_of
     from graphs.convert.table import to_sc
     from graphs.files.formats import read
     from graphs.mechanism.sc import SCGraph

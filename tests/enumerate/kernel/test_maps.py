@@ -7,7 +7,7 @@ import pytest
 
 from enumerate.contracted.maps import MOST_MAP_LOOPS, contracted_maps, cubic_maps, map_symmetries
 from enumerate.kernel.maps import decode_map, faces_of
-from enumerate.plane_trees import plane_trees
+from enumerate.scd.plane_trees import plane_trees
 from graphs.errors import InvariantError
 
 

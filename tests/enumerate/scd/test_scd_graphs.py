@@ -2,12 +2,11 @@ import pytest
 from rigidity import chains_by_geng
 from scd_oracle import code, scd_codes
 
-from enumerate import scd_jobs
-from enumerate.open_edge_choices import number_of_placements
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.sc.graphs import sc_rows
-from enumerate.scd_graphs import (
+from enumerate.scd.choices import number_of_placements
+from enumerate.scd.graphs import (
     all_mechanisms,
     count_scd_graphs,
     mechanism_of,
@@ -15,8 +14,8 @@ from enumerate.scd_graphs import (
     scd_graphs_of,
     scd_rows,
 )
-from enumerate.scd_jobs import SCDJob, scd_count_job
-from enumerate.scd_query import PlacementQuery, SCDQuery
+from enumerate.scd.jobs import SCDJob, scd_count_job
+from enumerate.scd.query import PlacementQuery, SCDQuery
 from graphs.convert.reconstruction import reconstruct
 from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError

@@ -1,6 +1,6 @@
 """Placements of open edges counted up to symmetry without making them: Burnside's lemma, compiled.
 
-The second method beside `enumerate.scd_listing`: a placement that a symmetry leaves as it is, is constant on the
+The second method beside `enumerate.scd.listing`: a placement that a symmetry leaves as it is, is constant on the
 cycles of corners, and a cycle of links is as free as one of its links. Theory: docs/theory/scd-enumeration.md.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import Bytes, Flags, Ints, compiled
-from enumerate.open_edge_choices import (
+from enumerate.scd.choices import (
     TOO_MANY,
     all_explicit,
     corner_states,
@@ -19,7 +19,7 @@ from enumerate.open_edge_choices import (
     room_of,
     symmetries_of,
 )
-from enumerate.open_edges import CLOSED, patterns
+from enumerate.scd.patterns import CLOSED, patterns
 
 __all__ = ["count_placements"]
 
@@ -31,7 +31,7 @@ def count_placements(code: Bytes, labels: Ints, most: int, dof: int, sheets: boo
     Parameters
     ----------
     code, labels, most, dof, sheets
-        As for `enumerate.scd_listing.list_placements_of`.
+        As for `enumerate.scd.listing.list_placements_of`.
 
     Returns
     -------

@@ -1,6 +1,6 @@
 """Placements of open edges on a drawn mechanism, listed and counted, compiled.
 
-A placement is a *pattern* (`enumerate.open_edges`), a set of *explicit* faces whose corners have no open edge,
+A placement is a *pattern* (`enumerate.scd.patterns`), a set of *explicit* faces whose corners have no open edge,
 at most one of a class, and a number of open edges in each corner that may have some. With pattern and explicit
 faces chosen, links do not depend on each other, so the placements of a mechanism are numbered: those of each
 choice follow each other, and count through the ways of the links like the digits of a number. Any range of
@@ -15,7 +15,7 @@ import numpy as np
 from enumerate.contracted.embedded import code_of
 from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
 from enumerate.kernel.maps import END
-from enumerate.open_edge_choices import (
+from enumerate.scd.choices import (
     all_explicit,
     corner_states,
     drawn,
@@ -26,7 +26,7 @@ from enumerate.open_edge_choices import (
     symmetries_of,
     ways_to_lay,
 )
-from enumerate.open_edges import CLOSED, OPENED, has_centre, patterns
+from enumerate.scd.patterns import CLOSED, OPENED, has_centre, patterns
 
 __all__ = ["SCD_FACTS", "list_placements_of", "sides_of_all"]
 
@@ -43,7 +43,7 @@ def list_placements_of(
     Parameters
     ----------
     code, labels, most
-        As for `enumerate.open_edge_choices.number_of_placements`.
+        As for `enumerate.scd.choices.number_of_placements`.
     dof : int
         The rank must say so.
     first, last : int

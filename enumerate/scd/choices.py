@@ -1,7 +1,7 @@
 """Choices that the placements of open edges on a drawn mechanism begin with, compiled.
 
-With a pattern (`enumerate.open_edges`) and a set of explicit faces chosen, links do not depend on each other: each
-takes open edges in some of its corners, as many as its degree allows. Theory: docs/theory/scd-enumeration.md.
+With a pattern (`enumerate.scd.patterns`) and a set of explicit faces chosen, links do not depend on each other:
+each takes open edges in some of its corners, as many as its degree allows. Theory: docs/theory/scd-enumeration.md.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, SPATIAL, cla
 from enumerate.kernel.compiled import Bytes, Ints, compiled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
 from enumerate.kernel.ranks import mobility_of
-from enumerate.open_edges import CLOSED, OPENED, has_centre, label_faces, patterns, points_of_pattern
+from enumerate.scd.patterns import CLOSED, OPENED, has_centre, label_faces, patterns, points_of_pattern
 
 __all__ = [
     "TOO_MANY",

@@ -16,8 +16,8 @@ from enumerate.kernel.centre_labels import FINITE, MOST_JOINTS, OUTER
 from enumerate.kernel.map_texts import LABEL_LETTERS
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink
-from enumerate.scd_jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
-from enumerate.scd_query import PlacementQuery, SCDQuery
+from enumerate.scd.jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
+from enumerate.scd.query import PlacementQuery, SCDQuery
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id

@@ -8,11 +8,11 @@ from enumerate.chains.rows import chain_ids
 from enumerate.kernel.centre_labels import SPATIAL
 from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.map_texts import map_ids
-from enumerate.open_edge_choices import outline
 from enumerate.runner.running import Row
 from enumerate.sc.rows import within_limits
-from enumerate.scd_listing import list_placements_of, sides_of_all
-from enumerate.scd_query import PlacementQuery
+from enumerate.scd.choices import outline
+from enumerate.scd.listing import list_placements_of, sides_of_all
+from enumerate.scd.query import PlacementQuery
 
 __all__ = ["SCD_COLUMNS", "placements_on", "scd_rows_of"]
 
@@ -40,7 +40,7 @@ SCD_COLUMNS: dict[str, type] = {
 def placements_on(
     query: PlacementQuery, code: Bytes, labels: Ints, dof: int, first: int, last: int
 ) -> tuple[Bytes, Ints, Ints]:
-    """Return the placements that a query asks for, as `enumerate.scd_listing.list_placements_of` does.
+    """Return the placements that a query asks for, as `enumerate.scd.listing.list_placements_of` does.
 
     Parameters
     ----------
