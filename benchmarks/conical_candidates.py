@@ -18,7 +18,7 @@ from pathlib import Path
 from time import perf_counter
 
 from enumerate.chains.kinematic import chains
-from enumerate.conical import ConicalQuery, count_conical_orders
+from enumerate.conical.query import ConicalQuery, count_conical_orders
 from enumerate.runner.store import read_rows
 
 RESULTS = Path(__file__).parent / "results" / "conical_candidates.json"

@@ -12,8 +12,8 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
+from enumerate.conical.layers import fewest_layers
 from enumerate.kernel.compiled import Ints
-from enumerate.layers import fewest_layers
 from synth.circuit import Circuits, circuits, wrapped
 from synth.cone import link_angles
 from synth.cylinder import chords

@@ -1,8 +1,8 @@
 """Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.runner.running`).
 
 A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
-Candidates come from `enumerate.conical`; what is said of them from `synth.candidate_values`, `synth.over_angles`,
-`synth.first_order` and `synth.behaviour`. Theory: docs/theory/conical-candidates.md.
+Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidate_values`,
+`synth.over_angles`, `synth.first_order` and `synth.behaviour`. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.conical import ConicalQuery, Portion
+from enumerate.conical.query import ConicalQuery, Portion
 from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError

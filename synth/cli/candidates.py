@@ -111,7 +111,7 @@ def conical(
             raise click.UsageError("--method counts all candidates; leave out filters and --sample")
         run_count(CandidateCountJob(job), options)
     else:
-        from enumerate.conical import ConicalCountJob
+        from enumerate.conical.query import ConicalCountJob
 
         run_count(ConicalCountJob(job.query, method or "burnside"), options)
 
@@ -158,7 +158,7 @@ def _chain(name: str) -> SCGraph:
 
 def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
     """Return the fixed links that an option asks for; without it the chain's own."""
-    from enumerate.joint_symmetries import links_apart
+    from enumerate.conical.symmetries import links_apart
     from synth.cli.reduce import link_named
 
     if ground is None:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
 
-from enumerate.conical import Portion
-from enumerate.rounds import canonical_row
+from enumerate.conical.query import Portion
+from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from synth.candidates import CandidateJob

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, random_linkages
 
-from enumerate.rounds import Rounds, count_by_burnside, placements
+from enumerate.conical.rounds import Rounds, count_by_burnside, placements
 from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read

@@ -12,9 +12,9 @@ from conical import STEPHENSON, WATT
 from rebuilt import Space, closing_error
 
 from enumerate.chains.kinematic import chains
-from enumerate.conical import Portion, count_conical_orders
-from enumerate.joint_symmetries import links_apart
-from enumerate.rounds import canonical_row
+from enumerate.conical.query import Portion, count_conical_orders
+from enumerate.conical.rounds import canonical_row
+from enumerate.conical.symmetries import links_apart
 from enumerate.runner.running import Interrupted
 from enumerate.runner.running import run as run_job
 from enumerate.runner.sinks import RowSink

@@ -7,8 +7,8 @@ import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT
 
 from enumerate.chains.kinematic import chains
-from enumerate.joint_symmetries import links_apart
-from enumerate.rounds import Rounds, placements
+from enumerate.conical.rounds import Rounds, placements
+from enumerate.conical.symmetries import links_apart
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from synth.behaviour import link_arcs
 from synth.candidate_values import layers, loop_circuits

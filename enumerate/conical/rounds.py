@@ -145,7 +145,7 @@ def placements(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,))
     ----------
     rounds : Rounds
     symmetries : int64[g, J]
-        All of them, as `enumerate.joint_symmetries.joint_symmetries` returns them.
+        All of them, as `enumerate.conical.symmetries.joint_symmetries` returns them.
     prefix : tuple of int, optional
         Slots of the first joints; joint 0 lies on slot 0.
 
@@ -160,7 +160,7 @@ def placements(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,))
     --------
     The cyclic orders of a four-bar's joints: open, and crossed.
 
-    >>> from enumerate.joint_symmetries import joint_symmetries
+    >>> from enumerate.conical.symmetries import joint_symmetries
     >>> symmetries = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])))
     >>> rows, order = placements(Rounds.orders(4), symmetries)
     >>> rows.tolist(), order.tolist()
@@ -243,7 +243,7 @@ def count_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
 
     Examples
     --------
-    >>> from enumerate.joint_symmetries import joint_symmetries
+    >>> from enumerate.conical.symmetries import joint_symmetries
     >>> watt = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])))
     >>> count_by_burnside(Rounds.orders(7), watt)
     102

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from enumerate.joint_symmetries import joint_symmetries
+from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
+from enumerate.conical.symmetries import joint_symmetries
 from enumerate.kernel.compiled import Ints
-from enumerate.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import JointId, LinkId
@@ -124,7 +124,7 @@ class ConicalQuery:
                 yield Portion(ground, prefix), rounds.completions(len(prefix))
 
     def placements(self, portion: Portion) -> tuple[Ints, Ints]:
-        """Return the candidates of a portion and their symmetries (`enumerate.rounds.placements`)."""
+        """Return the candidates of a portion and their symmetries (`enumerate.conical.rounds.placements`)."""
         return placements(self.rounds, self.symmetries(portion.ground), portion.prefix)
 
 

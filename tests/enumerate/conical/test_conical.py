@@ -10,10 +10,17 @@ import pytest
 
 from enumerate.chains.kinematic import chains
 from enumerate.chains.names import chain_named
-from enumerate.conical import ConicalQuery, conical_orders, count_conical_orders
-from enumerate.joint_symmetries import joint_symmetries, links_apart
-from enumerate.layers import fewest_layers
-from enumerate.rounds import Rounds, canonical_row, count_by_burnside, count_by_orbits, placements, prefixes
+from enumerate.conical.layers import fewest_layers
+from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
+from enumerate.conical.rounds import (
+    Rounds,
+    canonical_row,
+    count_by_burnside,
+    count_by_orbits,
+    placements,
+    prefixes,
+)
+from enumerate.conical.symmetries import joint_symmetries, links_apart
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_from_id
 

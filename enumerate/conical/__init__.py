@@ -1,0 +1,1 @@
+"""All conical candidates: cyclic orders of the joints of a chain."""
