@@ -81,7 +81,7 @@ def strings(
       synth enumerate strings --dof 6 --modes
       synth enumerate strings --dof 30 --max-panels none --count
     """
-    from enumerate.strings import count_strings
+    from enumerate.strings.panel_strings import count_strings
 
     if dof is not None and max_dof is not None:
         raise click.UsageError("give --dof or --max-dof, not both")
@@ -104,13 +104,13 @@ def strings(
 
 
 def _count_modes(numbers: list[int], limits: dict[str, int | None]) -> int:
-    from enumerate.strings import strings as listed
+    from enumerate.strings.panel_strings import strings as listed
 
     return sum(string.count_modes() for n in numbers for string in listed(n, **limits))
 
 
 def _rows(numbers: list[int], limits: dict[str, int | None], modes: bool) -> Iterator[dict[str, Any]]:
-    from enumerate.strings import strings as listed
+    from enumerate.strings.panel_strings import strings as listed
 
     for n in numbers:
         for string in listed(n, **limits):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from enumerate.strings import ChainString
+from enumerate.strings.panel_strings import ChainString
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.drawing import Side

@@ -2,8 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from enumerate.string_graphs import chain_sc, chain_scd, string_of_chain
-from enumerate.strings import ChainString, strings
+from enumerate.strings.graphs import chain_sc, chain_scd, string_of_chain
+from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError

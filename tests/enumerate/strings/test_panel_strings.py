@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from enumerate.strings import ChainString, count_strings, joint_chain, strings
+from enumerate.strings.panel_strings import ChainString, count_strings, joint_chain, strings
 from graphs.errors import InvariantError
 
 chains = st.lists(st.integers(1, 5), min_size=1, max_size=6).map(lambda parts: ChainString(tuple(parts)))

@@ -1,0 +1,1 @@
+"""All R/- strings: chains of panels between two bodies."""
