@@ -23,7 +23,7 @@ from synth.cone import cone_reach, link_angles
 from synth.cyclic import circumradii, cone_angles
 from synth.cylinder import cylinder_reach
 from synth.first_order import ConformedChain
-from synth.fourbar import can_close
+from synth.fourbar.closing import can_close
 from synth.loopsum import loop_roots
 
 RUNS = 5

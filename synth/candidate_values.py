@@ -18,7 +18,7 @@ from synth.circuit import Circuits, circuits, wrapped
 from synth.cone import link_angles
 from synth.cylinder import chords
 from synth.first_order import ConformedChain
-from synth.fourbar import grashof_class, planar_differences, spherical_differences
+from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
 
 __all__ = ["arc_choices", "four_bar_classes", "half_turns", "layers", "loop_circuits"]
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.fourbar import (
+from synth.fourbar.closing import (
     FourBarKind,
     checked_link_angles,
     kind_of_spherical,

@@ -2,7 +2,7 @@
 
 Frame of Hyatt et al. 2020: apex at the origin, the y axis along the cone's axis, away from the cone. The joint
 at azimuth t has the axis R_y(t) O with O = (0, -sin lambda, cos lambda) (Eq. 17), outward from the apex. At this
-pose Eqs. 17 to 24 need no more; what happens away from it is in `synth.position`. Theory:
+pose Eqs. 17 to 24 need no more; what happens away from it is in `synth.fourbar.position`. Theory:
 docs/theory/conformed.md.
 """
 

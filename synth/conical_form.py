@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synth.cone import map_to_cones
-from synth.fourbar import supplementary
+from synth.fourbar.closing import supplementary
 from synth.guidance import GuidedFourBar
 from synth.mapping import FamilyOfCircles, MappedLoop
 

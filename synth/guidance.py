@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
 from synth.dyads import Dyad
-from synth.fourbar import FourBarKind, kind_of_spherical
+from synth.fourbar.closing import FourBarKind, kind_of_spherical
 from synth.hoop import DIRECTIONS, Direction
 from synth.order import order_by_crank_angles
 from synth.orientations import Floats, Orientations

@@ -13,7 +13,7 @@ from synth.cli.output import console, plain, table
 if TYPE_CHECKING:
     from synth.cone import ConeMap
     from synth.cylinder import CylinderMap
-    from synth.fourbar import FourBarKind
+    from synth.fourbar.closing import FourBarKind
     from synth.mapping import FamilyOfCircles, MappedLoop
 
 __all__ = [

@@ -19,11 +19,11 @@ from synth.conformed import dihedral_angles, joint_axes
 from synth.conical_file import read_conical
 from synth.cyclic import circumradii, cone_angles
 from synth.first_order import ConformedChain, first_order, pole_axes
-from synth.fourbar import grashof_class, kind_of_spherical, spherical_differences, supplementary
+from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
+from synth.fourbar.position import poses_from_conformed, rotated
 from synth.loopsum import loop_roots
 from synth.memberships import memberships
 from synth.multiloop import link_pairs, loop_steps
-from synth.position import poses_from_conformed, rotated
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = json.loads((DATA / "golden.json").read_text(encoding="utf-8"))["000"]

@@ -19,9 +19,9 @@ from synth.coordinates import cone_angles_by_coordinates, quadrilaterals_by_coor
 from synth.cyclic import circumradii, cone_angles, crossed_area
 from synth.cylinder import central_angles, chords, map_to_cylinders
 from synth.first_order import ConformedChain
-from synth.fourbar import grashof_class, kind_of_spherical, planar_differences, spherical_differences
+from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
+from synth.fourbar.position import output_planar
 from synth.loopsum import loop_roots
-from synth.position import output_planar
 from synth.table4 import COLUMNS, ROWS, table4, table_row
 
 DATA = Path(__file__).resolve().parents[2] / "data"

@@ -11,7 +11,7 @@ from graphs.mechanism.sc import SCGraph
 from synth.behaviour import Way, behaviour, icrl, instant_centres, link_arcs, shadow_allows
 from synth.conformed import joint_axes
 from synth.first_order import ConformedChain, first_order, pole_axes
-from synth.position import poses_from_conformed
+from synth.fourbar.position import poses_from_conformed
 from synth.table4 import table4, table_row
 
 COUNT = 10_000

@@ -14,7 +14,7 @@ from synth.conformed import check_pose
 from synth.coordinates import cone_angles_by_coordinates, polygons_by_coordinates, quadrilaterals_by_coordinates
 from synth.cyclic import circumradii, cone_angles
 from synth.cylinder import central_angles, chords, cylinder_reach, map_to_cylinders
-from synth.fourbar import can_close, planar_differences, spherical_differences
+from synth.fourbar.closing import can_close, planar_differences, spherical_differences
 from synth.loopsum import MOST_LINKS, half_steps, loop_roots, loop_sum, sign_patterns
 
 COUNT = 10_000

@@ -9,7 +9,7 @@ from conical import random_lengths, random_link_angles, random_linkages
 from graphs.errors import InvariantError
 from synth.conformed import angles_between, dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.cyclic import cone_angles
-from synth.fourbar import (
+from synth.fourbar.closing import (
     in_a_hemisphere,
     kind_of_planar,
     kind_of_spherical,
@@ -18,7 +18,7 @@ from synth.fourbar import (
     spherical_differences,
     supplementary,
 )
-from synth.position import (
+from synth.fourbar.position import (
     input_limits_planar,
     input_limits_spherical,
     output_planar,

@@ -1,0 +1,1 @@
+"""Four-bars: when they close, and their positions."""
