@@ -19,12 +19,12 @@ import numpy as np
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.behaviour import behaviour
-from synth.cone import cone_reach, link_angles
-from synth.cyclic import circumradii, cone_angles
-from synth.cylinder import cylinder_reach
 from synth.first_order import ConformedChain
 from synth.fourbar.closing import can_close
-from synth.loopsum import loop_roots
+from synth.surfaces.cone import cone_reach, link_angles
+from synth.surfaces.cyclic import circumradii, cone_angles
+from synth.surfaces.cylinder import cylinder_reach
+from synth.surfaces.loop_sums import loop_roots
 
 RUNS = 5
 WATT = SCGraph(

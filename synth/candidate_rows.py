@@ -17,8 +17,6 @@ from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Row
 from synth.behaviour import Way, behaviour_of_motion, link_arcs
 from synth.candidate_values import four_bar_classes, half_turns, layers, loop_circuits
-from synth.circuit import wrapped
-from synth.cone import link_angles
 from synth.first_order import ConformedChain, first_order
 from synth.over_angles import (
     Allowed,
@@ -28,6 +26,8 @@ from synth.over_angles import (
     orders_with_opposites,
     over_angles,
 )
+from synth.surfaces.circuit import wrapped
+from synth.surfaces.cone import link_angles
 
 __all__ = ["Shape", "order_rows", "placed_rows"]
 

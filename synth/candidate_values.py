@@ -14,11 +14,11 @@ import numpy.typing as npt
 
 from enumerate.conical.layers import fewest_layers
 from enumerate.kernel.compiled import Ints
-from synth.circuit import Circuits, circuits, wrapped
-from synth.cone import link_angles
-from synth.cylinder import chords
 from synth.first_order import ConformedChain
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
+from synth.surfaces.circuit import Circuits, circuits, wrapped
+from synth.surfaces.cone import link_angles
+from synth.surfaces.cylinder import chords
 
 __all__ = ["arc_choices", "four_bar_classes", "half_turns", "layers", "loop_circuits"]
 

@@ -25,9 +25,9 @@ from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.candidate_rows import Shape, order_rows, placed_rows
 from synth.chain_cycles import loops_of_chain
-from synth.circuit import wrapped
 from synth.conical_file import ConicalLinkage, conical_text
 from synth.first_order import ConformedChain
+from synth.surfaces.circuit import wrapped
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
 

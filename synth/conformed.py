@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from synth.circuit import azimuths
-from synth.cone import checked_cone_angle
+from synth.surfaces.circuit import azimuths
+from synth.surfaces.cone import checked_cone_angle
 
 __all__ = [
     "CONE_AXIS",
@@ -199,7 +199,7 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
 
     Examples
     --------
-    >>> from synth.cone import map_to_cones
+    >>> from synth.surfaces.cone import map_to_cones
     >>> angles = np.radians([120, 95, 45, 85])
     >>> (first, _) = map_to_cones(angles).cones
     >>> check = check_pose(angles, first.steps, first.size)

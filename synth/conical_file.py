@@ -22,7 +22,7 @@ from graphs.files.native.names import VERSION, written
 from graphs.files.source import Checker, json_text, load_json, write_text
 from graphs.loops.loop import JointId
 from graphs.mechanism.sc import SCGraph
-from synth.multiloop import Pair, places_of_steps
+from synth.surfaces.several_loops import Pair, places_of_steps
 
 __all__ = ["ConicalLinkage", "conical_text", "read_conical", "write_conical"]
 

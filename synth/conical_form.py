@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from synth.cone import map_to_cones
 from synth.fourbar.closing import supplementary
 from synth.guidance import GuidedFourBar
-from synth.mapping import FamilyOfCircles, MappedLoop
+from synth.surfaces.cone import map_to_cones
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
 
 __all__ = ["ConicalForm", "conical_forms"]
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from synth.cone import ConeMap, cone_reach
-from synth.cylinder import CylinderMap, cylinder_reach
 from synth.draw_figure import COLOURS, new_figure
-from synth.loopsum import loop_sum, sign_patterns
+from synth.surfaces.cone import ConeMap, cone_reach
+from synth.surfaces.cylinder import CylinderMap, cylinder_reach
+from synth.surfaces.loop_sums import loop_sum, sign_patterns
 
 __all__ = ["draw_cone_sums", "draw_cylinder_sums"]
 
@@ -38,7 +38,7 @@ def draw_cone_sums(found: ConeMap) -> Any:
 
     Examples
     --------
-    >>> from synth.cone import map_to_cones
+    >>> from synth.surfaces.cone import map_to_cones
     >>> draw_cone_sums(map_to_cones(np.radians([70, 80, 120, 40]))).axes[0].get_xlabel()
     'cone angle λ (degrees)'
     """
@@ -72,7 +72,7 @@ def draw_cylinder_sums(found: CylinderMap) -> Any:
 
     Examples
     --------
-    >>> from synth.cylinder import map_to_cylinders
+    >>> from synth.surfaces.cylinder import map_to_cylinders
     >>> draw_cylinder_sums(map_to_cylinders([4, 3, 5, 1])).axes[0].get_xlabel()
     'radius R'
     """

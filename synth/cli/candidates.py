@@ -97,7 +97,7 @@ def conical(
         _print_formulas(chain, grounds)
         return
     from synth.candidates import CandidateCountJob, CandidateJob
-    from synth.cone import checked_cone_angle
+    from synth.surfaces.cone import checked_cone_angle
 
     filters = _filters(rest)
     job = CandidateJob(

@@ -11,10 +11,10 @@ import click
 from synth.cli.output import console, plain, table
 
 if TYPE_CHECKING:
-    from synth.cone import ConeMap
-    from synth.cylinder import CylinderMap
     from synth.fourbar.closing import FourBarKind
-    from synth.mapping import FamilyOfCircles, MappedLoop
+    from synth.surfaces.cone import ConeMap
+    from synth.surfaces.cylinder import CylinderMap
+    from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
 
 __all__ = [
     "NumberList",

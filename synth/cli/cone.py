@@ -64,7 +64,7 @@ def map_command(
     if file is not None:
         _map_file(file, radians(tolerance), by_angles, output, as_json)
         return
-    from synth.cone import map_to_cones
+    from synth.surfaces.cone import map_to_cones
 
     assert angles is not None
     found = map_to_cones(_radians(angles))
@@ -145,8 +145,8 @@ def behaviour_command(
         on_cones,
         print_behaviours,
     )
-    from synth.cone import checked_cone_angle
     from synth.conical_file import read_conical
+    from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:
         raise click.UsageError("give --angles or --steps of one loop, or a FILE")

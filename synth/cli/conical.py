@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from graphs.loops.loop import JointId
     from graphs.mechanism.sc import SCGraph
     from synth.behaviour import Behaviour
-    from synth.common_cones import CommonCone, CommonFamily
     from synth.conical_file import ConicalLinkage
     from synth.first_order import ConformedChain
+    from synth.surfaces.linkage_cones import CommonCone, CommonFamily
 
 __all__ = [
     "CommonMap",
@@ -69,9 +69,9 @@ class Found:
 def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
     """Return a linkage given by steps and lambda as one that is given by all its link angles."""
     from graphs.errors import UnsolvableError
-    from synth.cone import link_angles
     from synth.conical_file import ConicalLinkage
-    from synth.multiloop import link_pairs
+    from synth.surfaces.cone import link_angles
+    from synth.surfaces.several_loops import link_pairs
 
     if linkage.steps is None:
         return linkage
@@ -84,13 +84,13 @@ def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
 
 def mapped(linkage: ConicalLinkage, tolerance: float) -> CommonMap:
     """Return the cones of a linkage: from its link angles, or, given steps, the one named or every one."""
-    from synth.common_cones import CommonCone, CommonFamily, common_cones
+    from synth.surfaces.linkage_cones import CommonCone, CommonFamily, common_cones
 
     if linkage.angles is not None:
         return CommonMap(*common_cones(linkage.chain, linkage.angles, tolerance))
     import numpy as np
 
-    from synth.multiloop import loop_steps
+    from synth.surfaces.several_loops import loop_steps
 
     places = np.array(linkage.places())
     loops = loop_steps(linkage.chain, places)
@@ -138,8 +138,8 @@ def _named_degrees(places: Mapping[JointId, float]) -> dict[str, float]:
 
 def _angles(linkage: ConicalLinkage, one: CommonCone) -> list[tuple[tuple[JointId, JointId], float]]:
     """Return the link angles between all joints of each link, degrees."""
-    from synth.cone import link_angles
-    from synth.multiloop import link_pairs
+    from synth.surfaces.cone import link_angles
+    from synth.surfaces.several_loops import link_pairs
 
     return [
         ((a, b), round(degrees(float(link_angles(one.places[b] - one.places[a], one.cone_angle))), 12))
@@ -160,7 +160,7 @@ def print_linkage(linkage: ConicalLinkage, found: CommonMap) -> None:
             rows.add_row(_joints_text(loop.joints), circuit, signs_text(signs), str(turns))
         out.print(rows)
         rows = table("link", "joints", "angle (deg)", numbers=["angle (deg)"])
-        from synth.multiloop import link_pairs
+        from synth.surfaces.several_loops import link_pairs
 
         link_of = link_pairs(linkage.chain)
         for (a, b), angle in _angles(linkage, one):
@@ -200,8 +200,8 @@ def on_cones(linkage: ConicalLinkage, cone_angle: float | None) -> list[OnCone]:
 
 def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
     """Return a loop on each of its cones."""
-    from synth.circuit import azimuths
-    from synth.cone import map_to_cones
+    from synth.surfaces.circuit import azimuths
+    from synth.surfaces.cone import map_to_cones
 
     return [
         OnCone(_ring(len(angles)), azimuths(one.steps).tolist(), one.size) for one in map_to_cones(angles).cones
@@ -213,7 +213,7 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None) -> OnCone:
     from math import pi
 
     from graphs.errors import InvariantError
-    from synth.circuit import azimuths, closing_step
+    from synth.surfaces.circuit import azimuths, closing_step
 
     given = list(steps)
     for place, step in enumerate(given):

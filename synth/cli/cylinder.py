@@ -36,7 +36,7 @@ def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -
       synth cylinder map --lengths 4,3,5,1
       synth cylinder map --lengths 4,3,5,1,2 --json
     """
-    from synth.cylinder import map_to_cylinders
+    from synth.surfaces.cylinder import map_to_cylinders
 
     found = map_to_cylinders(lengths)
     if output is not None:

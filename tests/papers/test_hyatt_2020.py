@@ -13,17 +13,17 @@ from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from synth.candidates import CandidateJob
-from synth.circuit import azimuths, circuits, table1
-from synth.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles
 from synth.conformed import dihedral_angles, joint_axes
 from synth.conical_file import read_conical
-from synth.cyclic import circumradii, cone_angles
 from synth.first_order import ConformedChain, first_order, pole_axes
 from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
 from synth.fourbar.position import poses_from_conformed, rotated
-from synth.loopsum import loop_roots
-from synth.memberships import memberships
-from synth.multiloop import link_pairs, loop_steps
+from synth.surfaces.circuit import azimuths, circuits, table1
+from synth.surfaces.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles
+from synth.surfaces.cyclic import circumradii, cone_angles
+from synth.surfaces.loop_sums import loop_roots
+from synth.surfaces.memberships import memberships
+from synth.surfaces.several_loops import link_pairs, loop_steps
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = json.loads((DATA / "golden.json").read_text(encoding="utf-8"))["000"]

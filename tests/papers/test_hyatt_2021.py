@@ -14,14 +14,14 @@ from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
 from synth.behaviour import behaviour, shadow_allows
 from synth.candidates import CandidateJob
-from synth.cone import cone_reach, largest_cone_angle, link_angles, map_to_cones, projected_angles
-from synth.coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordinates
-from synth.cyclic import circumradii, cone_angles, crossed_area
-from synth.cylinder import central_angles, chords, map_to_cylinders
 from synth.first_order import ConformedChain
 from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
 from synth.fourbar.position import output_planar
-from synth.loopsum import loop_roots
+from synth.surfaces.by_coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordinates
+from synth.surfaces.cone import cone_reach, largest_cone_angle, link_angles, map_to_cones, projected_angles
+from synth.surfaces.cyclic import circumradii, cone_angles, crossed_area
+from synth.surfaces.cylinder import central_angles, chords, map_to_cylinders
+from synth.surfaces.loop_sums import loop_roots
 from synth.table4 import COLUMNS, ROWS, table4, table_row
 
 DATA = Path(__file__).resolve().parents[2] / "data"

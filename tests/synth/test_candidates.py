@@ -25,11 +25,11 @@ from graphs.mechanism.sc import SCGraph
 from synth.behaviour import link_arcs
 from synth.candidates import CandidateJob, Filter
 from synth.chain_cycles import loops_of_chain
-from synth.common_cones import common_cones
-from synth.cone import link_angles
 from synth.conformed import angles_between, joint_axes
 from synth.first_order import ConformedChain
-from synth.multiloop import link_pairs, loop_steps
+from synth.surfaces.cone import link_angles
+from synth.surfaces.linkage_cones import common_cones
+from synth.surfaces.several_loops import link_pairs, loop_steps
 
 
 def eight_bars():

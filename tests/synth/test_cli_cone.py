@@ -12,9 +12,9 @@ import pytest
 from commands import run
 from conical import WATT
 
-from synth.cone import link_angles
 from synth.conical_file import ConicalLinkage, write_conical
-from synth.multiloop import link_pairs
+from synth.surfaces.cone import link_angles
+from synth.surfaces.several_loops import link_pairs
 
 ROOT = Path(__file__).resolve().parents[2]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"

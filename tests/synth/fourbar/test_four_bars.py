@@ -8,7 +8,6 @@ from conical import random_lengths, random_link_angles, random_linkages
 
 from graphs.errors import InvariantError
 from synth.conformed import angles_between, dihedral_angles, joint_axes, measured_dihedral_angles
-from synth.cyclic import cone_angles
 from synth.fourbar.closing import (
     in_a_hemisphere,
     kind_of_planar,
@@ -27,6 +26,7 @@ from synth.fourbar.position import (
     transmission_planar,
     transmission_spherical,
 )
+from synth.surfaces.cyclic import cone_angles
 
 THETA = np.radians(np.arange(-180, 180, 0.5) + 0.25)
 

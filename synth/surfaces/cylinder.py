@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from graphs.errors import InvariantError
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
-from synth.mapping import FamilyOfCircles, MappedLoop, mapped_loop
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, mapped_loop
 
 __all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
 

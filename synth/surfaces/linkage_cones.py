@@ -17,10 +17,10 @@ import numpy.typing as npt
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.loops.loop import JointId
 from graphs.mechanism.sc import SCGraph
-from synth.circuit import circuits, wrapped
-from synth.cone import cone_reach
-from synth.loopsum import LoopRoots, half_steps, loop_roots, sign_patterns
-from synth.multiloop import Pair, link_pairs, places_of_steps
+from synth.surfaces.circuit import circuits, wrapped
+from synth.surfaces.cone import cone_reach
+from synth.surfaces.loop_sums import LoopRoots, half_steps, loop_roots, sign_patterns
+from synth.surfaces.several_loops import Pair, link_pairs, places_of_steps
 
 __all__ = ["CommonCone", "CommonFamily", "common_cones"]
 

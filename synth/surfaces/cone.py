@@ -21,7 +21,7 @@ from synth.fourbar.closing import (
     minimal_supplementary,
     spherical_differences,
 )
-from synth.mapping import FamilyOfCircles, MappedLoop, mapped_loop
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, mapped_loop
 
 __all__ = [
     "ConeMap",

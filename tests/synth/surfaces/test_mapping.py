@@ -8,14 +8,18 @@ from conical import random_lengths, random_link_angles, random_linkages
 from scipy.optimize import brentq, minimize_scalar
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.circuit import circuits
-from synth.cone import cone_reach, link_angles, map_to_cones, projected_angles, solution_class
 from synth.conformed import check_pose
-from synth.coordinates import cone_angles_by_coordinates, polygons_by_coordinates, quadrilaterals_by_coordinates
-from synth.cyclic import circumradii, cone_angles
-from synth.cylinder import central_angles, chords, cylinder_reach, map_to_cylinders
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
-from synth.loopsum import MOST_LINKS, half_steps, loop_roots, loop_sum, sign_patterns
+from synth.surfaces.by_coordinates import (
+    cone_angles_by_coordinates,
+    polygons_by_coordinates,
+    quadrilaterals_by_coordinates,
+)
+from synth.surfaces.circuit import circuits
+from synth.surfaces.cone import cone_reach, link_angles, map_to_cones, projected_angles, solution_class
+from synth.surfaces.cyclic import circumradii, cone_angles
+from synth.surfaces.cylinder import central_angles, chords, cylinder_reach, map_to_cylinders
+from synth.surfaces.loop_sums import MOST_LINKS, half_steps, loop_roots, loop_sum, sign_patterns
 
 COUNT = 10_000
 

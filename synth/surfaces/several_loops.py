@@ -2,7 +2,7 @@
 
 Projected angles always fit: put the joints anywhere round a cone, and every loop closes, since its steps lead
 back to where they began. All functions take many linkages of one chain at a time. From link angles:
-`synth.common_cones`. Theory: docs/theory/multiloop.md.
+`synth.surfaces.linkage_cones`. Theory: docs/theory/multiloop.md.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ import numpy.typing as npt
 from graphs.errors import InvariantError, shown
 from graphs.loops.loop import JointId
 from graphs.mechanism.sc import SCGraph
-from synth.circuit import Circuits, circuits, wrapped
-from synth.cone import link_angles
+from synth.surfaces.circuit import Circuits, circuits, wrapped
+from synth.surfaces.cone import link_angles
 
 __all__ = ["LoopSteps", "Pair", "link_pairs", "loop_steps", "places_of_steps"]
 

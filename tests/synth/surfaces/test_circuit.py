@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from conical import random_linkages, wrap
 
-from synth.circuit import azimuths, circuits, closing_step, table1, wrapped
+from synth.surfaces.circuit import azimuths, circuits, closing_step, table1, wrapped
 
 
 @pytest.mark.parametrize("links", [3, 4, 5, 6, 7])

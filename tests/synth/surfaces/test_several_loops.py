@@ -13,14 +13,14 @@ from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from synth.common_cones import common_cones
-from synth.cone import link_angles, map_to_cones
 from synth.conformed import angles_between, joint_axes
 from synth.conical_file import ConicalLinkage, read_conical, write_conical
-from synth.memberships import memberships
-from synth.multiloop import link_pairs, loop_steps, places_of_steps
+from synth.surfaces.cone import link_angles, map_to_cones
+from synth.surfaces.linkage_cones import common_cones
+from synth.surfaces.memberships import memberships
+from synth.surfaces.several_loops import link_pairs, loop_steps, places_of_steps
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"
 
 

@@ -1,6 +1,6 @@
 """What mapping a loop to a cone or a cylinder gives: one circle after the other, and families of them.
 
-Both surfaces share this: `synth.cone` and `synth.cylinder` say what the circles mean.
+Both surfaces share this: `synth.surfaces.cone` and `synth.surfaces.cylinder` say what the circles mean.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from synth.circuit import circuits
-from synth.loopsum import Base, half_steps, loop_roots
+from synth.surfaces.circuit import circuits
+from synth.surfaces.loop_sums import Base, half_steps, loop_roots
 
 __all__ = ["FamilyOfCircles", "MappedLoop", "mapped_loop"]
 
@@ -82,7 +82,7 @@ def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple
     Parameters
     ----------
     reach : float[n]
-        As in `synth.loopsum`.
+        As in `synth.surfaces.loop_sums`.
     base : {0, 1}
         0 on a cylinder, 1 on a cone.
 

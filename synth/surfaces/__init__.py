@@ -1,0 +1,1 @@
+"""Linkages mapped to right cones and cylinders."""
