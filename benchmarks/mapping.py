@@ -18,8 +18,8 @@ import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from synth.behaviour import behaviour
-from synth.first_order import ConformedChain
+from synth.conformed.behaviours import behaviour
+from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import can_close
 from synth.surfaces.cone import cone_reach, link_angles
 from synth.surfaces.cyclic import circumradii, cone_angles

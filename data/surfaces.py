@@ -9,7 +9,7 @@ from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
 from graphs.files.source import json_text, write_text
 from graphs.mechanism.sc import SCGraph
-from synth.conical_file import ConicalLinkage, write_conical
+from synth.conformed.linkage import ConicalLinkage, write_conical
 from synth.surfaces.memberships import memberships
 
 FIG_11 = {"OA": -40, "AB": -20, "BC": -45, "CD": -68, "DE": 28, "EF": 30}

@@ -11,9 +11,9 @@ from enumerate.runner.running import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.source import FolderBeside
 from synth.candidates import CandidateJob
+from synth.conformed.rates import ConformedChain
 from synth.draw_conformed import draw_conformed
 from synth.draw_figure import save_figure
-from synth.first_order import ConformedChain
 
 __all__ = ["PictureSink", "picture_of_row"]
 

@@ -15,10 +15,8 @@ import numpy.typing as npt
 
 from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Row
-from synth.behaviour import Way, behaviour_of_motion, link_arcs
 from synth.candidate_values import four_bar_classes, half_turns, layers, loop_circuits
-from synth.first_order import ConformedChain, first_order
-from synth.over_angles import (
+from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
     Prepared,
@@ -26,6 +24,8 @@ from synth.over_angles import (
     orders_with_opposites,
     over_angles,
 )
+from synth.conformed.behaviours import Way, behaviour_of_motion, link_arcs
+from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.cone import link_angles
 

@@ -1,7 +1,7 @@
 """What is evaluated of conical candidates, for many at a time: circuits, layers, half turns, Grashof classes.
 
-Rank and behaviour: `synth.first_order`, `synth.behaviour`; over all angles: `synth.over_angles`. Theory:
-docs/theory/conical-candidates.md.
+Rank and behaviour: `synth.conformed.rates`, `synth.conformed.behaviours`; over all angles:
+`synth.conformed.all_angles`. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from enumerate.conical.layers import fewest_layers
 from enumerate.kernel.compiled import Ints
-from synth.first_order import ConformedChain
+from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
 from synth.surfaces.circuit import Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles

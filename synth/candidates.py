@@ -2,7 +2,8 @@
 
 A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
 Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidate_values`,
-`synth.over_angles`, `synth.first_order` and `synth.behaviour`. Theory: docs/theory/conical-candidates.md.
+`synth.conformed.all_angles`, `synth.conformed.rates` and `synth.conformed.behaviours`. Theory:
+docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ from graphs.identity.chains import chain_id
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.candidate_rows import Shape, order_rows, placed_rows
-from synth.chain_cycles import loops_of_chain
-from synth.conical_file import ConicalLinkage, conical_text
-from synth.first_order import ConformedChain
+from synth.conformed.cycles import loops_of_chain
+from synth.conformed.linkage import ConicalLinkage, conical_text
+from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import wrapped
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from synth.behaviour import Way, behaviour_of_motion, icrl, link_arcs
-from synth.conformed import joint_axes, strip
+from synth.conformed.behaviours import Way, behaviour_of_motion, icrl, link_arcs
+from synth.conformed.pose import joint_axes, strip
+from synth.conformed.rates import ConformedChain, first_order
 from synth.draw_figure import COLOURS, new_figure
-from synth.first_order import ConformedChain, first_order
 
 __all__ = ["draw_conformed"]
 

@@ -137,7 +137,7 @@ def _chain(name: str) -> SCGraph:
     from graphs.files.source import load_json
     from graphs.identity.chains import chain_from_id
     from graphs.mechanism.sc import SCGraph
-    from synth.conical_file import read_conical
+    from synth.conformed.linkage import read_conical
 
     if name.lower() in chain_names():
         return sc_from_link_joint_graph(chain_from_id(chain_named(name)))
@@ -197,8 +197,8 @@ def _around(sink: Sink, job: CandidateJob, sort: str | None, pictures: str | Non
 
 
 def _print_formulas(chain: SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
-    from synth.first_order import ConformedChain
-    from synth.outward import outward_rates
+    from synth.conformed.outward import outward_rates
+    from synth.conformed.rates import ConformedChain
 
     click.echo("[a b c] = 4 sin((b - a) / 2) sin((c - b) / 2) sin((c - a) / 2); joints stand for their azimuths.")
     click.echo("A link can go one way if all its joints have one sign and lie on half the circle.")

@@ -81,7 +81,7 @@ def map_command(
 
 def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
     from synth.cli.conical import by_angles, linkage_json, mapped, print_linkage
-    from synth.conical_file import read_conical
+    from synth.conformed.linkage import read_conical
 
     linkage = read_conical(file)
     with about(file):
@@ -91,9 +91,9 @@ def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None
     if output is not None:
         if not found.cones:
             raise click.UsageError("there is no cone to draw")
+        from synth.conformed.rates import ConformedChain
         from synth.draw_conformed import draw_conformed
         from synth.draw_figure import save_figure
-        from synth.first_order import ConformedChain
 
         first = found.cones[0]
         places = [first.places[joint] for joint in linkage.chain.joints]
@@ -145,7 +145,7 @@ def behaviour_command(
         on_cones,
         print_behaviours,
     )
-    from synth.conical_file import read_conical
+    from synth.conformed.linkage import read_conical
     from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
     from graphs.loops.loop import JointId
     from graphs.mechanism.sc import SCGraph
-    from synth.behaviour import Behaviour
-    from synth.conical_file import ConicalLinkage
-    from synth.first_order import ConformedChain
+    from synth.conformed.behaviours import Behaviour
+    from synth.conformed.linkage import ConicalLinkage
+    from synth.conformed.rates import ConformedChain
     from synth.surfaces.linkage_cones import CommonCone, CommonFamily
 
 __all__ = [
@@ -69,7 +69,7 @@ class Found:
 def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
     """Return a linkage given by steps and lambda as one that is given by all its link angles."""
     from graphs.errors import UnsolvableError
-    from synth.conical_file import ConicalLinkage
+    from synth.conformed.linkage import ConicalLinkage
     from synth.surfaces.cone import link_angles
     from synth.surfaces.several_loops import link_pairs
 
@@ -241,9 +241,9 @@ def behaviours_of(given: Sequence[OnCone], ground: str | None) -> list[Found]:
     """Return what each linkage does, one link fixed."""
     import numpy as np
 
-    from synth.behaviour import behaviour
     from synth.cli.reduce import link_named
-    from synth.first_order import ConformedChain
+    from synth.conformed.behaviours import behaviour
+    from synth.conformed.rates import ConformedChain
 
     found = []
     for one in given:
@@ -260,7 +260,7 @@ def behaviours_json(found: Sequence[Found]) -> dict[str, Any]:
 
 
 def _behaviour_json(one: Found) -> dict[str, Any]:
-    from synth.behaviour import Way, icrl
+    from synth.conformed.behaviours import Way, icrl
 
     motion = one.behaviour.motion
     lines = icrl(motion.motions)
@@ -297,7 +297,7 @@ def _behaviour_json(one: Found) -> dict[str, Any]:
 def _mobile(one: Found) -> tuple[dict[str, Any] | None, bool, bool]:
     """Return the row of Table 4 (four-bars), and whether the linkage can be intra- and extramobile."""
     from graphs.errors import InvariantError
-    from synth.table4 import table_row
+    from synth.conformed.twelve_cases import table_row
 
     both = bool(one.behaviour.one_way)
     ordered = _around(one.chain)
@@ -325,7 +325,7 @@ def _finite(value: float) -> float | None:
 
 
 def _centre(motion: npt.NDArray[Any]) -> list[float] | None:
-    from synth.behaviour import instant_centres
+    from synth.conformed.behaviours import instant_centres
 
     x, y = instant_centres(motion).tolist()
     return [x, y] if abs(x) < 1e12 and abs(y) < 1e12 else None
@@ -333,7 +333,7 @@ def _centre(motion: npt.NDArray[Any]) -> list[float] | None:
 
 def print_behaviours(found: Sequence[Found]) -> None:
     """Print what each linkage does."""
-    from synth.behaviour import Way, icrl
+    from synth.conformed.behaviours import Way, icrl
 
     out = console()
     if not found:

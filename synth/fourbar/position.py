@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError
-from synth.conformed import dihedral_angles, joint_axes, measured_dihedral_angles
+from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.surfaces.circuit import azimuths
 from synth.surfaces.cone import checked_cone_angle, link_angles
 

@@ -13,9 +13,9 @@ from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from synth.candidates import CandidateJob
-from synth.conformed import dihedral_angles, joint_axes
-from synth.conical_file import read_conical
-from synth.first_order import ConformedChain, first_order, pole_axes
+from synth.conformed.linkage import read_conical
+from synth.conformed.pose import dihedral_angles, joint_axes
+from synth.conformed.rates import ConformedChain, first_order, pole_axes
 from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
 from synth.fourbar.position import poses_from_conformed, rotated
 from synth.surfaces.circuit import azimuths, circuits, table1

@@ -12,9 +12,10 @@ from enumerate.conical.rounds import Rounds, count_by_burnside, placements
 from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
-from synth.behaviour import behaviour, shadow_allows
 from synth.candidates import CandidateJob
-from synth.first_order import ConformedChain
+from synth.conformed.behaviours import behaviour, shadow_allows
+from synth.conformed.rates import ConformedChain
+from synth.conformed.twelve_cases import COLUMNS, ROWS, table4, table_row
 from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
 from synth.fourbar.position import output_planar
 from synth.surfaces.by_coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordinates
@@ -22,7 +23,6 @@ from synth.surfaces.cone import cone_reach, largest_cone_angle, link_angles, map
 from synth.surfaces.cyclic import circumradii, cone_angles, crossed_area
 from synth.surfaces.cylinder import central_angles, chords, map_to_cylinders
 from synth.surfaces.loop_sums import loop_roots
-from synth.table4 import COLUMNS, ROWS, table4, table_row
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = json.loads((DATA / "golden.json").read_text(encoding="utf-8"))["001"]

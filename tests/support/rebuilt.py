@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synth.conformed import dihedral_angles, joint_axes
+from synth.conformed.pose import dihedral_angles, joint_axes
 
 
 def turned(vector, axis, angle):

@@ -22,11 +22,11 @@ from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sc import SCGraph
-from synth.behaviour import link_arcs
 from synth.candidates import CandidateJob, Filter
-from synth.chain_cycles import loops_of_chain
-from synth.conformed import angles_between, joint_axes
-from synth.first_order import ConformedChain
+from synth.conformed.behaviours import link_arcs
+from synth.conformed.cycles import loops_of_chain
+from synth.conformed.pose import angles_between, joint_axes
+from synth.conformed.rates import ConformedChain
 from synth.surfaces.cone import link_angles
 from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.several_loops import link_pairs, loop_steps

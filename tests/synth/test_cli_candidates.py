@@ -10,7 +10,7 @@ import pytest
 from commands import run
 
 from enumerate.runner.store import read_rows
-from synth.conical_file import read_conical
+from synth.conformed.linkage import read_conical
 
 
 def named(row, key):

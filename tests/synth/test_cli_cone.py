@@ -12,7 +12,7 @@ import pytest
 from commands import run
 from conical import WATT
 
-from synth.conical_file import ConicalLinkage, write_conical
+from synth.conformed.linkage import ConicalLinkage, write_conical
 from synth.surfaces.cone import link_angles
 from synth.surfaces.several_loops import link_pairs
 

@@ -7,7 +7,7 @@ import pytest
 from conical import random_lengths, random_link_angles, random_linkages
 
 from graphs.errors import InvariantError
-from synth.conformed import angles_between, dihedral_angles, joint_axes, measured_dihedral_angles
+from synth.conformed.pose import angles_between, dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.fourbar.closing import (
     in_a_hemisphere,
     kind_of_planar,

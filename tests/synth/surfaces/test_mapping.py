@@ -8,7 +8,7 @@ from conical import random_lengths, random_link_angles, random_linkages
 from scipy.optimize import brentq, minimize_scalar
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.conformed import check_pose
+from synth.conformed.pose import check_pose
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
 from synth.surfaces.by_coordinates import (
     cone_angles_by_coordinates,

@@ -13,8 +13,8 @@ from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from synth.conformed import angles_between, joint_axes
-from synth.conical_file import ConicalLinkage, read_conical, write_conical
+from synth.conformed.linkage import ConicalLinkage, read_conical, write_conical
+from synth.conformed.pose import angles_between, joint_axes
 from synth.surfaces.cone import link_angles, map_to_cones
 from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.memberships import memberships

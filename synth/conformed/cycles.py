@@ -13,7 +13,7 @@ import numpy.typing as npt
 from graphs.errors import UnsolvableError
 from graphs.loops.loop import JointId, Loop, cyclic_order
 from graphs.mechanism.sc import SCGraph
-from synth.first_order import ConformedChain
+from synth.conformed.rates import ConformedChain
 
 __all__ = ["loops_of_chain", "signed_cycles"]
 

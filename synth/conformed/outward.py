@@ -25,9 +25,9 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.chain_cycles import signed_cycles
-from synth.dominance import arc_sets, sign_of_sum
-from synth.first_order import ConformedChain
+from synth.conformed.chords import arc_sets, sign_of_sum
+from synth.conformed.cycles import signed_cycles
+from synth.conformed.rates import ConformedChain
 
 __all__ = ["OutwardRate", "brackets", "joint_rates", "outward_rates"]
 
@@ -146,7 +146,7 @@ def brackets(places: npt.ArrayLike) -> Array:
 
     Examples
     --------
-    >>> from synth.first_order import ring_axes
+    >>> from synth.conformed.rates import ring_axes
     >>> places = np.array([0.3, 2.0, 4.5])
     >>> bool(np.isclose(brackets(places), np.linalg.det(ring_axes(places))))
     True

@@ -10,14 +10,14 @@ from enumerate.chains.kinematic import chains
 from enumerate.conical.rounds import Rounds, placements
 from enumerate.conical.symmetries import links_apart
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from synth.behaviour import link_arcs
 from synth.candidate_values import layers, loop_circuits
 from synth.candidates import CandidateJob
-from synth.chain_cycles import loops_of_chain, signed_cycles
-from synth.dominance import arc_sets, sign_of_sum
-from synth.first_order import ConformedChain, first_order
-from synth.outward import joint_rates, outward_rates
-from synth.over_angles import Allowed, never_singular, orders_with_opposites, over_angles, sampled
+from synth.conformed.all_angles import Allowed, never_singular, orders_with_opposites, over_angles, sampled
+from synth.conformed.behaviours import link_arcs
+from synth.conformed.chords import arc_sets, sign_of_sum
+from synth.conformed.cycles import loops_of_chain, signed_cycles
+from synth.conformed.outward import joint_rates, outward_rates
+from synth.conformed.rates import ConformedChain, first_order
 
 CHAINS = {"four-bar": FOUR_BAR, "watt": WATT, "stephenson": STEPHENSON}
 

@@ -3,8 +3,9 @@
 An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
 a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
 sign of every step and how often loops wind, and the layers. Ways of links follow from the signs of outward rates
-(`synth.outward`): certain where the terms of a formula agree, or are smaller than others (`synth.dominance`), or
-other signs refute the opposite (`synth.sign_reasoning`); else both are looked for by samples.
+(`synth.conformed.outward`): certain where the terms of a formula agree, or are smaller than others
+(`synth.conformed.chords`), or other signs refute the opposite (`synth.conformed.sign_reasoning`); else both are
+looked for by samples.
 
 Theory: docs/theory/conical-candidates.md.
 """
@@ -22,9 +23,9 @@ import numpy.typing as npt
 
 from enumerate.kernel.compiled import Ints
 from graphs.errors import NumericalError
-from synth.first_order import ConformedChain
-from synth.outward import OutwardRate, joint_rates, outward_rates
-from synth.sign_reasoning import Relations
+from synth.conformed.outward import OutwardRate, joint_rates, outward_rates
+from synth.conformed.rates import ConformedChain
+from synth.conformed.sign_reasoning import Relations
 
 __all__ = [
     "Allowed",

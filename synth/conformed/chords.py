@@ -3,8 +3,9 @@
 The J joints and the points opposite to them cut the circle into 2 J fine gaps, opposite ones equal; an arc shorter
 than half the circle is a set of the J sizes. Half its chord is sin(arc / 2), and grows with the arc; so does a
 product of chords if each arc lies, as a set of sizes, within one of another product. sin(x) is 2 sin(x / 2)
-sin((pi - x) / 2), and pi - x is the other sizes: every term of an outward rate (`synth.outward`) is a product of
-chords. A sum has the sign of its positive terms if each negative term has a larger positive one of its own.
+sin((pi - x) / 2), and pi - x is the other sizes: every term of an outward rate (`synth.conformed.outward`) is a
+product of chords. A sum has the sign of its positive terms if each negative term has a larger positive one of its
+own.
 
 Theory: docs/theory/conical-candidates.md.
 """

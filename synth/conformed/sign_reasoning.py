@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.kernel.compiled import Ints, compiled
-from synth.first_order import ConformedChain
+from synth.conformed.rates import ConformedChain
 
 __all__ = ["Relations"]
 

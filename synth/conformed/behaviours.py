@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError
-from synth.first_order import ConformedChain, FirstOrder, first_order
+from synth.conformed.rates import ConformedChain, FirstOrder, first_order
 
 __all__ = [
     "Behaviour",
@@ -94,7 +94,7 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 
     Notes
     -----
-    The cone angle does not matter, and a cylinder behaves alike (`synth.first_order`).
+    The cone angle does not matter, and a cylinder behaves alike (`synth.conformed.rates`).
 
     Examples
     --------

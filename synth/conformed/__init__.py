@@ -1,0 +1,1 @@
+"""The conformed pose: rates, behaviour, and what holds over all angles."""
