@@ -2,7 +2,7 @@
 
 Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to
 a turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
-counts once. What the candidates do is worked out in `synth.candidates`. Source: Hyatt et al. 2020, section 7.
+counts once. What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7.
 Theory: docs/theory/conical-candidates.md.
 """
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from enumerate.runner.running import Sink
     from graphs.loops.loop import LinkId
     from graphs.mechanism.sc import SCGraph
-    from synth.candidates import CandidateJob, Filter
+    from synth.candidates.job import CandidateJob, Filter
 
 __all__ = ["conical"]
 
@@ -96,7 +96,7 @@ def conical(
     if formulas:
         _print_formulas(chain, grounds)
         return
-    from synth.candidates import CandidateCountJob, CandidateJob
+    from synth.candidates.job import CandidateCountJob, CandidateJob
     from synth.surfaces.cone import checked_cone_angle
 
     filters = _filters(rest)
@@ -169,7 +169,7 @@ def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
 
 
 def _filters(rest: dict[str, Any]) -> tuple[Filter, ...]:
-    from synth.candidates import Filter
+    from synth.candidates.job import Filter
 
     found = [
         Filter(column, least=rest[option][0], most=rest[option][1])
@@ -186,7 +186,7 @@ def _filters(rest: dict[str, Any]) -> tuple[Filter, ...]:
 def _around(sink: Sink, job: CandidateJob, sort: str | None, pictures: str | None) -> Sink:
     """Sort the rows before they go to the sink, and draw them."""
     if pictures is not None:
-        from synth.candidate_pictures import PictureSink
+        from synth.candidates.pictures import PictureSink
 
         sink = PictureSink(sink, job, Path(pictures))
     if sort is not None:

@@ -12,7 +12,7 @@ from enumerate.conical.query import Portion
 from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
-from synth.candidates import CandidateJob
+from synth.candidates.job import CandidateJob
 from synth.conformed.linkage import read_conical
 from synth.conformed.pose import dihedral_angles, joint_axes
 from synth.conformed.rates import ConformedChain, first_order, pole_axes

@@ -12,7 +12,7 @@ from enumerate.conical.rounds import Rounds, count_by_burnside, placements
 from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
-from synth.candidates import CandidateJob
+from synth.candidates.job import CandidateJob
 from synth.conformed.behaviours import behaviour, shadow_allows
 from synth.conformed.rates import ConformedChain
 from synth.conformed.twelve_cases import COLUMNS, ROWS, table4, table_row

@@ -22,7 +22,7 @@ from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sc import SCGraph
-from synth.candidates import CandidateJob, Filter
+from synth.candidates.job import CandidateJob, Filter
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.cycles import loops_of_chain
 from synth.conformed.pose import angles_between, joint_axes

@@ -1,7 +1,7 @@
 """Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.runner.running`).
 
 A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
-Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidate_values`,
+Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidates.values`,
 `synth.conformed.all_angles`, `synth.conformed.rates` and `synth.conformed.behaviours`. Theory:
 docs/theory/conical-candidates.md.
 """
@@ -24,7 +24,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id
 from graphs.loops.loop import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
-from synth.candidate_rows import Shape, order_rows, placed_rows
+from synth.candidates.rows import Shape, order_rows, placed_rows
 from synth.conformed.cycles import loops_of_chain
 from synth.conformed.linkage import ConicalLinkage, conical_text
 from synth.conformed.rates import ConformedChain

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Row
-from synth.candidate_values import four_bar_classes, half_turns, layers, loop_circuits
+from synth.candidates.values import four_bar_classes, half_turns, layers, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
     OverAngles,

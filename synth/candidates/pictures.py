@@ -10,7 +10,7 @@ import numpy as np
 from enumerate.runner.running import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.source import FolderBeside
-from synth.candidates import CandidateJob
+from synth.candidates.job import CandidateJob
 from synth.conformed.rates import ConformedChain
 from synth.draw_conformed import draw_conformed
 from synth.draw_figure import save_figure

@@ -1,0 +1,1 @@
+"""Conical candidates evaluated."""
