@@ -18,12 +18,12 @@ from time import perf_counter
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from synth.burmester import dyads_of_five
-from synth.centre_axes import centre_axes
-from synth.dyad_fit import dyads_by_least_squares
-from synth.guidance import four_bars
-from synth.order import analyse_order, order_verdicts
-from synth.orientations import Orientations, read_orientations
+from synth.guidance.five import dyads_of_five
+from synth.guidance.four import centre_axes
+from synth.guidance.fourbars import four_bars
+from synth.guidance.many import dyads_by_least_squares
+from synth.guidance.order import analyse_order, order_verdicts
+from synth.guidance.orientations import Orientations, read_orientations
 
 RUNS = 7
 AXES = 1_000_000

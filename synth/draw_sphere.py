@@ -14,13 +14,13 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.centre_axes import AxisCurve
 from synth.draw_figure import new_figure
-from synth.dyads import Dyad
-from synth.hoop import Crossing, Hoop, direction_words, pair_name
+from synth.guidance.dyads import Dyad
+from synth.guidance.four import AxisCurve
+from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
+from synth.guidance.order import order_verdicts
+from synth.guidance.orientations import Floats, Orientations, unit_vector
 from synth.labels import spread
-from synth.order import order_verdicts
-from synth.orientations import Floats, Orientations, unit_vector
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +45,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Fi
     axis : float[3]
         The fixed axis.
     hoop : Hoop
-        Of :func:`synth.hoop.hoop`.
+        Of :func:`synth.guidance.hoop_method.hoop`.
 
     Raises
     ------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synth.orientations import Floats
+from synth.guidance.orientations import Floats
 
 __all__ = ["spread"]
 

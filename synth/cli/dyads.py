@@ -11,8 +11,8 @@ from synth.cli.order import AXIS, ORIENTATIONS
 from synth.cli.output import about, console, plain, print_json, table
 
 if TYPE_CHECKING:
-    from synth.dyads import Dyad
-    from synth.orientations import Orientations
+    from synth.guidance.dyads import Dyad
+    from synth.guidance.orientations import Orientations
 
 __all__ = ["AXES", "dyads", "samples_option", "synthesised", "told"]
 
@@ -61,7 +61,7 @@ def dyads(
     Example:
       synth dyads --orientations data/orientations/tipparthi.json
     """
-    from synth.orientations import read_orientations
+    from synth.guidance.orientations import read_orientations
 
     orientations = read_orientations(file)
     with about(file):
@@ -88,17 +88,17 @@ def synthesised(
     if axes and len(orientations) != 3:
         raise click.UsageError(f"--axis is for three orientations; here are {len(orientations)}")
     if len(orientations) == 3:
-        from synth.dyads import dyads_of_three
+        from synth.guidance.dyads import dyads_of_three
 
         if not axes:
             raise click.UsageError("three orientations leave the fixed axis to be chosen: add --axis x,y,z")
         return dyads_of_three(orientations, axes), {}
     if len(orientations) == 4:
-        from synth.centre_axes import dyads_of_four
+        from synth.guidance.four import dyads_of_four
 
         return dyads_of_four(orientations, samples), {}
     if len(orientations) == 5:
-        from synth.burmester import dyads_of_five
+        from synth.guidance.five import dyads_of_five
 
         found = dyads_of_five(orientations)
         return found.dyads, {
@@ -106,7 +106,7 @@ def synthesised(
             "residual": found.residual,
             "smallest_singular_value": found.smallest_singular_value,
         }
-    from synth.dyad_fit import dyads_by_least_squares
+    from synth.guidance.many import dyads_by_least_squares
 
     return dyads_by_least_squares(orientations), {}
 
@@ -132,7 +132,7 @@ def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> 
     from synth.draw_sphere import draw_map
 
     if len(orientations) == 4:
-        from synth.centre_axes import centre_axes
+        from synth.guidance.four import centre_axes
 
         figure = draw_map(orientations, (), centre_axes(orientations, 720))
     else:
@@ -143,7 +143,7 @@ def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> 
 def _table(found: tuple[Dyad, ...]) -> Any:
     from math import degrees
 
-    from synth.hoop import direction_words
+    from synth.guidance.hoop_method import direction_words
 
     rows = table(
         "dyad", "G", "W (body)", "link", "residual", "misfit", "in order", numbers=["dyad", "link", "misfit"]

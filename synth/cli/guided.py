@@ -12,8 +12,8 @@ from synth.cli.order import ORIENTATIONS
 from synth.cli.output import about, console, plain, print_json, table
 
 if TYPE_CHECKING:
-    from synth.guidance import GuidedFourBar
-    from synth.orientations import Orientations
+    from synth.guidance.fourbars import GuidedFourBar
+    from synth.guidance.orientations import Orientations
 
 __all__ = ["fourbar"]
 
@@ -56,8 +56,8 @@ def fourbar(
       synth fourbar --orientations data/orientations/tipparthi.json --best 5
       synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
     """
-    from synth.guidance import four_bars
-    from synth.orientations import read_orientations
+    from synth.guidance.fourbars import four_bars
+    from synth.guidance.orientations import read_orientations
 
     orientations = read_orientations(file)
     with about(file):
@@ -91,8 +91,8 @@ def fourbar(
 
 def _write_motion(orientations: Orientations, good: list[GuidedFourBar], motion: str, steps: int) -> int:
     from graphs.errors import UnsolvableError
-    from synth.guidance import motion_of
-    from synth.orientations import write_orientations
+    from synth.guidance.fourbars import motion_of
+    from synth.guidance.orientations import write_orientations
 
     if not good:
         raise UnsolvableError("no four-bar without defects: there is no motion to write")
@@ -125,7 +125,7 @@ def _told_cones(one: GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
     from math import degrees
 
-    from synth.conical_form import conical_forms
+    from synth.guidance.on_cones import conical_forms
 
     forms = conical_forms(one)
     return {
@@ -170,7 +170,7 @@ def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
 def _table(listed: Sequence[GuidedFourBar]) -> Any:
     from math import degrees
 
-    from synth.hoop import direction_words
+    from synth.guidance.hoop_method import direction_words
 
     rows = table(
         "driver G", "follower G", "ground driver coupler follower", "type", "driver turns", "defects",

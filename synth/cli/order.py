@@ -10,9 +10,9 @@ import click
 from synth.cli.output import about, console, plain, print_json, table
 
 if TYPE_CHECKING:
-    from synth.hoop import Direction
-    from synth.order import OrderAnalysis
-    from synth.orientations import Orientations
+    from synth.guidance.hoop_method import Direction
+    from synth.guidance.order import OrderAnalysis
+    from synth.guidance.orientations import Orientations
 
 __all__ = ["AXIS", "ORIENTATIONS", "order"]
 
@@ -66,8 +66,8 @@ def order(
     Example:
       synth order --orientations data/orientations/tipparthi.json --axis -0.349,-0.144,0.926 --direction cw
     """
-    from synth.order import analyse_order
-    from synth.orientations import read_orientations
+    from synth.guidance.order import analyse_order
+    from synth.guidance.orientations import read_orientations
 
     orientations = read_orientations(file)
     with about(file):
@@ -122,7 +122,7 @@ def _print(
 ) -> None:
     from math import degrees
 
-    from synth.hoop import direction_words, pair_name
+    from synth.guidance.hoop_method import direction_words, pair_name
 
     out, hoop = console(), found.hoop
     needed = set(hoop.required)

@@ -8,10 +8,10 @@ import pytest
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.reduce.ride_alongs import reduce_addenda
-from synth.burmester import dyads_of_five
-from synth.hoop import hoop, hoop_sequence, pair_name
-from synth.order import analyse_order
-from synth.orientations import read_orientations
+from synth.guidance.five import dyads_of_five
+from synth.guidance.hoop_method import hoop, hoop_sequence, pair_name
+from synth.guidance.order import analyse_order
+from synth.guidance.orientations import read_orientations
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "tipparthi"
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from synth.orientations import Orientations
+from synth.guidance.orientations import Orientations
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,8 @@
 """Orientations of a body as native documents: what a linkage is to guide its coupler through.
 
 The format is published as ``graphs/schema/orientations.schema.json``; DESIGN, section 4. Guide: docs/files.md.
-What is read here is checked for its form; :func:`synth.orientations.read_orientations` makes orientations of it.
+What is read here is checked for its form; :func:`synth.guidance.orientations.read_orientations` makes orientations
+of it.
 """
 
 from __future__ import annotations

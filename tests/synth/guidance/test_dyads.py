@@ -6,11 +6,11 @@ from cranks import direction, lines_apart, problem, random_orientations
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.burmester import dyads_of_five
-from synth.centre_axes import centre_axes, dyads_of_four
-from synth.dyad_fit import dyads_by_least_squares
-from synth.dyads import dyad_of, dyads_of_three
-from synth.orientations import Orientations
+from synth.guidance.dyads import dyad_of, dyads_of_three
+from synth.guidance.five import dyads_of_five
+from synth.guidance.four import centre_axes, dyads_of_four
+from synth.guidance.many import dyads_by_least_squares
+from synth.guidance.orientations import Orientations
 
 
 def test_three_orientations_have_a_dyad_about_any_axis():

@@ -6,10 +6,10 @@ from cranks import lines_apart, problem, random_orientations
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import UnsolvableError
-from synth.burmester import dyads_of_five
-from synth.centre_axes import centre_axes
-from synth.dyad_fit import dyads_by_least_squares
-from synth.orientations import Orientations
+from synth.guidance.five import dyads_of_five
+from synth.guidance.four import centre_axes
+from synth.guidance.many import dyads_by_least_squares
+from synth.guidance.orientations import Orientations
 
 
 def distance(dyad, fixed, moving):

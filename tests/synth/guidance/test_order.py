@@ -5,8 +5,8 @@ import pytest
 from cranks import direction, lines_apart, order_of, problem, random_orientations
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.hoop import DIRECTIONS, hoop, hoop_sequence, required_sequence
-from synth.order import (
+from synth.guidance.hoop_method import DIRECTIONS, hoop, hoop_sequence, required_sequence
+from synth.guidance.order import (
     analyse_order,
     crank_angles,
     nearest_moving_axis,
@@ -14,7 +14,7 @@ from synth.order import (
     order_by_inequalities,
     order_verdicts,
 )
-from synth.orientations import Orientations
+from synth.guidance.orientations import Orientations
 
 ORDERS = ("any", "ccw", "cw")
 

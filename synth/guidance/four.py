@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.dyads import Dyad, dyad_of
-from synth.order import order_verdicts
-from synth.orientations import Floats, Orientations
+from synth.guidance.dyads import Dyad, dyad_of
+from synth.guidance.order import order_verdicts
+from synth.guidance.orientations import Floats, Orientations
 
 __all__ = ["AxisCurve", "centre_axes", "dyads_of_four"]
 
@@ -45,7 +45,7 @@ class AxisCurve:
         Largest |G . (M_i - M_1) W| of each.
     verdicts : int8[m]
         1 where a counter-clockwise crank keeps the order, -1 a clockwise one, 0 neither
-        (:func:`synth.order.order_verdicts`).
+        (:func:`synth.guidance.order.order_verdicts`).
     """
 
     fixed: Floats

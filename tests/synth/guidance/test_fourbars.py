@@ -6,10 +6,10 @@ from cranks import direction, random_orientations
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import UnsolvableError
-from synth.burmester import dyads_of_five
-from synth.dyads import dyad_of, dyads_of_three
-from synth.guidance import four_bar_of, four_bars, motion_of
-from synth.orientations import Orientations, read_orientations
+from synth.guidance.dyads import dyad_of, dyads_of_three
+from synth.guidance.five import dyads_of_five
+from synth.guidance.fourbars import four_bar_of, four_bars, motion_of
+from synth.guidance.orientations import Orientations, read_orientations
 
 STEPS = 2000
 

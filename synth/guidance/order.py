@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError
-from synth.hoop import DIRECTIONS, Direction, Hoop, hoop, required_sequence
-from synth.orientations import Floats, Orientations, unit_vector
+from synth.guidance.hoop_method import DIRECTIONS, Direction, Hoop, hoop, required_sequence
+from synth.guidance.orientations import Floats, Orientations, unit_vector
 
 __all__ = [
     "OrderAnalysis",

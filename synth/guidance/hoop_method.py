@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.orientations import Floats, Orientations, Pair, unit_vector
+from synth.guidance.orientations import Floats, Orientations, Pair, unit_vector
 
 __all__ = [
     "DIRECTIONS",

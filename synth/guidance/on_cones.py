@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synth.fourbar.closing import supplementary
-from synth.guidance import GuidedFourBar
+from synth.guidance.fourbars import GuidedFourBar
 from synth.surfaces.cone import map_to_cones
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
 
@@ -46,9 +46,9 @@ def conical_forms(four_bar: GuidedFourBar) -> tuple[ConicalForm, ...]:
 
     Examples
     --------
-    >>> from synth.burmester import dyads_of_five
-    >>> from synth.guidance import four_bars
-    >>> from synth.orientations import Orientations
+    >>> from synth.guidance.five import dyads_of_five
+    >>> from synth.guidance.fourbars import four_bars
+    >>> from synth.guidance.orientations import Orientations
     >>> from scipy.spatial.transform import Rotation
     >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
     >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))

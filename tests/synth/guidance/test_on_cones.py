@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from cranks import lines_apart, random_orientations
 
-from synth.burmester import dyads_of_five
-from synth.conical_form import conical_forms
-from synth.guidance import four_bars
-from synth.orientations import read_orientations
+from synth.guidance.five import dyads_of_five
+from synth.guidance.fourbars import four_bars
+from synth.guidance.on_cones import conical_forms
+from synth.guidance.orientations import read_orientations
 
 
 def rebuilt(cone):

@@ -2,8 +2,9 @@
 
 A dyad has a fixed axis G and a moving axis W of the body; it guides the body through orientations M_1, ..., M_n if
 the angle between G and M_i W, that of its link, stays the same: G . (M_i - M_1) W = 0. Of three orientations the
-fixed axis may be chosen; four leave a curve (``synth.centre_axes``), five at most six dyads (``synth.burmester``),
-and more are met by least squares (``synth.dyad_fit``). Theory: docs/theory/dyads.md.
+fixed axis may be chosen; four leave a curve (``synth.guidance.four``), five at most six dyads
+(``synth.guidance.five``), and more are met by least squares (``synth.guidance.many``). Theory:
+docs/theory/dyads.md.
 """
 
 from __future__ import annotations
@@ -15,9 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.hoop import Direction
-from synth.order import crank_angles, nearest_moving_axis, order_by_crank_angles
-from synth.orientations import Floats, Orientations, unit_vector
+from synth.guidance.hoop_method import Direction
+from synth.guidance.order import crank_angles, nearest_moving_axis, order_by_crank_angles
+from synth.guidance.orientations import Floats, Orientations, unit_vector
 
 __all__ = ["Dyad", "dyad_of", "dyads_of_three", "signed"]
 

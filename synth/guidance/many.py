@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.errors import UnsolvableError
-from synth.dyads import Dyad, dyad_of
-from synth.order import nearest_moving_axis
-from synth.orientations import Floats, Orientations
+from synth.guidance.dyads import Dyad, dyad_of
+from synth.guidance.order import nearest_moving_axis
+from synth.guidance.orientations import Floats, Orientations
 
 __all__ = ["dyads_by_least_squares", "fibonacci_sphere"]
 

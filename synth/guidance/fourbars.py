@@ -16,11 +16,11 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.dyads import Dyad
 from synth.fourbar.closing import FourBarKind, kind_of_spherical
-from synth.hoop import DIRECTIONS, Direction
-from synth.order import order_by_crank_angles
-from synth.orientations import Floats, Orientations
+from synth.guidance.dyads import Dyad
+from synth.guidance.hoop_method import DIRECTIONS, Direction
+from synth.guidance.order import order_by_crank_angles
+from synth.guidance.orientations import Floats, Orientations
 
 __all__ = ["GuidedFourBar", "Motion", "four_bar_of", "four_bars", "motion_of"]
 
@@ -116,7 +116,7 @@ def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[Guided
 
     Examples
     --------
-    >>> from synth.burmester import dyads_of_five
+    >>> from synth.guidance.five import dyads_of_five
     >>> from scipy.spatial.transform import Rotation
     >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
     >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))

@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import NumericalError, UnsolvableError
-from synth.dyads import Dyad, dyad_of
-from synth.orientations import Floats, Orientations
+from synth.guidance.dyads import Dyad, dyad_of
+from synth.guidance.orientations import Floats, Orientations
 
 __all__ = ["DyadsOfFive", "dyads_of_five"]
 

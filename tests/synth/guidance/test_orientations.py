@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.orientations import Orientations, read_orientations, unit_vector, write_orientations
+from synth.guidance.orientations import Orientations, read_orientations, unit_vector, write_orientations
 
 seeds = st.integers(0, 2**32 - 1)
 

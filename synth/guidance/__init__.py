@@ -1,0 +1,1 @@
+"""A body guided through orientations: order, dyads, four-bars."""
