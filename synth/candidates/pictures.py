@@ -12,8 +12,8 @@ from graphs.errors import UnsolvableError
 from graphs.files.source import FolderBeside
 from synth.candidates.job import CandidateJob
 from synth.conformed.rates import ConformedChain
-from synth.draw_conformed import draw_conformed
-from synth.draw_figure import save_figure
+from synth.drawing.conformed import draw_conformed
+from synth.drawing.figure import save_figure
 
 __all__ = ["PictureSink", "picture_of_row"]
 

@@ -69,8 +69,8 @@ def map_command(
     assert angles is not None
     found = map_to_cones(_radians(angles))
     if output is not None:
-        from synth.draw_figure import save_figure
-        from synth.draw_sums import draw_cone_sums
+        from synth.drawing.figure import save_figure
+        from synth.drawing.sums import draw_cone_sums
 
         save_figure(draw_cone_sums(found), output)
     if as_json:
@@ -92,8 +92,8 @@ def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None
         if not found.cones:
             raise click.UsageError("there is no cone to draw")
         from synth.conformed.rates import ConformedChain
-        from synth.draw_conformed import draw_conformed
-        from synth.draw_figure import save_figure
+        from synth.drawing.conformed import draw_conformed
+        from synth.drawing.figure import save_figure
 
         first = found.cones[0]
         places = [first.places[joint] for joint in linkage.chain.joints]
@@ -164,8 +164,8 @@ def behaviour_command(
     if output is not None:
         if not found:
             raise click.UsageError("there is no cone to draw")
-        from synth.draw_conformed import draw_conformed
-        from synth.draw_figure import save_figure
+        from synth.drawing.conformed import draw_conformed
+        from synth.drawing.figure import save_figure
 
         first = found[0]
         save_figure(draw_conformed(first.chain, first.places, first.cone_angle), output)

@@ -40,8 +40,8 @@ def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -
 
     found = map_to_cylinders(lengths)
     if output is not None:
-        from synth.draw_figure import save_figure
-        from synth.draw_sums import draw_cylinder_sums
+        from synth.drawing.figure import save_figure
+        from synth.drawing.sums import draw_cylinder_sums
 
         save_figure(draw_cylinder_sums(found), output)
     if as_json:

@@ -128,8 +128,8 @@ def told(dyad: Dyad) -> dict[str, Any]:
 
 
 def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> None:
-    from synth.draw_figure import save_figure
-    from synth.draw_sphere import draw_map
+    from synth.drawing.figure import save_figure
+    from synth.drawing.sphere import draw_map
 
     if len(orientations) == 4:
         from synth.guidance.four import centre_axes

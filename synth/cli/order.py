@@ -73,8 +73,8 @@ def order(
     with about(file):
         found = analyse_order(orientations, axis, direction)
     if picture is not None:
-        from synth.draw_figure import save_figure
-        from synth.draw_sphere import draw_hoop
+        from synth.drawing.figure import save_figure
+        from synth.drawing.sphere import draw_hoop
 
         save_figure(draw_hoop(orientations, axis, found.hoop), picture)
     if as_json:

@@ -2,7 +2,7 @@
 
 As Figs. 3 to 6 of Tipparthi and Larochelle 2011: orientations, relative axes, the hoop and its crossings. The
 sphere is seen from far away (orthographic); the maps show all of it, equal areas as equal areas (Hammer).
-:func:`synth.draw_figure.save_figure` writes the pictures.
+:func:`synth.drawing.figure.save_figure` writes the pictures.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from synth.draw_figure import new_figure
+from synth.drawing.figure import new_figure
+from synth.drawing.labels import spread
 from synth.guidance.dyads import Dyad
 from synth.guidance.four import AxisCurve
 from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
 from synth.guidance.order import order_verdicts
 from synth.guidance.orientations import Floats, Orientations, unit_vector
-from synth.labels import spread
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,13 +8,13 @@ from cranks import random_orientations
 from matplotlib.colors import to_rgba
 
 from graphs.errors import FileError, UnsolvableError
-from synth.draw_figure import save_figure
-from synth.draw_sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, hammer_inverse
+from synth.drawing.figure import save_figure
+from synth.drawing.labels import spread
+from synth.drawing.sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, hammer_inverse
 from synth.guidance.dyads import dyads_of_three
 from synth.guidance.four import centre_axes
 from synth.guidance.hoop_method import hoop
 from synth.guidance.order import order_verdicts
-from synth.labels import spread
 
 
 def texts(figure):

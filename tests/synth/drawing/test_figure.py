@@ -1,7 +1,7 @@
 import pytest
 
 from graphs.errors import FileError
-from synth.draw_figure import new_figure, save_figure
+from synth.drawing.figure import new_figure, save_figure
 
 
 @pytest.mark.parametrize("kind", ["png", "svg", "pdf"])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from synth.draw_figure import COLOURS, new_figure
+from synth.drawing.figure import COLOURS, new_figure
 from synth.surfaces.cone import ConeMap, cone_reach
 from synth.surfaces.cylinder import CylinderMap, cylinder_reach
 from synth.surfaces.loop_sums import loop_sum, sign_patterns

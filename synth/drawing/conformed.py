@@ -13,7 +13,7 @@ import numpy.typing as npt
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl, link_arcs
 from synth.conformed.pose import joint_axes, strip
 from synth.conformed.rates import ConformedChain, first_order
-from synth.draw_figure import COLOURS, new_figure
+from synth.drawing.figure import COLOURS, new_figure
 
 __all__ = ["draw_conformed"]
 
