@@ -241,7 +241,7 @@ def behaviours_of(given: Sequence[OnCone], ground: str | None) -> list[Found]:
     """Return what each linkage does, one link fixed."""
     import numpy as np
 
-    from synth.cli.reduce import link_named
+    from synth.cli.graphs.reduce import link_named
     from synth.conformed.behaviours import behaviour
     from synth.conformed.rates import ConformedChain
 

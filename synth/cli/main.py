@@ -15,14 +15,14 @@ import click
 __all__ = ["main"]
 
 _COMMANDS = {
-    "mobility": "synth.cli.mobility:mobility",
-    "reduce": "synth.cli.reduce:reduce_command",
-    "edit": "synth.cli.edit:edit",
+    "mobility": "synth.cli.graphs.mobility:mobility",
+    "reduce": "synth.cli.graphs.reduce:reduce_command",
+    "edit": "synth.cli.graphs.edit:edit",
     "enumerate": "synth.cli.enumerate:enumerate_group",
     "cone": "synth.cli.cone:cone_group",
     "cylinder": "synth.cli.cylinder:cylinder_group",
-    "convert": "synth.cli.convert:convert",
-    "reconstruct": "synth.cli.reconstruct:reconstruct",
+    "convert": "synth.cli.graphs.convert:convert",
+    "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
     "order": "synth.cli.order:order",
     "dyads": "synth.cli.dyads:dyads",
     "fourbar": "synth.cli.guided:fourbar",

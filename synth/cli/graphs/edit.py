@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from synth.cli.graphs.reduce import link_named
 from synth.cli.output import about, console, plain, print_json, table
-from synth.cli.reduce import link_named
 
 if TYPE_CHECKING:
     from collections.abc import Hashable

@@ -1,0 +1,1 @@
+"""``synth mobility``, ``reduce``, ``edit``, ``convert``, ``reconstruct``."""
