@@ -6,8 +6,8 @@ from math import radians
 
 import click
 
-from synth.cli.circles import NumberList, cone_json, print_cones
 from synth.cli.output import about, print_json
+from synth.cli.surfaces.circles import NumberList, cone_json, print_cones
 
 __all__ = ["cone_group"]
 
@@ -80,7 +80,7 @@ def map_command(
 
 
 def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
-    from synth.cli.conical import by_angles, linkage_json, mapped, print_linkage
+    from synth.cli.surfaces.conical import by_angles, linkage_json, mapped, print_linkage
     from synth.conformed.linkage import read_conical
 
     linkage = read_conical(file)
@@ -137,7 +137,7 @@ def behaviour_command(
       synth cone behaviour --steps 40,50,50 --ground 2
       synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
     """
-    from synth.cli.conical import (
+    from synth.cli.surfaces.conical import (
         behaviours_json,
         behaviours_of,
         loop_of_steps,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
-from synth.cli.circles import signs_text
 from synth.cli.output import console, plain, table
+from synth.cli.surfaces.circles import signs_text
 
 if TYPE_CHECKING:
     import numpy.typing as npt

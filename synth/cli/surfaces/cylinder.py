@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.circles import NumberList, cylinder_json, print_cylinders
 from synth.cli.output import print_json
+from synth.cli.surfaces.circles import NumberList, cylinder_json, print_cylinders
 
 __all__ = ["cylinder_group"]
 

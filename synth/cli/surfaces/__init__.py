@@ -1,0 +1,1 @@
+"""``synth cone`` and ``synth cylinder``."""
