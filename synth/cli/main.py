@@ -23,9 +23,9 @@ _COMMANDS = {
     "cylinder": "synth.cli.surfaces.cylinder:cylinder_group",
     "convert": "synth.cli.graphs.convert:convert",
     "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
-    "order": "synth.cli.order:order",
-    "dyads": "synth.cli.dyads:dyads",
-    "fourbar": "synth.cli.guided:fourbar",
+    "order": "synth.cli.guidance.order:order",
+    "dyads": "synth.cli.guidance.dyads:dyads",
+    "fourbar": "synth.cli.guidance.fourbar:fourbar",
 }
 """Name of a subcommand to where it is."""
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.dyads import AXES, samples_option, synthesised, told
-from synth.cli.order import ORIENTATIONS
+from synth.cli.guidance.dyads import AXES, samples_option, synthesised, told
+from synth.cli.guidance.order import ORIENTATIONS
 from synth.cli.output import about, console, plain, print_json, table
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from synth.cli.order import AXIS, ORIENTATIONS
+from synth.cli.guidance.order import AXIS, ORIENTATIONS
 from synth.cli.output import about, console, plain, print_json, table
 
 if TYPE_CHECKING:

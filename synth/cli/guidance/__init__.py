@@ -1,0 +1,1 @@
+"""``synth order``, ``dyads``, ``fourbar``."""
