@@ -18,7 +18,7 @@ _COMMANDS = {
     "mobility": "synth.cli.graphs.mobility:mobility",
     "reduce": "synth.cli.graphs.reduce:reduce_command",
     "edit": "synth.cli.graphs.edit:edit",
-    "enumerate": "synth.cli.enumerate:enumerate_group",
+    "enumerate": "synth.cli.enumerate.group:enumerate_group",
     "cone": "synth.cli.surfaces.cone:cone_group",
     "cylinder": "synth.cli.surfaces.cylinder:cylinder_group",
     "convert": "synth.cli.graphs.convert:convert",

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.chains import say_if_odd
+from synth.cli.enumerate.chains import say_if_odd
 from synth.cli.output import about
 from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
 

@@ -9,12 +9,12 @@ from typing import Any
 
 import click
 
-from synth.cli.addenda import addenda
-from synth.cli.candidates import conical
-from synth.cli.chains import chains
+from synth.cli.enumerate.addenda import addenda
+from synth.cli.enumerate.chains import chains
+from synth.cli.enumerate.conical import conical
+from synth.cli.enumerate.sc import sc
+from synth.cli.enumerate.scd import scd
 from synth.cli.output import console, plain, print_json, table
-from synth.cli.sc import sc
-from synth.cli.scd import scd
 
 __all__ = ["enumerate_group"]
 

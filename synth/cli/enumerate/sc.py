@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from synth.cli.chains import assortment, say_if_odd
+from synth.cli.enumerate.chains import assortment, say_if_odd
 from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
 
 __all__ = ["sc"]
