@@ -11,6 +11,7 @@ from rigidity import chains_by_geng
 from enumerate.chains.kinematic import chain_rows
 from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
+from enumerate.sc import jobs as sc_jobs
 from enumerate.sc.graphs import chain_forms, count_sc_graphs, sc_graphs, sc_rows
 from enumerate.sc.jobs import SCJob
 from enumerate.sc.query import SCQuery

@@ -5,6 +5,7 @@ from scd_oracle import code, scd_codes
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.sc.graphs import sc_rows
+from enumerate.scd import jobs as scd_jobs
 from enumerate.scd.choices import number_of_placements
 from enumerate.scd.graphs import (
     all_mechanisms,

@@ -16,7 +16,7 @@ from synth.conformed.linkage import ConicalLinkage, write_conical
 from synth.surfaces.cone import link_angles
 from synth.surfaces.several_loops import link_pairs
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"
 KEYS = {"lambda_deg", "circuit", "signs", "k"}
 

@@ -276,7 +276,7 @@ def test_reconstruct_writes_the_model(data, tmp_path):
     assert [v["vertex"] for v in told["vertices"]] == list(range(9))
     (report,) = json.loads(run("mobility", "--json", tmp_path / "model.json").stdout)
     assert (report["mobility"], report["centres"], report["counts"]["edges"]) == (1, 1, 23)
-    schema = Path(__file__).resolve().parents[2] / "graphs" / "schema" / "polyhedron.schema.json"
+    schema = Path(__file__).resolve().parents[3] / "graphs" / "schema" / "polyhedron.schema.json"
     jsonschema.validate(json.loads((tmp_path / "model.json").read_text()), json.loads(schema.read_text()))
 
 
