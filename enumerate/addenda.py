@@ -29,8 +29,9 @@ from graphs.errors import InvariantError
 from graphs.files.native.documents import dumps
 from graphs.identity.chains import chain_id
 from graphs.identity.classes import class_code, symmetries_of_links
+from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass
-from graphs.loops.loop import Centre, JointId, LinkId
+from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.generic import exact_mobility

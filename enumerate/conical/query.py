@@ -18,7 +18,7 @@ from enumerate.conical.symmetries import joint_symmetries
 from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 
 __all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
 

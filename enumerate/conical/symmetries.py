@@ -14,7 +14,7 @@ import numpy as np
 from enumerate.kernel.compiled import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.chains import HEURISTIC
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 
 __all__ = ["joint_symmetries", "links_apart"]
 

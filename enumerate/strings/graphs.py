@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.drawing import Side
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

@@ -15,7 +15,8 @@ import networkx as nx
 import numpy as np
 
 from graphs.errors import InvariantError
-from graphs.loops.loop import Centre, Loop, split_dependent
+from graphs.loops.cycle_space import split_dependent
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
 

@@ -13,7 +13,8 @@ from itertools import pairwise
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.loops.loop import Centre, JointId, Joints, LinkId, Loop
+from graphs.ids import JointId, Joints, LinkId
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphs.loops.loop import LinkId
+from graphs.ids import LinkId
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.mechanism.scd import FaceKind, SCDGraph
 

@@ -13,7 +13,9 @@ from typing import Any
 from graphs.count.relative import relative_cgk, relative_spherical_system
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles, dependent_loop
+from graphs.ids import JointId, LinkId
+from graphs.loops.cycle_space import cut_into_cycles, dependent_loop
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["Edit", "add_crease", "add_loop", "add_ride_along", "fresh", "lock_joint"]

@@ -13,7 +13,8 @@ from typing import Any
 from graphs.count.relative import relative_polyhedron
 from graphs.edit.sc import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops.loop import Centre, JointId, LinkId, Loop
+from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import Side
 from graphs.mechanism.scd import FaceKind, SCDGraph
 

@@ -12,7 +12,7 @@ from typing import Any
 import bliss_bind
 
 from graphs.identity.chains import HEURISTIC
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["class_code", "symmetries_of_links"]

@@ -21,12 +21,13 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.ids import JointId, LinkId
 from graphs.loops.classes import centre_classes
-from graphs.loops.loop import Centre, JointId, LinkId, Loop, cut_into_cycles
+from graphs.loops.cycle_space import cut_into_cycles, signed_cycle
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import Rotation, Side, trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.rank.closure import signed_cycle
 
 __all__ = ["drawing_of", "map_code", "map_id", "map_text", "mechanism_from_map_id", "symbols_of"]
 

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from itertools import permutations
 
 from graphs.errors import InvariantError, shown
-from graphs.loops.loop import Centre, JointId, Loop
+from graphs.ids import JointId
+from graphs.loops.loop import Centre, Loop
 
 __all__ = ["CentreClass", "centre_classes", "class_of_loop"]
 

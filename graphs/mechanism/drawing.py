@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from graphs.errors import InvariantError, shown
-from graphs.loops.loop import JointId, Joints, LinkId
+from graphs.ids import JointId, Joints, LinkId
 
 __all__ = [
     "Corner",

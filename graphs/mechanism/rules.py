@@ -30,7 +30,8 @@ from itertools import combinations
 from typing import TYPE_CHECKING, TypeVar
 
 from graphs.errors import InvariantError, shown
-from graphs.loops.loop import Centre, JointId, LinkId, Loop
+from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import Face, Rotation
 
 if TYPE_CHECKING:

@@ -14,8 +14,10 @@ from typing import Any, NoReturn
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
+from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass, centre_classes
-from graphs.loops.loop import Centre, JointId, LinkId, Loop, check_independent, cyclic_order, dependent_loop
+from graphs.loops.cycle_space import check_independent, dependent_loop
+from graphs.loops.loop import Centre, Loop, cyclic_order
 
 __all__ = ["SCGraph"]
 

@@ -15,7 +15,8 @@ from types import MappingProxyType
 from typing import Any
 
 from graphs.errors import InvariantError, shown
-from graphs.loops.loop import JointId, LinkId, Loop
+from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Loop
 from graphs.mechanism.drawing import Face, Side, check_rotation, face_cycles, link_vertices, trace_faces
 from graphs.mechanism.rules import check_rules, check_sides
 from graphs.mechanism.sc import SCGraph

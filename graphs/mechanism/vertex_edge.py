@@ -16,7 +16,9 @@ from types import MappingProxyType
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops.loop import Centre, JointId, LinkId, Loop, split_dependent
+from graphs.ids import JointId, LinkId
+from graphs.loops.cycle_space import split_dependent
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]

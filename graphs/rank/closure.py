@@ -2,24 +2,26 @@
 
 Round every independent loop the twists of the joints add up to nothing. A loop whose axes all pass through one
 point says that with three equations (no other point of space has to close), any other loop with six. M = J - rank.
-Source: DESIGN, section 6. Theory: docs/theory/exact-mobility.md.
+Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import networkx as nx
 
-from graphs.loops.loop import Centre, JointId, Joints, Loop, added_independent
+from graphs.ids import JointId
+from graphs.loops.cycle_space import added_independent, signed_cycle
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.fields import Field
 from graphs.rank.general_member import Line, Point
 
-__all__ = ["Closure", "closure_of", "independent_cycles", "signed_cycle"]
+__all__ = ["Closure", "closure_of", "independent_cycles"]
 
 
 _FINITE = [(0, 0), (0, 1), (0, 2)]
@@ -43,26 +45,6 @@ class Closure:
     joints: tuple[JointId, ...]
     rows: tuple[dict[int, Any], ...]
     loops: tuple[tuple[JointId, ...], ...]
-
-
-def signed_cycle(cycle: Sequence[JointId], joints: Joints) -> Iterator[tuple[JointId, int]]:
-    """Yield the joints of a cycle with 1 where it passes from a joint's first link to the second, else -1.
-
-    Examples
-    --------
-    >>> list(signed_cycle((0, 1, 2), {0: ("a", "b"), 1: ("c", "b"), 2: ("c", "a")}))
-    [(0, 1), (1, -1), (2, 1)]
-    """
-    a, b = joints[cycle[0]]
-    link = a if b in joints[cycle[1]] else b
-    for joint in cycle:
-        first, second = joints[joint]
-        if link == first:
-            yield joint, 1
-            link = second
-        else:
-            yield joint, -1
-            link = first
 
 
 def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:

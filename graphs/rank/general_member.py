@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphs.errors import UnsolvableError
-from graphs.loops.loop import Centre, JointId
+from graphs.ids import JointId
+from graphs.loops.loop import Centre
 from graphs.mechanism.rules import points_of_joints
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

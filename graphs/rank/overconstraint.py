@@ -13,7 +13,7 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.closure import closure_of
 from graphs.rank.fields import PRIMES, PrimeField

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.count.equations import overconstraint
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.loops.loop import JointId
+from graphs.ids import JointId
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, in_one_plane

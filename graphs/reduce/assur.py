@@ -23,7 +23,7 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.count.equations import loop_form
 from graphs.count.report import mechanism_class
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["AssurGroup", "AssurReduction", "assur_groups", "reduce_assur"]

@@ -15,7 +15,8 @@ import networkx as nx
 
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, shown
-from graphs.loops.loop import JointId, LinkId, cut_into_cycles, dependent_loop, in_span_of
+from graphs.ids import JointId, LinkId
+from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.working import Removal, WorkingGraph
 

@@ -12,8 +12,10 @@ from dataclasses import dataclass, replace
 
 import networkx as nx
 
+from graphs.ids import JointId, Joints, LinkId
 from graphs.loops.classes import centre_classes
-from graphs.loops.loop import JointId, Joints, LinkId, Loop, in_span_of
+from graphs.loops.cycle_space import in_span_of
+from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["Removal", "WorkingGraph"]

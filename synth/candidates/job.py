@@ -22,7 +22,7 @@ from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Counting, Row, Unit
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.candidates.rows import Shape, order_rows, placed_rows
 from synth.conformed.cycles import loops_of_chain

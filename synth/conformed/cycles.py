@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from graphs.loops.loop import JointId, Loop, cyclic_order
+from graphs.ids import JointId
+from graphs.loops.loop import Loop, cyclic_order
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.rates import ConformedChain
 

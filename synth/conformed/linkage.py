@@ -20,7 +20,7 @@ from graphs.errors import FileError, shown
 from graphs.files.native.graphs import read_sc, sc_document
 from graphs.files.native.names import VERSION, written
 from graphs.files.source import Checker, json_text, load_json, write_text
-from graphs.loops.loop import JointId
+from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.several_loops import Pair, places_of_steps
 

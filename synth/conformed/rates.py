@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError
-from graphs.loops.loop import JointId, LinkId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.loops.loop import JointId
+from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.circuit import circuits, wrapped
 from synth.surfaces.cone import cone_reach

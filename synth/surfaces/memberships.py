@@ -11,7 +11,7 @@ from dataclasses import replace
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.loops.loop import JointId
+from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["memberships"]

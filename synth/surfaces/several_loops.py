@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, shown
-from graphs.loops.loop import JointId
+from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.circuit import Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles

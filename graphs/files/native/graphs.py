@@ -9,7 +9,8 @@ from typing import Any
 from graphs.errors import FileError, shown
 from graphs.files.native.names import count_or_names, head, is_count, names, written
 from graphs.files.source import Checker
-from graphs.loops.loop import Centre, JointId, LinkId, Loop
+from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 

@@ -13,7 +13,7 @@ from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_opt
 
 if TYPE_CHECKING:
     from enumerate.runner.running import Sink
-    from graphs.loops.loop import LinkId
+    from graphs.ids import LinkId
     from graphs.mechanism.sc import SCGraph
     from synth.candidates.job import CandidateJob, Filter
 

@@ -13,7 +13,7 @@ from synth.cli.surfaces.circles import signs_text
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from graphs.loops.loop import JointId
+    from graphs.ids import JointId
     from graphs.mechanism.sc import SCGraph
     from synth.conformed.behaviours import Behaviour
     from synth.conformed.linkage import ConicalLinkage
