@@ -12,8 +12,9 @@ import numpy as np
 
 from enumerate.contracted.binary_links import conditions, no_prefix, permutations, place, rigid_sets, slots
 from enumerate.contracted.graphs import decode
-from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
+from graphs.arrays import Bytes, Ints, Words
 
 __all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
 

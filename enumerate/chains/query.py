@@ -9,7 +9,7 @@ import networkx as nx
 import numpy as np
 
 from enumerate.contracted.graphs import MOST_LOOPS, decode
-from enumerate.kernel.compiled import Bytes
+from graphs.arrays import Bytes
 from graphs.errors import InvariantError
 
 __all__ = ["ChainQuery", "Range", "is_planar", "within"]

@@ -25,8 +25,8 @@ from enumerate.contracted.listing import (
     placements_of,
     symmetries_of,
 )
-from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.runner.running import Row
+from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of, canonical_order
 
 __all__ = [

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Ints, compiled
+from enumerate.kernel.compiled import compiled
+from graphs.arrays import Ints
 
 __all__ = ["fewest_layers"]
 

@@ -11,7 +11,7 @@ import bliss_bind
 import networkx as nx
 import numpy as np
 
-from enumerate.kernel.compiled import Ints
+from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.chains import HEURISTIC
 from graphs.ids import JointId, LinkId

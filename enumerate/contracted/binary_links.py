@@ -20,7 +20,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Ints, Words, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
+from graphs.arrays import Bytes, Ints, Words
 
 __all__ = ["conditions", "no_prefix", "permutations", "place", "rigid_sets", "slots"]
 

@@ -17,9 +17,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
 from enumerate.kernel.row_set import empty_set, insert
+from graphs.arrays import Bytes, Ints
 from graphs.errors import InvariantError
 
 __all__ = ["MOST_LOOPS", "cheapest_degree", "contracted_graphs", "cubic_graphs", "decode", "graph_key"]

@@ -10,8 +10,9 @@ import numpy as np
 
 from enumerate.contracted.binary_links import conditions, no_prefix, permutations, place, rigid_sets, slots
 from enumerate.contracted.graphs import decode
-from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
+from graphs.arrays import Bytes, Ints
 
 __all__ = [
     "frame_of",

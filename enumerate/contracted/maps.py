@@ -14,9 +14,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from enumerate.contracted.graphs import cheapest_degree
-from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from enumerate.kernel.row_set import empty_set, insert
+from graphs.arrays import Bytes, Ints
 from graphs.errors import InvariantError
 
 __all__ = ["MOST_MAP_LOOPS", "contracted_maps", "cubic_maps", "map_symmetries"]

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Ints, Words, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
+from graphs.arrays import Ints, Words
 
 __all__ = ["FINITE", "INFINITE", "MOST_JOINTS", "OUTER", "SPATIAL", "classes_of", "joints_of_faces", "labellings"]
 

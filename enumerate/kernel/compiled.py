@@ -9,12 +9,8 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Bytes", "Flags", "Ints", "Words", "compiled", "doubled"]
+__all__ = ["compiled", "doubled"]
 
-Bytes = npt.NDArray[np.uint8]
-Ints = npt.NDArray[np.int64]
-Flags = npt.NDArray[np.bool_]
-Words = npt.NDArray[np.uint64]
 
 T = TypeVar("T", bound=np.generic)
 F = TypeVar("F", bound=Callable[..., object])

@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Words, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
+from graphs.arrays import Bytes, Words
 
 __all__ = ["MOST_VERTICES", "canonical_labels", "refine"]
 

@@ -6,8 +6,8 @@ from string import ascii_letters
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.maps import END, JOINT, OPEN
+from graphs.arrays import Bytes, Ints
 from graphs.identity.drawings import map_text
 
 __all__ = ["LABEL_LETTERS", "map_ids"]

@@ -21,7 +21,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
+from graphs.arrays import Bytes, Ints
 
 __all__ = ["END", "JOINT", "OPEN", "canonical_map", "decode_map", "faces_of", "from_turns", "symmetries_of_map"]
 

@@ -11,7 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.centre_labels import FINITE, OUTER
-from enumerate.kernel.compiled import Ints, Words, compiled
+from enumerate.kernel.compiled import compiled
+from graphs.arrays import Ints, Words
 
 __all__ = ["FREE", "RANK_PRIMES", "class_points", "mobility_of"]
 

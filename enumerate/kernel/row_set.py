@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
+from graphs.arrays import Bytes, Ints
 
 __all__ = ["empty_set", "insert"]
 

@@ -11,12 +11,12 @@ import numpy as np
 
 from enumerate.contracted.embedded import outer_faces
 from enumerate.contracted.maps import contracted_maps
-from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.kernel.maps import decode_map
 from enumerate.runner.running import Counting, Row, Unit
 from enumerate.sc.listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc.query import SCQuery
 from enumerate.sc.rows import SC_COLUMNS, DrawnChains, sc_rows_of
+from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 
 __all__ = ["MapPart", "Maps", "SCCountJob", "SCJob", "drawn_of", "map_units", "maps_for", "sc_count_job"]

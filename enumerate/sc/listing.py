@@ -11,9 +11,10 @@ from enumerate.chains.counting import count_fixed, count_in
 from enumerate.contracted.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
 from enumerate.contracted.listing import list_placements
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
-from enumerate.kernel.compiled import Bytes, Ints, Words, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.ranks import class_points, mobility_of
 from enumerate.sc.reduced import reduced_joints
+from graphs.arrays import Bytes, Ints, Words
 
 __all__ = [
     "centres_of_all",

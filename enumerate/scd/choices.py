@@ -10,10 +10,11 @@ import numpy as np
 
 from enumerate.contracted.embedded import code_of
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, SPATIAL, classes_of, joints_of_faces
-from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
 from enumerate.kernel.ranks import mobility_of
 from enumerate.scd.patterns import CLOSED, OPENED, has_centre, label_faces, patterns, points_of_pattern
+from graphs.arrays import Bytes, Ints
 
 __all__ = [
     "TOO_MANY",

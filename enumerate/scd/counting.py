@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Flags, Ints, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.scd.choices import (
     TOO_MANY,
     all_explicit,
@@ -20,6 +20,7 @@ from enumerate.scd.choices import (
     symmetries_of,
 )
 from enumerate.scd.patterns import CLOSED, patterns
+from graphs.arrays import Bytes, Flags, Ints
 
 __all__ = ["count_placements"]
 

@@ -8,7 +8,6 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from enumerate.kernel.compiled import Bytes, Ints
 from enumerate.runner.running import Counting, Row, Unit
 from enumerate.sc.jobs import MapPart, drawn_of, map_units
 from enumerate.sc.listing import codes_of_all
@@ -18,6 +17,7 @@ from enumerate.scd.counting import count_placements
 from enumerate.scd.plane_trees import plane_trees
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.scd.rows import SCD_COLUMNS, placements_on, scd_rows_of
+from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 
 __all__ = ["Drawn", "Mechanisms", "OneMechanism", "SCDCountJob", "SCDJob", "scd_count_job"]

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.contracted.embedded import code_of
-from enumerate.kernel.compiled import Bytes, Ints, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.maps import END
 from enumerate.scd.choices import (
     all_explicit,
@@ -27,6 +27,7 @@ from enumerate.scd.choices import (
     ways_to_lay,
 )
 from enumerate.scd.patterns import CLOSED, OPENED, has_centre, patterns
+from graphs.arrays import Bytes, Ints
 
 __all__ = ["SCD_FACTS", "list_placements_of", "sides_of_all"]
 

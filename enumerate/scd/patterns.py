@@ -11,8 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.centre_labels import FINITE, INFINITE
-from enumerate.kernel.compiled import Bytes, Ints, Words, compiled, doubled
+from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.ranks import FREE
+from graphs.arrays import Bytes, Ints, Words
 
 __all__ = ["ANY", "CLOSED", "OPENED", "has_centre", "label_faces", "patterns", "points_of_pattern"]
 

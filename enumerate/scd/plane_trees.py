@@ -8,9 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.contracted.embedded import code_of
-from enumerate.kernel.compiled import Bytes, Ints, compiled
+from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import END, JOINT, decode_map, from_turns
 from enumerate.kernel.row_set import empty_set, insert
+from graphs.arrays import Bytes, Ints
 
 __all__ = ["plane_trees"]
 

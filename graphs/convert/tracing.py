@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
@@ -30,8 +31,6 @@ MOST = 1e12
 
 _RANK = "MVUFJBC"
 """Of two lines in one place the one whose letter comes first here counts."""
-
-Floats = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

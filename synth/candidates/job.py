@@ -15,11 +15,10 @@ from math import degrees
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from enumerate.conical.query import ConicalQuery, Portion
-from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Counting, Row, Unit
+from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id
 from graphs.ids import JointId, LinkId
@@ -32,7 +31,6 @@ from synth.surfaces.circuit import wrapped
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
 
-Array = npt.NDArray[np.float64]
 _PLACED = 20_000
 _SETS = 1 << 15
 """Placements of a unit, symmetric ones apart; orders with opposites of a unit of cyclic orders."""
@@ -207,7 +205,7 @@ class CandidateJob:
             rows = [row for row in rows if all(one.admits(row[place]) for place, one in conditions)]
         return rows
 
-    def _sampled(self, slots: Ints, payload: Portion) -> Array:
+    def _sampled(self, slots: Ints, payload: Portion) -> Floats:
         """Return azimuths at random in given cyclic orders; the portion seeds them, so that runs agree."""
         assert self.samples is not None
         place = self.grounds.index(payload.ground)
@@ -224,7 +222,7 @@ class CandidateJob:
             dict(zip(self.columns, row, strict=True)) for unit in self.units() for row in self.work(unit.payload)
         ]
 
-    def places(self, row: Mapping[str, Any]) -> Array:
+    def places(self, row: Mapping[str, Any]) -> Floats:
         """Return the azimuths of the joints of a row, radians; of an order, evenly spaced, opposites too.
 
         Parameters

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.kernel.compiled import Ints
 from enumerate.runner.running import Row
+from graphs.arrays import Floats, Ints
 from synth.candidates.values import four_bar_classes, half_turns, layers, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
@@ -31,7 +31,6 @@ from synth.surfaces.cone import link_angles
 
 __all__ = ["Shape", "order_rows", "placed_rows"]
 
-Array = npt.NDArray[np.float64]
 _ALLOWED = {
     Allowed.BOTH: "both ways",
     Allowed.ONE: "one way",
@@ -128,7 +127,7 @@ class Shape:
         told = sorted((slot % half, self.names[i] + "'" * (slot >= half)) for i, slot in enumerate(row))
         return " ".join(name for _, name in told)
 
-    def circuit_texts(self, places: Array) -> list[tuple[str, str, int, str, list[int]]]:
+    def circuit_texts(self, places: Floats) -> list[tuple[str, str, int, str, list[int]]]:
         """Return loops, circuits, how many are open, densities, and |k| of each loop, of each row."""
         found = loop_circuits(self.loops, places)
         open_ = np.stack([one.open for one in found], axis=-1)
@@ -220,7 +219,7 @@ def _together(found: npt.NDArray[np.int8]) -> Allowed:
 
 
 def placed_rows(
-    shape: Shape, places: Array, slots: Ints, symmetry: Ints, on_slots: bool, cone_angle: float | None
+    shape: Shape, places: Floats, slots: Ints, symmetry: Ints, on_slots: bool, cone_angle: float | None
 ) -> list[Row]:
     """Return rows of joints at given azimuths.
 
@@ -269,7 +268,7 @@ def placed_rows(
 
 
 def _link_angles(
-    chain: ConformedChain, places: Array, pairs: Sequence[tuple[int, int]], cone_angle: float | None
+    chain: ConformedChain, places: Floats, pairs: Sequence[tuple[int, int]], cone_angle: float | None
 ) -> list[list[float]] | None:
     """Return the link angles between joints of each link, degrees."""
     if cone_angle is None:
@@ -280,7 +279,7 @@ def _link_angles(
     return found
 
 
-def _placed_ways(shape: Shape, places: Array) -> list[list[str]]:
+def _placed_ways(shape: Shape, places: Floats) -> list[list[str]]:
     chain = shape.chain
     found = behaviour_of_motion(chain, places, first_order(chain, places), link_arcs(chain, places))
     word = {int(way): way.name.lower() for way in Way}

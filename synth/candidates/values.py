@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.conical.layers import fewest_layers
-from enumerate.kernel.compiled import Ints
+from graphs.arrays import Ints
 from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
 from synth.surfaces.circuit import Circuits, circuits, wrapped
@@ -22,7 +22,6 @@ from synth.surfaces.cylinder import chords
 
 __all__ = ["arc_choices", "four_bar_classes", "half_turns", "layers", "loop_circuits"]
 
-Array = npt.NDArray[np.float64]
 _HALF = np.pi - 1e-9
 """Gaps this wide (radians) are half the circle."""
 

@@ -21,7 +21,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.kernel.compiled import Ints
+from graphs.arrays import Flags, Floats, Ints, Signs
 from graphs.errors import NumericalError
 from synth.conformed.outward import OutwardRate, joint_rates, outward_rates
 from synth.conformed.rates import ConformedChain
@@ -37,9 +37,6 @@ __all__ = [
     "sampled",
 ]
 
-Array = npt.NDArray[np.float64]
-Flags = npt.NDArray[np.bool_]
-Signs = npt.NDArray[np.int8]
 _SAMPLES = 64
 _ROWS = 500
 """Orders for which angles are sampled together."""
@@ -146,7 +143,7 @@ def _sorted_places(joints: int) -> Ints:
     return np.array(sorted([0, *sorted(row)] for row in far.tolist()), np.int64)
 
 
-def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Array:
+def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Floats:
     """Return azimuths at random that follow each other as orders with opposites say.
 
     Parameters

@@ -15,6 +15,7 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from synth.conformed.rates import ConformedChain, FirstOrder, first_order
 
@@ -29,7 +30,6 @@ __all__ = [
     "shadow_allows",
 ]
 
-Array = npt.NDArray[np.float64]
 _STILL = 1e-10
 """Outward rates below this part of the fastest in the linkage are zero."""
 _NO_TURN = 1e-13
@@ -73,7 +73,7 @@ class Behaviour:
     ways: npt.NDArray[np.int8]
     one_way: npt.NDArray[np.bool_]
     tangent: npt.NDArray[np.bool_]
-    ranges: Array
+    ranges: Floats
     motion: FirstOrder
 
 
@@ -146,7 +146,7 @@ def behaviour_of_motion(
     return Behaviour(ways, one_way, _tangent(chain, t, motion, small), ranges, turned)
 
 
-def _outward_ranges(motions: Array, arcs: Array) -> Array:
+def _outward_ranges(motions: Floats, arcs: Floats) -> Floats:
     """Return least and greatest outward rate over arcs: it is A sin(t - t_I), with t_I the azimuth of the ICRL."""
     size = np.hypot(motions[..., 0], motions[..., 2])
     node = np.arctan2(motions[..., 0], motions[..., 2])
@@ -159,7 +159,7 @@ def _outward_ranges(motions: Array, arcs: Array) -> Array:
     return np.stack([size * low, size * high], axis=-1)
 
 
-def _tangent(chain: ConformedChain, t: Array, motion: FirstOrder, small: Array) -> npt.NDArray[np.bool_]:
+def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats) -> npt.NDArray[np.bool_]:
     """Tell which joints move along the surface."""
     found = np.zeros(t.shape, dtype=bool)
     for joint in range(len(chain.joints)):
@@ -172,7 +172,7 @@ def _tangent(chain: ConformedChain, t: Array, motion: FirstOrder, small: Array) 
     return found
 
 
-def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Array:
+def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Floats:
     """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
 
     Parameters
@@ -204,7 +204,7 @@ def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Array:
     return np.stack(arcs, axis=-2)
 
 
-def icrl(motions: npt.ArrayLike) -> Array:
+def icrl(motions: npt.ArrayLike) -> Floats:
     """Return the direction of the ICRL of links: the line through the centre of the circle and the instant centre.
 
     Parameters
@@ -230,7 +230,7 @@ def icrl(motions: npt.ArrayLike) -> Array:
     return np.where(size > _STILL * scale, np.arctan2(w[..., 0], w[..., 2]), np.nan)
 
 
-def instant_centres(motions: npt.ArrayLike) -> Array:
+def instant_centres(motions: npt.ArrayLike) -> Floats:
     """Return the instant centres of links with respect to the ground: where pole axes meet the circle's plane.
 
     Parameters
@@ -285,7 +285,7 @@ def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         raise InvariantError("azimuths", "the shadow method is for four-bars", "four azimuths")
     o, a, b, c = np.moveaxis(np.stack([np.sin(t), np.cos(t)], axis=-1), -2, 0)
 
-    def side(p: Array, q: Array, r: Array) -> Array:
+    def side(p: Floats, q: Floats, r: Floats) -> Floats:
         """Return which side of the line p q the point r lies on."""
         return np.asarray(
             (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])

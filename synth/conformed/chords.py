@@ -15,11 +15,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.kernel.compiled import Ints, compiled
+from enumerate.kernel.compiled import compiled
+from graphs.arrays import Ints, Signs
 
 __all__ = ["arc_sets", "sign_of_sum"]
-
-Signs = npt.NDArray[np.int8]
 
 
 @compiled

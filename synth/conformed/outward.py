@@ -24,6 +24,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
 from synth.conformed.chords import arc_sets, sign_of_sum
 from synth.conformed.cycles import signed_cycles
@@ -31,8 +32,6 @@ from synth.conformed.rates import ConformedChain
 
 __all__ = ["OutwardRate", "brackets", "joint_rates", "outward_rates"]
 
-Array = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.int64]
 _BASES = 12
 _PATHS = 12
 _TERMS = 400
@@ -61,7 +60,7 @@ class OutwardRate:
     sines: Ints
     triples: Ints
 
-    def values(self, places: npt.ArrayLike) -> Array:
+    def values(self, places: npt.ArrayLike) -> Floats:
         """Return the rates of linkages.
 
         Parameters
@@ -119,7 +118,7 @@ class OutwardRate:
             terms.append(np.stack(factors, axis=-1))
         return sign_of_sum(np.stack(self._term_signs(t), axis=-1), np.stack(terms, axis=1))
 
-    def _term_signs(self, t: Array) -> list[npt.NDArray[np.int8]]:
+    def _term_signs(self, t: Floats) -> list[npt.NDArray[np.int8]]:
         return [
             _sign(factor, triples, t)
             * (np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8) if i >= 0 else np.int8(1))
@@ -136,7 +135,7 @@ class OutwardRate:
         return " ".join(parts).removeprefix("+ ")
 
 
-def brackets(places: npt.ArrayLike) -> Array:
+def brackets(places: npt.ArrayLike) -> Floats:
     """Return det(e_a, e_b, e_c) of three joints: twice the area of their triangle, + if they follow in this order.
 
     Parameters
@@ -155,7 +154,7 @@ def brackets(places: npt.ArrayLike) -> Array:
     return np.asarray(4.0 * np.sin(b - a) * np.sin(c - b) * np.sin(c - a))
 
 
-def _sign(factor: int, triples: Iterable[Iterable[int]], t: Array) -> npt.NDArray[np.int8]:
+def _sign(factor: int, triples: Iterable[Iterable[int]], t: Floats) -> npt.NDArray[np.int8]:
     """Return the sign of a product of brackets: it follows from the cyclic order."""
     sign = np.full(t.shape[:-1], factor, np.int8)
     for a, b, c in triples:
@@ -296,7 +295,7 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     cycles = signed_cycles(chain)
     places = np.random.default_rng(1).uniform(0, 2 * np.pi, (8, joints))
     found: list[list[list[_Term]]] = []
-    first: Array | None = None
+    first: Floats | None = None
     bases = sorted(
         combinations(range(len(cycles)), loops), key=lambda chosen: int(np.abs(cycles[list(chosen)]).sum())
     )
@@ -316,7 +315,7 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     return found
 
 
-def _value(terms: Sequence[_Term], places: Array) -> Array:
+def _value(terms: Sequence[_Term], places: Floats) -> Floats:
     total = np.zeros(places.shape[:-1])
     for factor, triples in terms:
         term = np.full(places.shape[:-1], float(factor))

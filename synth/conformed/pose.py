@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from synth.surfaces.circuit import azimuths
 from synth.surfaces.cone import checked_cone_angle
 
@@ -27,7 +28,6 @@ __all__ = [
     "strip",
 ]
 
-Array = npt.NDArray[np.float64]
 CONE_AXIS = (0.0, 1.0, 0.0)
 """Direction of the axis, from the cone to the apex and beyond."""
 
@@ -44,11 +44,11 @@ class PoseCheck:
         Largest difference between an axis' angle with the plane across the cone's axis and lambda.
     """
 
-    link_angles: Array
-    on_cone: Array
+    link_angles: Floats
+    on_cone: Floats
 
 
-def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the directions of joint axes (Hyatt et al. 2020, Eq. 17).
 
     Parameters
@@ -79,7 +79,7 @@ def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
     return np.stack([c * np.sin(t), np.broadcast_to(-s, t.shape), c * np.cos(t)], axis=-1)
 
 
-def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the dihedral angle at each joint of loops (Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right).
 
     Parameters
@@ -117,7 +117,7 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
     return np.asarray(np.arctan2(volume, flat))
 
 
-def angles_between(first: npt.ArrayLike, second: npt.ArrayLike) -> Array:
+def angles_between(first: npt.ArrayLike, second: npt.ArrayLike) -> Floats:
     """Return the angles between vectors, radians, without loss of digits near 0 and pi.
 
     Parameters
@@ -133,7 +133,7 @@ def angles_between(first: npt.ArrayLike, second: npt.ArrayLike) -> Array:
     return np.asarray(np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1)))
 
 
-def measured_dihedral_angles(axes: npt.ArrayLike) -> Array:
+def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
     """Return the dihedral angles of closed loops of axes in space, measured.
 
     Parameters
@@ -160,7 +160,7 @@ def measured_dihedral_angles(axes: npt.ArrayLike) -> Array:
     return np.asarray(np.arctan2((np.cross(u, v) * e).sum(axis=-1), (u * v).sum(axis=-1)))
 
 
-def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float], points: int = 24) -> Array:
+def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float], points: int = 24) -> Floats:
     """Return points of a link that is a strip of the cone between two ruling lines.
 
     Parameters

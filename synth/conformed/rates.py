@@ -20,13 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
 
-Array = npt.NDArray[np.float64]
 _GAP = 1e-9
 """Singular values below this part of the largest are zero."""
 
@@ -133,17 +133,17 @@ class FirstOrder:
     """
 
     freedoms: npt.NDArray[np.int64]
-    singular_values: Array
-    gap: Array
-    rates: Array
-    motions: Array
+    singular_values: Floats
+    gap: Floats
+    rates: Floats
+    motions: Floats
 
     def rank(self) -> npt.NDArray[np.int64]:
         """Return the rank of the closure equations: int[...]."""
         return np.asarray(self.rates.shape[-1] - self.freedoms)
 
 
-def ring_axes(places: npt.ArrayLike) -> Array:
+def ring_axes(places: npt.ArrayLike) -> Floats:
     """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets.
 
     Examples
@@ -206,19 +206,19 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike) -> FirstOrder:
     return FirstOrder(freedoms, values, gap, rates, motions)
 
 
-def _svd(closure: Array) -> tuple[Array, Array]:
+def _svd(closure: Floats) -> tuple[Floats, Floats]:
     """Return singular values and all right singular vectors; the batched call is one loop in LAPACK."""
     _, values, rows = np.linalg.svd(closure, full_matrices=True)
     return values, rows
 
 
-def _gap(values: Array, counted: npt.NDArray[np.bool_]) -> Array:
+def _gap(values: Floats, counted: npt.NDArray[np.bool_]) -> Floats:
     least = np.where(counted, values, np.inf).min(axis=-1)
     rest = np.where(counted, 0.0, values).max(axis=-1)
     return np.asarray(least / np.maximum(rest, np.finfo(float).eps * values[..., 0]))
 
 
-def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the angular velocities of links on cones, along their pole axes (Hyatt et al. 2020, section 4).
 
     Parameters

@@ -18,12 +18,12 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.kernel.compiled import Ints, compiled
+from enumerate.kernel.compiled import compiled
+from graphs.arrays import Ints, Signs
 from synth.conformed.rates import ConformedChain
 
 __all__ = ["Relations"]
 
-Signs = npt.NDArray[np.int8]
 _ZERO = 2
 """Stands for the sign of what is always zero."""
 

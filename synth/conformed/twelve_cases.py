@@ -15,11 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 
 __all__ = ["COLUMNS", "ROWS", "TableRow", "table4", "table_row"]
 
-Array = npt.NDArray[np.float64]
 _DIAMETER = 1e-9
 """A chord whose ends are this near to half a turn apart (radians) is a diameter."""
 
@@ -164,7 +164,7 @@ def table_row(places: npt.ArrayLike) -> TableRow:
     return TableRow(case, configuration, column, labels, intra, extra, special)
 
 
-def _first_of_case_2(places: Array) -> int:
+def _first_of_case_2(places: Floats) -> int:
     """Return which joint is P1 where the centre is inside: it is in the sector of side 23 or 41 of the diagonals.
 
     The centre is on the left of the diagonal from i to i + 2 if that one spans less than half a turn. With P1

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl, link_arcs
 from synth.conformed.pose import joint_axes, strip
 from synth.conformed.rates import ConformedChain, first_order
@@ -17,7 +18,6 @@ from synth.drawing.figure import COLOURS, new_figure
 
 __all__ = ["draw_conformed"]
 
-Array = npt.NDArray[np.float64]
 _WAYS = {
     Way.OUTWARD: "out",
     Way.INWARD: "in",
@@ -74,7 +74,7 @@ def draw_conformed(
     return figure
 
 
-def _layers(arcs: Array) -> list[int]:
+def _layers(arcs: Floats) -> list[int]:
     """Put each link's arc on the lowest layer where it overlaps none."""
     taken: list[list[tuple[float, float]]] = []
     layers = []
@@ -98,7 +98,7 @@ def _overlap(start: float, length: float, other: float, more: float) -> bool:
     return bool(apart < length - 1e-9 or 2 * np.pi - apart < more - 1e-9)
 
 
-def _circle(axes: Any, chain: ConformedChain, t: Array, grounded: bool) -> None:
+def _circle(axes: Any, chain: ConformedChain, t: Floats, grounded: bool) -> None:
     """Draw circle, links as arcs and chords, ICRL of each moving link, and the shadow of a four-bar."""
     arcs = link_arcs(chain, t)
     motion = first_order(chain, t)
@@ -136,7 +136,7 @@ def _circle(axes: Any, chain: ConformedChain, t: Array, grounded: bool) -> None:
     axes.set_title(", ".join(notes), fontsize=10)
 
 
-def _name_joints(axes: Any, chain: ConformedChain, t: Array) -> None:
+def _name_joints(axes: Any, chain: ConformedChain, t: Floats) -> None:
     for joint, place in zip(chain.joints, t, strict=True):
         axes.text(
             0.87 * np.sin(place), 0.87 * np.cos(place), str(joint)[:8], ha="center", va="center", zorder=6,
@@ -148,7 +148,7 @@ def _link_name(chain: ConformedChain, number: int) -> str:
     return "link " + "".join(f"{chain.joints[joint]!s:.4}" for joint in chain.joints_of[number])
 
 
-def _shadow(axes: Any, chain: ConformedChain, t: Array) -> None:
+def _shadow(axes: Any, chain: ConformedChain, t: Floats) -> None:
     """Shade the double wedge between the lines of the side links that holds ground and coupler."""
     points = np.stack([np.sin(t), np.cos(t)], axis=-1)
     ground = chain.joints_of[0]
@@ -157,7 +157,7 @@ def _shadow(axes: Any, chain: ConformedChain, t: Array) -> None:
     grid = np.linspace(-1.42, 1.42, 500)
     x, y = np.meshgrid(grid, grid)
 
-    def side(p: Array, q: Array, u: Any, v: Any) -> Any:
+    def side(p: Floats, q: Floats, u: Any, v: Any) -> Any:
         return (q[0] - p[0]) * (v - p[1]) - (q[1] - p[1]) * (u - p[0])
 
     here = side(points[a], points[b], x, y) * side(points[c], points[d], x, y)
@@ -166,7 +166,7 @@ def _shadow(axes: Any, chain: ConformedChain, t: Array) -> None:
     axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=["0.91"], zorder=0)
 
 
-def _cone(axes: Any, chain: ConformedChain, t: Array, cone_angle: float) -> None:
+def _cone(axes: Any, chain: ConformedChain, t: Floats, cone_angle: float) -> None:
     """Draw links as strips of the cone, in bands so that they do not hide each other, and joint axes."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
@@ -201,6 +201,6 @@ def _cone(axes: Any, chain: ConformedChain, t: Array, cone_angle: float) -> None
     axes.set_title(f"λ = {np.degrees(cone_angle):.4g}°", fontsize=10)
 
 
-def _upright(points: Array) -> tuple[Array, Array, Array]:
+def _upright(points: Floats) -> tuple[Floats, Floats, Floats]:
     """Return coordinates with the cone's axis upright: (z, x, y) of the paper's frame."""
     return points[..., 2], points[..., 0], points[..., 1]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from synth.guidance.orientations import Floats
+from graphs.arrays import Floats
 
 __all__ = ["spread"]
 

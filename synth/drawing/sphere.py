@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from synth.drawing.figure import new_figure
 from synth.drawing.labels import spread
@@ -20,7 +21,7 @@ from synth.guidance.dyads import Dyad
 from synth.guidance.four import AxisCurve
 from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
 from synth.guidance.order import order_verdicts
-from synth.guidance.orientations import Floats, Orientations, unit_vector
+from synth.guidance.orientations import Orientations, unit_vector
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

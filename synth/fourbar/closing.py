@@ -14,6 +14,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 
 __all__ = [
@@ -31,7 +32,6 @@ __all__ = [
     "supplementary",
 ]
 
-Array = npt.NDArray[np.float64]
 _FOLDS = 1e-12
 """A difference this small (of pi, or of the sum of the lengths) is zero: the linkage folds."""
 _SMALLEST = 1e-9
@@ -63,7 +63,7 @@ class FourBarKind:
     output: str
 
 
-def planar_differences(lengths: npt.ArrayLike) -> Array:
+def planar_differences(lengths: npt.ArrayLike) -> Floats:
     """Return T1, T2, T3 of planar four-bars (Hyatt et al. 2021, Eqs. 1 to 3).
 
     Parameters
@@ -90,7 +90,7 @@ def planar_differences(lengths: npt.ArrayLike) -> Array:
     return np.stack([g - a + h - b, g - a - h + b, h + b - g - a], axis=-1)
 
 
-def spherical_differences(angles: npt.ArrayLike) -> Array:
+def spherical_differences(angles: npt.ArrayLike) -> Floats:
     """Return T1 to T4 of spherical four-bars, radians (Hyatt et al. 2020, Eqs. 1 to 4).
 
     Parameters
@@ -218,7 +218,7 @@ def _swing(passes_zero: bool, passes_pi: bool) -> str:
 # ---- supplementary linkages -------------------------------------------------------------------------------
 
 
-def supplementary(angles: npt.ArrayLike) -> Array:
+def supplementary(angles: npt.ArrayLike) -> Floats:
     """Return the 16 linkages that have the same joint lines (Hyatt et al. 2020, section 2.3).
 
     A joint line has two ends. To take the other end of a joint changes the two links there to their supplements.
@@ -247,7 +247,7 @@ def supplementary(angles: npt.ArrayLike) -> Array:
     return np.where(turned == 1, np.pi - angles, angles)
 
 
-def minimal_supplementary(angles: npt.ArrayLike) -> Array:
+def minimal_supplementary(angles: npt.ArrayLike) -> Floats:
     """Return the supplementary linkage with the smallest sum of angles: the one whose T4 is largest.
 
     Parameters
@@ -302,7 +302,7 @@ def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 # ---- what is given ----------------------------------------------------------------------------------------
 
 
-def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Array:
+def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floats:
     """Return link angles, those over pi replaced by the other way round; refuse what no closed loop has.
 
     Parameters
@@ -343,7 +343,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Arra
     return made
 
 
-def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Array:
+def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:
     """Return link lengths; refuse what no closed loop has.
 
     Raises
@@ -404,7 +404,7 @@ def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     return np.asarray(least >= np.pi * (1.0 - 1e-12))
 
 
-def _listed(values: npt.ArrayLike, what: str, links: int | None) -> Array:
+def _listed(values: npt.ArrayLike, what: str, links: int | None) -> Floats:
     given = np.asarray(values, dtype=float)
     if given.ndim != 1 or len(given) < 3 or (links is not None and len(given) != links):
         raise InvariantError("loop", f"{given.size} {what}", f"{links or 'three or more'} in loop order")

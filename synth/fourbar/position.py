@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.surfaces.circuit import azimuths
@@ -33,7 +34,6 @@ __all__ = [
     "transmission_spherical",
 ]
 
-Array = npt.NDArray[np.float64]
 Branch = Literal[1, -1]
 _AT_LIMIT = 1e-12
 
@@ -54,15 +54,15 @@ class FourBarPoses:
         Distance of that B from the one reached from the output (Eq. 23).
     """
 
-    theta: Array
-    psi: Array
-    xi: Array
+    theta: Floats
+    psi: Floats
+    xi: Floats
     conformed: tuple[float, float, float]
-    axes: Array
-    residual: Array
+    axes: Floats
+    residual: Floats
 
 
-def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Array:
+def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Floats:
     """Return the output angle of planar four-bars.
 
     Parameters
@@ -92,7 +92,7 @@ def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Arra
     return _two_branches(x, y, (x**2 + y**2 + b**2 - h**2) / (2 * b), branch)
 
 
-def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Array:
+def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Floats:
     """Return the output angle of spherical four-bars (Hyatt et al. 2020, section 6).
 
     Parameters
@@ -121,7 +121,7 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
     return _two_branches(x, y, (np.cos(eta) - np.cos(beta) * height) / np.sin(beta), branch)
 
 
-def _two_branches(x: Array, y: Array, c: Array, branch: npt.ArrayLike) -> Array:
+def _two_branches(x: Floats, y: Floats, c: Floats, branch: npt.ArrayLike) -> Floats:
     """Solve x cos(psi) + y sin(psi) = c."""
     ratio = c / np.hypot(x, y)
     ratio = np.where(np.abs(ratio) <= 1 + _AT_LIMIT, np.clip(ratio, -1, 1), np.nan)
@@ -129,7 +129,7 @@ def _two_branches(x: Array, y: Array, c: Array, branch: npt.ArrayLike) -> Array:
     return np.asarray(np.pi - np.remainder(np.pi - psi, 2 * np.pi))
 
 
-def input_limits_planar(lengths: npt.ArrayLike) -> Array:
+def input_limits_planar(lengths: npt.ArrayLike) -> Floats:
     """Return where the input of planar four-bars ends: with coupler and output folded, and stretched.
 
     Parameters
@@ -153,7 +153,7 @@ def input_limits_planar(lengths: npt.ArrayLike) -> Array:
     return _ends(ends)
 
 
-def input_limits_spherical(angles: npt.ArrayLike) -> Array:
+def input_limits_spherical(angles: npt.ArrayLike) -> Floats:
     """Return where the input of spherical four-bars ends, as `input_limits_planar` does.
 
     Parameters
@@ -176,13 +176,13 @@ def input_limits_spherical(angles: npt.ArrayLike) -> Array:
     return _ends(ends)
 
 
-def _ends(cosines: list[Array]) -> Array:
+def _ends(cosines: list[Floats]) -> Floats:
     """Return the angles of the cosines that are some angle's, but for the ends of the range themselves."""
     both = np.stack(cosines, axis=-1)
     return np.arccos(np.where(np.abs(both) < 1 - _AT_LIMIT, both, np.nan))
 
 
-def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
+def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
     """Return the angle between coupler and output of planar four-bars.
 
     Parameters
@@ -205,7 +205,7 @@ def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
     return _within((h**2 + b**2 - square) / (2 * h * b))
 
 
-def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
+def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
     """Return the dihedral angle between coupler and output of spherical four-bars.
 
     Parameters
@@ -230,11 +230,11 @@ def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Array
     return _within((height - np.cos(eta) * np.cos(beta)) / (np.sin(eta) * np.sin(beta)))
 
 
-def _within(cosine: Array) -> Array:
+def _within(cosine: Floats) -> Floats:
     return np.arccos(np.where(np.abs(cosine) <= 1 + _AT_LIMIT, np.clip(cosine, -1, 1), np.nan))
 
 
-def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -> Array:
+def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -> Floats:
     """Rotate vectors about a unit axis, right-handed (Rodrigues).
 
     Parameters
@@ -314,5 +314,5 @@ def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.Arr
     return FourBarPoses(theta, psi, xi, (theta0, psi0, xi0), axes, residual)
 
 
-def _turned(angle: npt.ArrayLike) -> Array:
+def _turned(angle: npt.ArrayLike) -> Floats:
     return np.asarray(np.remainder(np.asarray(angle) + np.pi, 2 * np.pi) - np.pi)

@@ -15,10 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from synth.guidance.hoop_method import Direction
 from synth.guidance.order import crank_angles, nearest_moving_axis, order_by_crank_angles
-from synth.guidance.orientations import Floats, Orientations, unit_vector
+from synth.guidance.orientations import Orientations, unit_vector
 
 __all__ = ["Dyad", "dyad_of", "dyads_of_three", "signed"]
 

@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import NumericalError, UnsolvableError
 from synth.guidance.dyads import Dyad, dyad_of
-from synth.guidance.orientations import Floats, Orientations
+from synth.guidance.orientations import Orientations
 
 __all__ = ["DyadsOfFive", "dyads_of_five"]
 

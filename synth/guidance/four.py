@@ -14,10 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import order_verdicts
-from synth.guidance.orientations import Floats, Orientations
+from synth.guidance.orientations import Orientations
 
 __all__ = ["AxisCurve", "centre_axes", "dyads_of_four"]
 

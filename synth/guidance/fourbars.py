@@ -15,12 +15,13 @@ from itertools import pairwise, permutations
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from synth.fourbar.closing import FourBarKind, kind_of_spherical
 from synth.guidance.dyads import Dyad
 from synth.guidance.hoop_method import DIRECTIONS, Direction
 from synth.guidance.order import order_by_crank_angles
-from synth.guidance.orientations import Floats, Orientations
+from synth.guidance.orientations import Orientations
 
 __all__ = ["GuidedFourBar", "Motion", "four_bar_of", "four_bars", "motion_of"]
 

@@ -16,8 +16,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
-from synth.guidance.orientations import Floats, Orientations, Pair, unit_vector
+from synth.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = [
     "DIRECTIONS",

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import nearest_moving_axis
-from synth.guidance.orientations import Floats, Orientations
+from synth.guidance.orientations import Orientations
 
 __all__ = ["dyads_by_least_squares", "fibonacci_sphere"]
 

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from synth.guidance.hoop_method import DIRECTIONS, Direction, Hoop, hoop, required_sequence
-from synth.guidance.orientations import Floats, Orientations, unit_vector
+from synth.guidance.orientations import Orientations, unit_vector
 
 __all__ = [
     "OrderAnalysis",

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.native.orientations import orientation_rows, orientations_document
 from graphs.files.source import json_text, write_text
@@ -31,7 +32,6 @@ __all__ = [
     "write_orientations",
 ]
 
-Floats: TypeAlias = npt.NDArray[np.float64]
 
 Pair: TypeAlias = tuple[int, int]
 """Two orientations i < j, numbered from 1."""

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from synth.surfaces.loop_sums import sign_patterns
 
 __all__ = [
@@ -24,7 +25,6 @@ __all__ = [
     "quadrilaterals_by_coordinates",
 ]
 
-Array = npt.NDArray[np.float64]
 _GRID = 400
 _NEWTON = 60
 
@@ -43,12 +43,12 @@ class QuadrilateralSolutions:
         Largest residual of the six equations.
     """
 
-    unknowns: Array
-    centre: Array
-    residual: Array
+    unknowns: Floats
+    centre: Floats
+    residual: Floats
 
     @property
-    def radius(self) -> Array:
+    def radius(self) -> Floats:
         """Return R = sqrt(1/4 + K^2), in units of the ground link: float[..., 2]."""
         return np.asarray(np.hypot(0.5, self.centre))
 
@@ -69,13 +69,13 @@ class PolygonSolutions:
         Largest residual of the equations.
     """
 
-    points: Array
-    centre: Array
-    radius: Array
-    residual: Array
+    points: Floats
+    centre: Floats
+    radius: Floats
+    residual: Floats
 
     @property
-    def steps(self) -> Array:
+    def steps(self) -> Floats:
         """Return the signed angles between successive joints, seen from the centre: float[M, n]."""
         arms = self.points - np.stack([np.full_like(self.centre, 0.5), self.centre], -1)[:, np.newaxis]
         after = np.roll(arms, -1, axis=1)
@@ -114,7 +114,7 @@ def quadrilaterals_by_coordinates(sides: npt.ArrayLike) -> QuadrilateralSolution
     return QuadrilateralSolutions(*(np.stack([one[i] for one in found], axis=-1 if i else -2) for i in range(3)))
 
 
-def _quadrilateral(a: Array, h: Array, b: Array, crossed: bool) -> tuple[Array, Array, Array]:
+def _quadrilateral(a: Floats, h: Floats, b: Floats, crossed: bool) -> tuple[Floats, Floats, Floats]:
     """Return unknowns, K and residual of the open or the crossed quadrilaterals, with g = 1."""
     sign = 1.0 if crossed else -1.0
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -147,7 +147,7 @@ def _quadrilateral(a: Array, h: Array, b: Array, crossed: bool) -> tuple[Array, 
     )
 
 
-def cone_angles_by_coordinates(angles: npt.ArrayLike) -> Array:
+def cone_angles_by_coordinates(angles: npt.ArrayLike) -> Floats:
     """Return the cones of spherical four-bars from coordinates (Hyatt et al. 2021, Eqs. 17 and 18).
 
     Parameters
@@ -226,7 +226,7 @@ def polygons_by_coordinates(sides: npt.ArrayLike, largest: float = np.inf) -> Po
     return PolygonSolutions(points, np.abs(centres), np.hypot(0.5, centres), np.array([found[i][2] for i in kept]))
 
 
-def _starts(unit: Array, largest: float) -> tuple[list[tuple[Array, float]], list[Array]]:
+def _starts(unit: Floats, largest: float) -> tuple[list[tuple[Floats, float]], list[Floats]]:
     """Return polygons that nearly close, as points and K, and their sign patterns."""
     # the longest side seen from the centre: from half a turn down to what the largest circle leaves
     least = np.arcsin(min(1.0, unit.max() / (2 * largest)))
@@ -250,7 +250,7 @@ def _starts(unit: Array, largest: float) -> tuple[list[tuple[Array, float]], lis
     return starts, signs
 
 
-def _newton(points: Array, centre: float, unit: Array) -> tuple[Array, float, float]:
+def _newton(points: Floats, centre: float, unit: Floats) -> tuple[Floats, float, float]:
     """Solve for corners 2 to n - 1 and K: squared lengths of sides, and the circle through all corners."""
     n = len(unit)
     x = np.concatenate([points[2:].ravel(), [centre]])

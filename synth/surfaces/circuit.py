@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
+from graphs.arrays import Floats
 
-Array = npt.NDArray[np.float64]
+__all__ = ["Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class Circuits:
     open: npt.NDArray[np.bool_]
     turns: npt.NDArray[np.int64]
     density: npt.NDArray[np.int64]
-    residual: Array
+    residual: Floats
 
     def names(self) -> npt.NDArray[np.str_]:
         """Return ``open`` or ``crossed``."""
@@ -91,7 +91,7 @@ def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     return np.asarray(even == (np.abs(steps.sum(axis=-1)) > np.pi))
 
 
-def wrapped(angles: npt.ArrayLike) -> Array:
+def wrapped(angles: npt.ArrayLike) -> Floats:
     """Return angles in (-pi, pi].
 
     Examples
@@ -104,7 +104,7 @@ def wrapped(angles: npt.ArrayLike) -> Array:
     return np.where(turned <= -np.pi + 1e-15, np.pi, turned)
 
 
-def azimuths(steps: npt.ArrayLike, first: float = 0.0) -> Array:
+def azimuths(steps: npt.ArrayLike, first: float = 0.0) -> Floats:
     """Return the azimuths of the joints of loops; the last step leads back to the first joint.
 
     Parameters
@@ -137,7 +137,7 @@ def azimuths(steps: npt.ArrayLike, first: float = 0.0) -> Array:
     return np.asarray(first + np.concatenate([np.zeros_like(error), places[..., :-1]], axis=-1))
 
 
-def closing_step(steps: npt.ArrayLike) -> Array:
+def closing_step(steps: npt.ArrayLike) -> Floats:
     """Return the step that closes loops: lambda and all projected angles but one describe a linkage (Eq. 14).
 
     Parameters

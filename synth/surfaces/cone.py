@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from synth.fourbar.closing import (
     FourBarKind,
@@ -34,7 +35,6 @@ __all__ = [
     "solution_class",
 ]
 
-Array = npt.NDArray[np.float64]
 _FLAT = 1e-12
 """Cone angles (radians) below this are zero."""
 
@@ -72,7 +72,7 @@ class ConeMap:
     supplementary: ConeMap | None
 
 
-def checked_cone_angle(cone_angle: npt.ArrayLike) -> Array:
+def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
     """Return cone angles; refuse what no cone has.
 
     Raises
@@ -97,7 +97,7 @@ def checked_cone_angle(cone_angle: npt.ArrayLike) -> Array:
     return given
 
 
-def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the link angles of projected angles (Hyatt et al. 2020, Eq. 5).
 
     Parameters
@@ -127,7 +127,7 @@ def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
     return np.asarray(2.0 * np.arctan2(np.abs(flat), rest))
 
 
-def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
+def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the projected angles of links, without sign (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
 
     Parameters
@@ -170,7 +170,7 @@ def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Array:
     return np.asarray(2.0 * np.arctan2(np.sin(phi / 2), np.sqrt(other)))
 
 
-def largest_cone_angle(angles: npt.ArrayLike) -> Array:
+def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
     """Return the largest cone angle for links: there they span half the circle (Hyatt et al. 2021, Eqs. 15, 16).
 
     Parameters
@@ -191,7 +191,7 @@ def largest_cone_angle(angles: npt.ArrayLike) -> Array:
     return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
 
 
-def cone_reach(angles: npt.ArrayLike) -> Array:
+def cone_reach(angles: npt.ArrayLike) -> Floats:
     """Return cot(angle / 2)^2, the reach of links in a loop sum.
 
     Examples
@@ -282,7 +282,7 @@ def solution_class(angles: npt.ArrayLike) -> str:
     return "a" if grashof else "b"
 
 
-def _why_not(angles: Array, flat: bool) -> str:
+def _why_not(angles: Floats, flat: bool) -> str:
     """Say why a loop has no cone."""
     if flat:
         return "the loop closes in a plane only, lambda = 0"

@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["ConicalQuadrilaterals", "CyclicQuadrilaterals", "circumradii", "cone_angles", "crossed_area"]
+from graphs.arrays import Floats
 
-Array = npt.NDArray[np.float64]
+__all__ = ["ConicalQuadrilaterals", "CyclicQuadrilaterals", "circumradii", "cone_angles", "crossed_area"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +36,8 @@ class CyclicQuadrilaterals:
         Circumradius in the unit of the sides; nan where there is none.
     """
 
-    open: Array
-    crossed: Array
+    open: Floats
+    crossed: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,21 +50,21 @@ class ConicalQuadrilaterals:
         Cone angle lambda, radians, in [0, pi/2); nan where there is none.
     """
 
-    open: Array
-    crossed: Array
+    open: Floats
+    crossed: Floats
 
 
-def _sides(values: npt.ArrayLike) -> tuple[Array, Array, Array, Array]:
+def _sides(values: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
     a, b, c, d = np.moveaxis(np.asarray(values, dtype=float), -1, 0)
     return a, b, c, d
 
 
-def _numerator(a: Array, b: Array, c: Array, d: Array, mu: int) -> Array:
+def _numerator(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -> Floats:
     """Return (ab + mu cd)(ac + mu bd)(bc + mu ad), the numerator of Eq. 12."""
     return np.asarray((a * b + mu * c * d) * (a * c + mu * b * d) * (b * c + mu * a * d))
 
 
-def _sixteen_area_squared(a: Array, b: Array, c: Array, d: Array, mu: int) -> Array:
+def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -> Floats:
     """Return 16 K^2, the product of the sums of sides with one subtracted (Brahmagupta; Eq. 11)."""
     d = mu * d
     return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
@@ -147,7 +147,7 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
     return ConicalQuadrilaterals(*found)
 
 
-def crossed_area(sides: npt.ArrayLike) -> Array:
+def crossed_area(sides: npt.ArrayLike) -> Floats:
     """Return the area of crossed cyclic quadrilaterals, triangles of opposite sense subtracted (Eq. 11).
 
     Parameters

@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, mapped_loop
 
 __all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +43,7 @@ class CylinderMap:
     why: str
 
 
-def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
+def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
     """Return the angles that links span round the axis, psi = 2 asin(length / 2 R) (Hyatt et al. 2021, Eq. 19).
 
     Parameters
@@ -70,7 +69,7 @@ def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
     return np.asarray(2.0 * np.arcsin(ratio))
 
 
-def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
+def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
     """Return the lengths of links that span given angles.
 
     Parameters
@@ -87,7 +86,7 @@ def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Array:
     return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
 
 
-def cylinder_reach(lengths: npt.ArrayLike) -> Array:
+def cylinder_reach(lengths: npt.ArrayLike) -> Floats:
     """Return 1 / length^2, the reach of links in a loop sum.
 
     Examples

@@ -14,6 +14,7 @@ import networkx as nx
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
@@ -24,7 +25,6 @@ from synth.surfaces.several_loops import Pair, link_pairs, places_of_steps
 
 __all__ = ["CommonCone", "CommonFamily", "common_cones"]
 
-Array = npt.NDArray[np.float64]
 _FLAT = 1e-9
 """Cones of smaller angle (radians) are flat, and none."""
 _HALF_TURN = np.pi - 1e-9
@@ -139,7 +139,7 @@ def common_cones(
     return _without_families(cones, families), tuple(families)
 
 
-def _checked_pairs(chain: SCGraph, angles: Mapping[Pair, float]) -> tuple[dict[Pair, int], Array]:
+def _checked_pairs(chain: SCGraph, angles: Mapping[Pair, float]) -> tuple[dict[Pair, int], Floats]:
     """Return the number of each pair, and the angles in that order."""
     if not chain.loops:
         raise UnsolvableError("the chain has no loops; name them")
@@ -197,7 +197,7 @@ def _candidates(roots: Iterable[LoopRoots], end: float) -> list[float]:
     return kept
 
 
-def _closing(cycle: _Cycle, steps: Array, tolerance: float) -> npt.NDArray[np.int8]:
+def _closing(cycle: _Cycle, steps: Floats, tolerance: float) -> npt.NDArray[np.int8]:
     """Return the sign patterns with which a cycle closes on a cone, along the cycle."""
     half = sign_patterns(len(cycle.pairs))
     patterns = np.concatenate([half, -half])
@@ -237,7 +237,7 @@ def _agreeing(
 
 
 def _common_cone(
-    chain: SCGraph, pairs: Mapping[Pair, int], cycles: Sequence[_Cycle], steps: Array, size: float, loops: int
+    chain: SCGraph, pairs: Mapping[Pair, int], cycles: Sequence[_Cycle], steps: Floats, size: float, loops: int
 ) -> CommonCone:
     of_loops = [steps[cycle.pairs] * cycle.turned for cycle in cycles]
     found = [circuits(one) for one in of_loops]

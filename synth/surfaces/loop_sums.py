@@ -26,11 +26,11 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 
 __all__ = ["MOST_LINKS", "LoopRoots", "half_steps", "loop_roots", "loop_sum", "sign_patterns"]
 
-Array = npt.NDArray[np.float64]
 Base = Literal[0, 1]
 
 MOST_LINKS = 16
@@ -68,14 +68,14 @@ class LoopRoots:
     loop: npt.NDArray[np.intp]
     signs: npt.NDArray[np.int8]
     turns: npt.NDArray[np.int64]
-    size: Array
-    residual: Array
+    size: Floats
+    residual: Floats
     double: npt.NDArray[np.bool_]
     family_loop: npt.NDArray[np.intp]
     family_signs: npt.NDArray[np.int8]
 
 
-def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Array:
+def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Floats:
     """Return half of the steps that links span, in [0, pi/2].
 
     Parameters
@@ -98,7 +98,7 @@ def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Array:
     return np.asarray(np.arctan2(np.sqrt(base + z), np.sqrt(np.maximum(c - z, 0.0))))
 
 
-def loop_sum(size: npt.ArrayLike, reach: npt.ArrayLike, signs: npt.ArrayLike, base: Base) -> Array:
+def loop_sum(size: npt.ArrayLike, reach: npt.ArrayLike, signs: npt.ArrayLike, base: Base) -> Floats:
     """Return the sum of signed steps, radians (Hyatt et al. 2020, Eq. 12; 2021, Eq. 20).
 
     Parameters
@@ -183,7 +183,7 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
 
 
 def _roots_of_chunk(
-    reaches: Array, patterns: npt.NDArray[np.int8], first_loop: int, base: Base
+    reaches: Floats, patterns: npt.NDArray[np.int8], first_loop: int, base: Base
 ) -> tuple[npt.NDArray[np.generic], ...]:
     """Return columns loop, pattern, turns, size, residual, double, and families (loop, pattern) of some loops."""
     loops, n = reaches.shape
@@ -211,7 +211,7 @@ def _roots_of_chunk(
     return (*columns, of[vanishing])
 
 
-def _merged(signs: Array, reach: Array, base: Base) -> tuple[Array, Array]:
+def _merged(signs: Floats, reach: Floats, base: Base) -> tuple[Floats, Floats]:
     """Put the signs of equal reaches together; return weights (0 where a neighbour took them) and reaches."""
     weights, reach = signs.copy(), reach.copy()
     for i in range(1, signs.shape[1]):
@@ -224,7 +224,7 @@ def _merged(signs: Array, reach: Array, base: Base) -> tuple[Array, Array]:
     return weights, reach
 
 
-def _sign_changes(weights: Array) -> npt.NDArray[np.int64]:
+def _sign_changes(weights: Floats) -> npt.NDArray[np.int64]:
     """Count the sign changes along each row, zeros left out."""
     last = np.zeros(len(weights))
     changes = np.zeros(len(weights), dtype=np.int64)
@@ -234,7 +234,7 @@ def _sign_changes(weights: Array) -> npt.NDArray[np.int64]:
     return changes
 
 
-def _nodes(weights: Array, reach: Array, changes: int) -> Array:
+def _nodes(weights: Floats, reach: Floats, changes: int) -> Floats:
     """Return 0, the zeros of g and the least reach of each row, in rising order: float[rows, changes + 2].
 
     Where g has fewer zeros than sign changes, the last node is repeated.
@@ -249,7 +249,7 @@ def _nodes(weights: Array, reach: Array, changes: int) -> Array:
     return nodes
 
 
-def _one_change_fewer(weights: Array, reach: Array) -> Array:
+def _one_change_fewer(weights: Floats, reach: Floats) -> Floats:
     """Return the weights of the next function of the tower: times C_j - C_i, j before the first sign change."""
     last = np.zeros(len(weights))
     before = np.zeros(len(weights), dtype=np.intp)
@@ -265,7 +265,7 @@ def _one_change_fewer(weights: Array, reach: Array) -> Array:
     return np.asarray(made / np.abs(made).max(axis=1, keepdims=True))
 
 
-def _between_zeros(nodes: Array, weights: Array, reach: Array, level: int) -> Array:
+def _between_zeros(nodes: Floats, weights: Floats, reach: Floats, level: int) -> Floats:
     """Add the zeros of a function of the tower to its ends; between the given nodes it has at most one each."""
     there = weights != 0
     first = np.argmax(there, axis=1)[:, np.newaxis]
@@ -275,7 +275,7 @@ def _between_zeros(nodes: Array, weights: Array, reach: Array, level: int) -> Ar
     zeros = np.broadcast_to(nodes[:, -1:], (len(nodes), nodes.shape[1] - 1)).copy()
     if len(row):
 
-        def value(z: Array, number: Array) -> Array:
+        def value(z: Floats, number: Floats) -> Floats:
             at = number.astype(np.intp)
             return _of_tower(z, level, nearest[at], weights[at], reach[at])
 
@@ -284,7 +284,7 @@ def _between_zeros(nodes: Array, weights: Array, reach: Array, level: int) -> Ar
     return np.concatenate([nodes[:, :1], zeros, nodes[:, -1:]], axis=1)
 
 
-def _of_tower(z: Array, level: int, nearest: Array, weights: Array, reach: Array) -> Array:
+def _of_tower(z: Floats, level: int, nearest: Floats, weights: Floats, reach: Floats) -> Floats:
     """Return sum w_i ((C - z) / (C_i - z))^(level + 1/2), with C the least reach that has a weight."""
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = (nearest - z[:, np.newaxis]) / (reach - z[:, np.newaxis])
@@ -293,8 +293,8 @@ def _of_tower(z: Array, level: int, nearest: Array, weights: Array, reach: Array
 
 
 def _crossings(
-    nodes: Array, weights: Array, reach: Array, base: Base
-) -> Iterator[tuple[int, npt.NDArray[np.intp], Array, Array, npt.NDArray[np.bool_]]]:
+    nodes: Floats, weights: Floats, reach: Floats, base: Base
+) -> Iterator[tuple[int, npt.NDArray[np.intp], Floats, Floats, npt.NDArray[np.bool_]]]:
     """Yield k, and row, size, residual and double of each root, where monotone pieces of the sums cross 2 pi k."""
     sums = np.stack([loop_sum(z, reach, weights, base) for z in nodes.T], axis=1)
     low, high = sums.min(axis=1), sums.max(axis=1)
@@ -310,7 +310,7 @@ def _crossings(
         row, left = np.nonzero(side[:, :-1] * side[:, 1:] < 0)
         if len(row):
 
-            def value(z: Array, number: Array, rows: npt.NDArray[np.intp] = rows, goal: float = goal) -> Array:
+            def value(z: Floats, number: Floats, rows: npt.NDArray[np.intp] = rows, goal: float = goal) -> Floats:
                 at = rows[number.astype(np.intp)]
                 return loop_sum(z, reach[at], weights[at], base) - goal
 
@@ -325,7 +325,7 @@ def _crossings(
             yield turns, rows[row], nodes[rows[row], at_node], over[row, at_node], np.ones(len(row), dtype=bool)
 
 
-def _bisected(value: object, low: Array, high: Array, number: npt.NDArray[np.intp]) -> Array:
+def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.intp]) -> Floats:
     """Return the root of each row between two points where its values differ in sign."""
     from scipy.optimize import elementwise
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, half_steps, loop_roots
 
 __all__ = ["FamilyOfCircles", "MappedLoop", "mapped_loop"]
 
-Array = npt.NDArray[np.float64]
 _SAME = 1e-12
 
 
@@ -76,7 +76,7 @@ class FamilyOfCircles:
     turns: int
 
 
-def mapped_loop(reach: Array, base: Base) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:
+def mapped_loop(reach: Floats, base: Base) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:
     """Return all circles of one loop, and the families.
 
     Parameters

@@ -14,6 +14,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
@@ -22,7 +23,6 @@ from synth.surfaces.cone import link_angles
 
 __all__ = ["LoopSteps", "Pair", "link_pairs", "loop_steps", "places_of_steps"]
 
-Array = npt.NDArray[np.float64]
 Pair = tuple[JointId, JointId]
 """Two joints of one link."""
 _HALF_TURN = 1e-9
@@ -43,7 +43,7 @@ class LoopSteps:
     """
 
     joints: tuple[JointId, ...]
-    steps: Array
+    steps: Floats
     circuits: Circuits
 
     @property
@@ -51,7 +51,7 @@ class LoopSteps:
         """Return which steps are half a turn and have no sign, though they are listed as +: bool[..., n]."""
         return np.asarray(np.pi - np.abs(self.steps) < _HALF_TURN)
 
-    def angles(self, cone_angle: npt.ArrayLike) -> Array:
+    def angles(self, cone_angle: npt.ArrayLike) -> Floats:
         """Return the link angles on cones: float[..., n] (Eq. 5).
 
         Parameters
