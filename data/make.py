@@ -19,7 +19,7 @@ import wiener_2016
 
 from graphs.files.formats import write
 from graphs.files.native.orientations import orientations_document
-from graphs.files.source import json_text
+from graphs.files.text import json_text
 
 HERE = Path(__file__).resolve().parent
 

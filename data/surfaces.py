@@ -7,7 +7,8 @@ from pathlib import Path
 
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
-from graphs.files.source import json_text, write_text
+from graphs.files.atomic import write_text
+from graphs.files.text import json_text
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.linkage import ConicalLinkage, write_conical
 from synth.surfaces.memberships import memberships

@@ -16,7 +16,8 @@ import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.source import MOST_NODES, Checker, read_text
+from graphs.files.check import MOST_NODES, Checker
+from graphs.files.text import read_text
 from graphs.mechanism.sc import SCGraph
 
 __all__ = [

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError
+from graphs.files.atomic import write_text
 from graphs.files.bare import (
     as_sc,
     edge_list_text,
@@ -23,7 +24,7 @@ from graphs.files.bare import (
 from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, sheet_from_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
-from graphs.files.source import load_json, write_text
+from graphs.files.text import load_json
 from graphs.mechanism.sheet import Sheet
 
 __all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_frame", "write"]

@@ -9,7 +9,7 @@ import numpy as np
 
 from enumerate.runner.running import Row, Sink
 from graphs.errors import UnsolvableError
-from graphs.files.source import FolderBeside
+from graphs.files.atomic import FolderBeside
 from synth.candidates.job import CandidateJob
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed

@@ -17,9 +17,11 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, shown
+from graphs.files.atomic import write_text
+from graphs.files.check import Checker
 from graphs.files.native.graphs import read_sc, sc_document
 from graphs.files.native.names import VERSION, written
-from graphs.files.source import Checker, json_text, load_json, write_text
+from graphs.files.text import json_text, load_json
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.several_loops import Pair, places_of_steps

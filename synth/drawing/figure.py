@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, UnsolvableError
-from graphs.files.source import Beside
+from graphs.files.atomic import Beside
 
 __all__ = ["COLOURS", "new_figure", "save_figure"]
 

@@ -17,8 +17,9 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.files.atomic import write_text
 from graphs.files.native.orientations import orientation_rows, orientations_document
-from graphs.files.source import json_text, write_text
+from graphs.files.text import json_text
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

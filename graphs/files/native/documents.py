@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, shown
+from graphs.files.check import Checker
 from graphs.files.native.graphs import read_sc, read_scd, sc_document
 from graphs.files.native.models import polyhedron_document, read_polyhedron
 from graphs.files.native.names import VERSION, head, tuple_of, written
-from graphs.files.source import Checker, json_text
+from graphs.files.text import json_text
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from graphs.errors import FileError, shown
+from graphs.files.check import Checker
 from graphs.files.native.names import count_or_names, head, is_count, names, written
-from graphs.files.source import Checker
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from typing import Any
 
+from graphs.files.check import Checker
 from graphs.files.native.names import count_or_names, head, names, tuple_of, written
-from graphs.files.source import Checker
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 
 __all__ = ["polyhedron_document", "read_polyhedron"]

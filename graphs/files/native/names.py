@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable
 from typing import Any
 
 from graphs.errors import UnsolvableError, shown
-from graphs.files.source import MOST_NODES, Checker
+from graphs.files.check import MOST_NODES, Checker
 
 __all__ = ["count_or_names", "head", "is_count", "names", "tuple_of", "written"]
 

@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, shown
+from graphs.files.check import Checker
 from graphs.files.native.names import VERSION, head
-from graphs.files.source import Checker, load_json
+from graphs.files.text import load_json
 
 __all__ = ["KIND", "Rows", "orientation_rows", "orientations_document", "rows_from_document"]
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from graphs.convert.tracing import MOST, Lines, trace_sheet
 from graphs.errors import FileError, shown
-from graphs.files.source import Checker, read_text
+from graphs.files.check import Checker
+from graphs.files.text import read_text
 from graphs.mechanism.sheet import Sheet, flat_places
 
 __all__ = ["cp_text", "sheet_from_cp"]

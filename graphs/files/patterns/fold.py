@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError
+from graphs.files.check import MOST_NODES, Checker
 from graphs.files.patterns.fold_frames import resolved_frame
-from graphs.files.source import MOST_NODES, Checker, json_text
+from graphs.files.text import json_text
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet
 
 __all__ = ["fold_text", "sheet_from_fold"]

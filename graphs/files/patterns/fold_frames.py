@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from graphs.errors import FileError
-from graphs.files.source import Checker
+from graphs.files.check import Checker
 
 __all__ = ["resolved_frame"]
 

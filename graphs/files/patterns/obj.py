@@ -11,7 +11,8 @@ from math import isfinite
 from pathlib import Path
 
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.source import Checker, read_text
+from graphs.files.check import Checker
+from graphs.files.text import read_text
 from graphs.mechanism.sheet import Sheet
 
 _CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +(-?\d{1,4}(?:\.\d{1,17})?))?")

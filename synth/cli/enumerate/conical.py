@@ -134,7 +134,7 @@ def _chain(name: str) -> SCGraph:
     from graphs.convert.table import to_sc
     from graphs.errors import FileError
     from graphs.files.formats import read
-    from graphs.files.source import load_json
+    from graphs.files.text import load_json
     from graphs.identity.chains import chain_from_id
     from graphs.mechanism.sc import SCGraph
     from synth.conformed.linkage import read_conical

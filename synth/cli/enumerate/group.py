@@ -130,7 +130,7 @@ def _write(output: str, rows: Iterator[dict[str, Any]]) -> None:
     from pathlib import Path
 
     from graphs.errors import FileError
-    from graphs.files.source import write_chunks
+    from graphs.files.atomic import write_chunks
 
     if not output.endswith(".jsonl"):
         raise FileError(output, "", "the extension is not known", ".jsonl")

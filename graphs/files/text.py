@@ -1,0 +1,107 @@
+"""Text and JSON: read from a file with the place of what is wrong, and laid out to be written."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NoReturn
+
+from graphs.errors import FileError
+from graphs.files.atomic import reason_of
+
+__all__ = ["json_text", "load_json", "read_text"]
+
+
+def read_text(path: Path) -> str:
+    """Return the text of a file (UTF-8, with or without byte order mark).
+
+    Raises
+    ------
+    FileError
+        If the file is missing, a directory, not readable, empty or not text.
+    """
+    try:
+        raw = path.read_bytes()
+    except FileNotFoundError:
+        raise FileError(path, "", "no such file", "a file") from None
+    except IsADirectoryError:
+        raise FileError(path, "", "a directory", "a file") from None
+    except PermissionError:
+        raise FileError(path, "", "no permission to read it") from None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise FileError(path, "", f"cannot be read: {reason_of(error)}") from None
+    if not raw.strip():
+        raise FileError(path, "", "the file is empty", "a mechanism")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError(path, f"byte {error.start}", "not text", "UTF-8 text") from None
+    if "\0" in text:
+        raise FileError(path, f"byte {raw.index(0)}", "a zero byte: a binary file?", "text")
+    return text
+
+
+def load_json(path: Path) -> Any:
+    """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys.
+
+    Raises
+    ------
+    FileError
+        With line and column of a syntax error.
+    """
+    text = read_text(path)
+
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        value = dict(pairs)
+        if len(value) < len(pairs):
+            keys = [key for key, _ in pairs]
+            again = next(key for key in keys if keys.count(key) > 1)
+            raise FileError(path, again if again.isprintable() else ascii(again), "the key occurs twice", "once")
+        return value
+
+    def no_constant(name: str) -> NoReturn:
+        raise FileError(path, "", f"the number {name}", "finite numbers")
+
+    try:
+        return json.loads(text, object_pairs_hook=once, parse_constant=no_constant)
+    except json.JSONDecodeError as error:
+        raise FileError(
+            path, f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}", "a JSON document"
+        ) from None
+    except RecursionError:
+        raise FileError(path, "", "the JSON is nested too deeply", "a mechanism") from None
+    except ValueError as error:  # an integer of more digits than Python converts
+        raise FileError(path, "", f"not JSON: {error}", "a JSON document") from None
+
+
+def json_text(document: Mapping[str, Any]) -> str:
+    r"""Return the text of a JSON document: a key a line, and a line for each item of lists of lists or objects.
+
+    Examples
+    --------
+    >>> print(json_text({"version": 1, "joints": [[0, 1], [1, 2]]}), end="")
+    {
+      "version": 1,
+      "joints": [
+        [0, 1],
+        [1, 2]
+      ]
+    }
+    """
+
+    def compact(value: Any) -> str:
+        return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+    rows = []
+    for key, value in document.items():
+        if isinstance(value, list) and value and isinstance(value[0], list | dict):
+            items, brackets = [compact(item) for item in value], "[]"
+        elif isinstance(value, dict) and value and isinstance(next(iter(value.values())), list):
+            items, brackets = [f"{compact(k)}: {compact(v)}" for k, v in value.items()], "{}"
+        else:
+            rows.append(f"  {compact(key)}: {compact(value)}")
+            continue
+        inner = ",\n".join("    " + item for item in items)
+        rows.append(f"  {compact(key)}: {brackets[0]}\n{inner}\n  {brackets[1]}")
+    return "{\n" + ",\n".join(rows) + "\n}\n"
