@@ -23,7 +23,7 @@ from typing import Any
 
 import networkx as nx
 
-from enumerate.runner.running import Counting, Row, Unit
+from enumerate.runner.job import Counting, Row, Unit
 from graphs.edit.sc import Edit, add_loop
 from graphs.errors import InvariantError
 from graphs.files.native.documents import dumps

@@ -16,7 +16,7 @@ from enumerate.chains.fractionated import Block, block_choices, glued, shapes
 from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.graphs import contracted_graphs
-from enumerate.runner.running import Counting, Row, Unit
+from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id

@@ -25,7 +25,7 @@ from enumerate.contracted.listing import (
     placements_of,
     symmetries_of,
 )
-from enumerate.runner.running import Row
+from enumerate.runner.job import Row
 from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of, canonical_order
 

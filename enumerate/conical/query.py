@@ -15,7 +15,7 @@ from typing import Any
 
 from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.conical.symmetries import joint_symmetries
-from enumerate.runner.running import Counting, Row, Unit
+from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId, LinkId

@@ -1,7 +1,6 @@
-"""The runner of every enumerator: units of work, worker processes, and rows that arrive in order.
+"""Running a job: units of work, worker processes, and rows that arrive in order.
 
-A *job* says what is enumerated and splits it into units; a *unit* is enumerated by one worker and gives some
-thousands of rows; a *sink* takes the rows of unit after unit. Units are worked on in any order and handed to the
+Units are worked on in any order and handed to the
 sink in theirs, so that two runs give equal files and a store holds exactly the units 0 to k - 1 whatever killed
 the run. Only a fixed number of units is in the air at any time: memory does not grow with the number of rows.
 """
@@ -18,14 +17,12 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
+from enumerate.runner.job import Job, Progress, Row, Sink, Unit
 from graphs.errors import StoreError
 
-__all__ = ["Counting", "Interrupted", "Job", "Progress", "Row", "Sink", "Unit", "run"]
-
-Row = tuple[Any, ...]
+__all__ = ["Interrupted", "run"]
 
 _AHEAD = 4
 """Units in the air for each worker."""
@@ -39,89 +36,6 @@ _PATIENCE = 3
 
 class Interrupted(Exception):
     """The user stopped the run; all units handed to the sink are safe."""
-
-
-@dataclass(frozen=True, slots=True)
-class Unit:
-    """A piece of work.
-
-    Attributes
-    ----------
-    payload : object
-        What a worker needs to know; small, and picklable.
-    weight : int
-        Expected work, in rows or whatever the job counts; progress is measured by it.
-    """
-
-    payload: Any
-    weight: int = 1
-
-
-class Job(Protocol):
-    """What an enumerator hands to the runner. A job is pickled to the workers: keep it small."""
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """Names of the values of a row, and their types: int, str, bool or float."""
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values: equal keys give equal rows."""
-
-    def units(self) -> Sequence[Unit]:
-        """All units, in order, always the same."""
-
-    def work(self, payload: Any) -> list[Row]:
-        """Return the rows of a unit, always the same."""
-
-
-class Counting:
-    """What jobs that count have in common: their rows are numbers to be added."""
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One number."""
-        return {"count": int}
-
-
-class Sink(Protocol):
-    """Where rows go."""
-
-    def start(self, job: Job) -> int:
-        """Prepare for a job; return how many of its units are there already."""
-
-    def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Keep the rows of a unit, all or none of them."""
-
-    def finish(self) -> None:
-        """All units were taken."""
-
-    def abort(self) -> None:
-        """There will be no more units, though some are missing; also where `start` failed."""
-
-
-@dataclass(slots=True)
-class Progress:
-    """How far a run has come."""
-
-    units: int
-    done: int = 0
-    weight: int = 0
-    total_weight: int = 0
-    rows: int = 0
-    seconds: float = 0.0
-    skipped_weight: int = 0
-
-    @property
-    def rate(self) -> float:
-        """Rows a second."""
-        return self.rows / self.seconds if self.seconds else 0.0
-
-    @property
-    def seconds_left(self) -> float:
-        """What is left, if the rest goes as fast as what is done."""
-        done = self.weight - self.skipped_weight
-        return self.seconds * (self.total_weight - self.weight) / done if done else float("inf")
 
 
 def run(

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.running import Job, Row, Sink
+from enumerate.runner.job import Job, Row, Sink
 from enumerate.runner.store import SqliteSink
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown

@@ -16,7 +16,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.running import Job, Row
+from enumerate.runner.job import Job, Row
 from graphs.errors import StoreError
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]

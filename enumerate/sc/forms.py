@@ -13,7 +13,7 @@ from typing import Any
 from enumerate.chains.names import name_of
 from enumerate.contracted.embedded import joint_matrix, outer_faces
 from enumerate.contracted.graphs import graph_key
-from enumerate.runner.running import Row, Unit
+from enumerate.runner.job import Row, Unit
 from enumerate.sc.jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units, maps_for, number_in
 from enumerate.sc.query import SCQuery
 from enumerate.sc.rows import SC_COLUMNS, sc_rows_of

@@ -12,7 +12,7 @@ import numpy as np
 from enumerate.contracted.embedded import outer_faces
 from enumerate.contracted.maps import contracted_maps
 from enumerate.kernel.maps import decode_map
-from enumerate.runner.running import Counting, Row, Unit
+from enumerate.runner.job import Counting, Row, Unit
 from enumerate.sc.listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc.query import SCQuery
 from enumerate.sc.rows import SC_COLUMNS, DrawnChains, sc_rows_of

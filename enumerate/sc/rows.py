@@ -9,7 +9,7 @@ import numpy as np
 
 from enumerate.chains.rows import assortment_text, chain_ids
 from enumerate.kernel.map_texts import map_ids
-from enumerate.runner.running import Row
+from enumerate.runner.job import Row
 from enumerate.sc.listing import centres_of_all, describe, list_drawn
 from enumerate.sc.query import SCQuery
 from graphs.arrays import Bytes, Flags, Ints

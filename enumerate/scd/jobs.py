@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from enumerate.runner.running import Counting, Row, Unit
+from enumerate.runner.job import Counting, Row, Unit
 from enumerate.sc.jobs import MapPart, drawn_of, map_units
 from enumerate.sc.listing import codes_of_all
 from enumerate.sc.query import SCQuery

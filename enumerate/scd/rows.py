@@ -7,7 +7,7 @@ import numpy as np
 from enumerate.chains.rows import chain_ids
 from enumerate.kernel.centre_labels import SPATIAL
 from enumerate.kernel.map_texts import map_ids
-from enumerate.runner.running import Row
+from enumerate.runner.job import Row
 from enumerate.sc.rows import within_limits
 from enumerate.scd.choices import outline
 from enumerate.scd.listing import list_placements_of, sides_of_all

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from enumerate.conical.query import ConicalQuery, Portion
-from enumerate.runner.running import Counting, Row, Unit
+from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.runner.running import Row, Sink
+from enumerate.runner.job import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import FolderBeside
 from synth.candidates.job import CandidateJob

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.runner.running import Row
+from enumerate.runner.job import Row
 from graphs.arrays import Floats, Ints
 from synth.candidates.values import four_bar_classes, half_turns, layers, loop_circuits
 from synth.conformed.all_angles import (

@@ -14,7 +14,7 @@ import click
 from synth.cli.output import console, plain, print_json, table
 
 if TYPE_CHECKING:
-    from enumerate.runner.running import Job, Progress, Row, Sink
+    from enumerate.runner.job import Job, Progress, Row, Sink
 
 __all__ = ["Limits", "RunOptions", "run_count", "run_rows", "runner_options"]
 

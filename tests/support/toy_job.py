@@ -7,7 +7,7 @@ import signal
 from dataclasses import dataclass
 from pathlib import Path
 
-from enumerate.runner.running import Unit
+from enumerate.runner.job import Unit
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from synth.cli.output import about, plain
 from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.running import Sink
+    from enumerate.runner.job import Sink
     from graphs.ids import LinkId
     from graphs.mechanism.sc import SCGraph
     from synth.candidates.job import CandidateJob, Filter
