@@ -7,6 +7,7 @@ import pytest
 from conical import random_lengths, random_link_angles, random_linkages
 
 from graphs.errors import InvariantError
+from synth.conformed.four_bar_poses import poses_from_conformed
 from synth.conformed.pose import angles_between, dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.fourbar.closing import (
     in_a_hemisphere,
@@ -22,7 +23,6 @@ from synth.fourbar.position import (
     input_limits_spherical,
     output_planar,
     output_spherical,
-    poses_from_conformed,
     transmission_planar,
     transmission_spherical,
 )
