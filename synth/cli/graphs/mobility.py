@@ -89,7 +89,7 @@ def _objects_stay() -> Iterator[None]:
 def _report(
     label: str, mechanism: Mechanism, exact: bool | None, hinge_flat: bool, pose: int | None
 ) -> MobilityReport:
-    from graphs.arbiter import model_with_exact, with_exact
+    from graphs.answer import model_with_exact, with_exact
     from graphs.convert.table import to_sc
     from graphs.count.report import mobility_report
     from graphs.mechanism.polyhedron import PolyhedronModel
@@ -111,7 +111,7 @@ def _report_of_sheet(
     label: str, sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | None
 ) -> MobilityReport:
     """Report a crease pattern; where flat edges matter, say what it is the other way round."""
-    from graphs.arbiter import with_exact, with_pose
+    from graphs.answer import with_exact, with_pose
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.count.report import mobility_report
     from graphs.files.formats import read_frame
