@@ -8,9 +8,10 @@ from pathlib import Path
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
 from graphs.files.atomic import write_text
+from graphs.files.native.conical import write_conical
 from graphs.files.text import json_text
+from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.linkage import ConicalLinkage, write_conical
 from synth.surfaces.memberships import memberships
 
 FIG_11 = {"OA": -40, "AB": -20, "BC": -45, "CD": -68, "DE": 28, "EF": 30}

@@ -20,12 +20,13 @@ from enumerate.conical.query import ConicalQuery, Portion
 from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.files.native.conical import conical_text
 from graphs.identity.chains import chain_id
 from graphs.ids import JointId, LinkId
+from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
 from synth.candidates.rows import Shape, order_rows, placed_rows
 from synth.conformed.cycles import loops_of_chain
-from synth.conformed.linkage import ConicalLinkage, conical_text
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import wrapped
 

@@ -17,11 +17,12 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
+from graphs.mechanism.conical import Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.circuit import circuits, wrapped
 from synth.surfaces.cone import cone_reach
 from synth.surfaces.loop_sums import LoopRoots, half_steps, loop_roots, sign_patterns
-from synth.surfaces.several_loops import Pair, link_pairs, places_of_steps
+from synth.surfaces.several_loops import link_pairs
 
 __all__ = ["CommonCone", "CommonFamily", "common_cones"]
 

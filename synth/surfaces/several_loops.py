@@ -7,7 +7,6 @@ back to where they began. All functions take many linkages of one chain at a tim
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -15,16 +14,15 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError
 from graphs.ids import JointId
+from graphs.mechanism.conical import Pair
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.circuit import Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles
 
-__all__ = ["LoopSteps", "Pair", "link_pairs", "loop_steps", "places_of_steps"]
+__all__ = ["LoopSteps", "link_pairs", "loop_steps"]
 
-Pair = tuple[JointId, JointId]
-"""Two joints of one link."""
 _HALF_TURN = 1e-9
 """Steps this near to half a turn (radians) are half turns."""
 
@@ -122,53 +120,3 @@ def loop_steps(chain: SCGraph, places: npt.ArrayLike) -> tuple[LoopSteps, ...]:
         steps = wrapped(np.roll(mine, -1, axis=-1) - mine)
         made.append(LoopSteps(loop.joints, steps, circuits(steps)))
     return tuple(made)
-
-
-def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dict[JointId, float]:
-    """Return the azimuths of joints from signed steps between pairs of them.
-
-    Parameters
-    ----------
-    steps : mapping of (joint, joint) to float
-        Projected angle from the first to the second, radians.
-    tolerance : float, optional
-        How far steps may disagree that lead to one joint two ways.
-
-    Returns
-    -------
-    dict of joint id to float
-        The first joint named is at 0.
-
-    Raises
-    ------
-    InvariantError
-        If the steps disagree, or leave joints unconnected.
-
-    Examples
-    --------
-    >>> found = places_of_steps({("O", "A"): -0.5, ("B", "A"): 0.25})
-    >>> found == {"O": 0.0, "A": -0.5, "B": -0.75}
-    True
-    """
-    placed: dict[JointId, float] = {}
-    left = dict(steps)
-    if left:
-        placed[next(iter(left))[0]] = 0.0
-    while left:
-        ready = next((pair for pair in left if pair[0] in placed or pair[1] in placed), None)
-        if ready is None:
-            a, b = next(iter(left))
-            raise InvariantError(
-                "steps", f"no steps lead from joint {shown(next(iter(placed)))} to {shown(a)}", "connected steps"
-            )
-        (a, b), step = ready, left.pop(ready)
-        if a not in placed:
-            placed[a] = placed[b] - step
-        elif b not in placed:
-            placed[b] = placed[a] + step
-        elif abs(float(wrapped(placed[a] + step - placed[b]))) > tolerance:
-            off = np.degrees(float(wrapped(placed[a] + step - placed[b])))
-            raise InvariantError(
-                "steps", f"the step from {shown(a)} to {shown(b)} misses by {off:.6g} degrees", "steps that agree"
-            )
-    return placed

@@ -12,9 +12,9 @@ from enumerate.conical.query import Portion
 from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
+from graphs.files.native.conical import read_conical
 from synth.candidates.job import CandidateJob
 from synth.conformed.four_bar_poses import poses_from_conformed
-from synth.conformed.linkage import read_conical
 from synth.conformed.pose import dihedral_angles, joint_axes
 from synth.conformed.rates import ConformedChain, first_order, pole_axes
 from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary

@@ -134,10 +134,10 @@ def _chain(name: str) -> SCGraph:
     from graphs.convert.table import to_sc
     from graphs.errors import FileError
     from graphs.files.formats import read
+    from graphs.files.native.conical import read_conical
     from graphs.files.text import load_json
     from graphs.identity.chains import chain_from_id
     from graphs.mechanism.sc import SCGraph
-    from synth.conformed.linkage import read_conical
 
     if name.lower() in chain_names():
         return sc_from_link_joint_graph(chain_from_id(chain_named(name)))

@@ -80,8 +80,8 @@ def map_command(
 
 
 def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
+    from graphs.files.native.conical import read_conical
     from synth.cli.surfaces.conical import by_angles, linkage_json, mapped, print_linkage
-    from synth.conformed.linkage import read_conical
 
     linkage = read_conical(file)
     with about(file):
@@ -137,6 +137,7 @@ def behaviour_command(
       synth cone behaviour --steps 40,50,50 --ground 2
       synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
     """
+    from graphs.files.native.conical import read_conical
     from synth.cli.surfaces.conical import (
         behaviours_json,
         behaviours_of,
@@ -145,7 +146,6 @@ def behaviour_command(
         on_cones,
         print_behaviours,
     )
-    from synth.conformed.linkage import read_conical
     from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from graphs.ids import JointId
+    from graphs.mechanism.conical import ConicalLinkage
     from graphs.mechanism.sc import SCGraph
     from synth.conformed.behaviours import Behaviour
-    from synth.conformed.linkage import ConicalLinkage
     from synth.conformed.rates import ConformedChain
     from synth.surfaces.linkage_cones import CommonCone, CommonFamily
 
@@ -69,7 +69,7 @@ class Found:
 def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
     """Return a linkage given by steps and lambda as one that is given by all its link angles."""
     from graphs.errors import UnsolvableError
-    from synth.conformed.linkage import ConicalLinkage
+    from graphs.mechanism.conical import ConicalLinkage
     from synth.surfaces.cone import link_angles
     from synth.surfaces.several_loops import link_pairs
 

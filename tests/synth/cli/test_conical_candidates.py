@@ -10,7 +10,7 @@ import pytest
 from commands import run
 
 from enumerate.runner.store import read_rows
-from synth.conformed.linkage import read_conical
+from graphs.files.native.conical import read_conical
 
 
 def named(row, key):

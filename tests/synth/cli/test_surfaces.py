@@ -12,7 +12,8 @@ import pytest
 from commands import run
 from conical import WATT
 
-from synth.conformed.linkage import ConicalLinkage, write_conical
+from graphs.files.native.conical import write_conical
+from graphs.mechanism.conical import ConicalLinkage
 from synth.surfaces.cone import link_angles
 from synth.surfaces.several_loops import link_pairs
 

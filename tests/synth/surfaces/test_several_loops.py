@@ -11,14 +11,15 @@ import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.files.native.conical import read_conical, write_conical
 from graphs.loops.loop import Loop
+from graphs.mechanism.conical import ConicalLinkage, places_of_steps
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.linkage import ConicalLinkage, read_conical, write_conical
 from synth.conformed.pose import angles_between, joint_axes
 from synth.surfaces.cone import link_angles, map_to_cones
 from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.memberships import memberships
-from synth.surfaces.several_loops import link_pairs, loop_steps, places_of_steps
+from synth.surfaces.several_loops import link_pairs, loop_steps
 
 ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"

@@ -10,8 +10,6 @@ Schema: graphs/schema/conical.schema.json. Guide: docs/files.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from math import degrees, radians
 from pathlib import Path
 from typing import Any
@@ -23,44 +21,12 @@ from graphs.files.native.graphs import read_sc, sc_document
 from graphs.files.native.names import VERSION, written
 from graphs.files.text import json_text, load_json
 from graphs.ids import JointId
+from graphs.mechanism.conical import ConicalLinkage, Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
-from synth.surfaces.several_loops import Pair, places_of_steps
 
-__all__ = ["ConicalLinkage", "conical_text", "read_conical", "write_conical"]
+__all__ = ["conical_text", "read_conical", "write_conical"]
 
 _FORMAT = "synthedra/conical"
-
-
-@dataclass(frozen=True, slots=True)
-class ConicalLinkage:
-    """A linkage whose joint axes are ruling lines of a cone.
-
-    Attributes
-    ----------
-    chain : SCGraph
-    angles : mapping of (joint, joint) to float, or None
-        Link angles, radians.
-    steps : mapping of (joint, joint) to float, or None
-        Signed projected angles, radians; they lead to every joint.
-    cone_angle : float or None
-        lambda, radians, where the file gives one.
-    """
-
-    chain: SCGraph
-    angles: Mapping[Pair, float] | None = None
-    steps: Mapping[Pair, float] | None = None
-    cone_angle: float | None = None
-
-    def places(self) -> list[float]:
-        """Return the azimuths of the joints, radians, in the order of the chain's joints.
-
-        Raises
-        ------
-        InvariantError
-            If the steps disagree, or do not lead to every joint.
-        """
-        placed = places_of_steps(self.steps or {})
-        return [placed[joint] for joint in self.chain.joints]
 
 
 def read_conical(path: str | Path) -> ConicalLinkage:

@@ -1,0 +1,102 @@
+"""A linkage on a cone, as it is given: a chain with link angles, or with steps between its joint axes.
+
+How it lies on cones is worked out in ``synth.surfaces``. Theory: docs/theory/multiloop.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import degrees, remainder, tau
+
+from graphs.errors import InvariantError, shown
+from graphs.ids import JointId
+from graphs.mechanism.sc import SCGraph
+
+__all__ = ["ConicalLinkage", "Pair", "places_of_steps"]
+
+Pair = tuple[JointId, JointId]
+"""Two joints of one link."""
+
+
+@dataclass(frozen=True, slots=True)
+class ConicalLinkage:
+    """A linkage whose joint axes are ruling lines of a cone.
+
+    Attributes
+    ----------
+    chain : SCGraph
+    angles : mapping of (joint, joint) to float, or None
+        Link angles, radians.
+    steps : mapping of (joint, joint) to float, or None
+        Signed projected angles, radians; they lead to every joint.
+    cone_angle : float or None
+        lambda, radians, where the file gives one.
+    """
+
+    chain: SCGraph
+    angles: Mapping[Pair, float] | None = None
+    steps: Mapping[Pair, float] | None = None
+    cone_angle: float | None = None
+
+    def places(self) -> list[float]:
+        """Return the azimuths of the joints, radians, in the order of the chain's joints.
+
+        Raises
+        ------
+        InvariantError
+            If the steps disagree, or do not lead to every joint.
+        """
+        placed = places_of_steps(self.steps or {})
+        return [placed[joint] for joint in self.chain.joints]
+
+
+def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dict[JointId, float]:
+    """Return the azimuths of joints from signed steps between pairs of them.
+
+    Parameters
+    ----------
+    steps : mapping of (joint, joint) to float
+        Projected angle from the first to the second, radians.
+    tolerance : float, optional
+        How far steps may disagree that lead to one joint two ways.
+
+    Returns
+    -------
+    dict of joint id to float
+        The first joint named is at 0.
+
+    Raises
+    ------
+    InvariantError
+        If the steps disagree, or leave joints unconnected.
+
+    Examples
+    --------
+    >>> found = places_of_steps({("O", "A"): -0.5, ("B", "A"): 0.25})
+    >>> found == {"O": 0.0, "A": -0.5, "B": -0.75}
+    True
+    """
+    placed: dict[JointId, float] = {}
+    left = dict(steps)
+    if left:
+        placed[next(iter(left))[0]] = 0.0
+    while left:
+        ready = next((pair for pair in left if pair[0] in placed or pair[1] in placed), None)
+        if ready is None:
+            a, b = next(iter(left))
+            raise InvariantError(
+                "steps", f"no steps lead from joint {shown(next(iter(placed)))} to {shown(a)}", "connected steps"
+            )
+        (a, b), step = ready, left.pop(ready)
+        if a not in placed:
+            placed[a] = placed[b] - step
+        elif b not in placed:
+            placed[b] = placed[a] + step
+        elif abs(off := remainder(placed[a] + step - placed[b], tau)) > tolerance:
+            raise InvariantError(
+                "steps",
+                f"the step from {shown(a)} to {shown(b)} misses by {degrees(off):.6g} degrees",
+                "steps that agree",
+            )
+    return placed
