@@ -10,7 +10,7 @@ from itertools import pairwise
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId, LinkId
-from graphs.mechanism.drawing import Side
+from graphs.mechanism.rotation import Side
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 
@@ -105,7 +105,7 @@ def string_of_chain(scd: SCDGraph) -> tuple[ChainString, str]:
     clusters, corners = [1], [-1]  # creases so far in each cluster, and the vertex in which they meet
     sides: list[bool] = []
     for before, link, after in zip(creases, path[1:-1], creases[1:], strict=False):
-        common = set(scd.ends_of_joint(before)) & set(scd.ends_of_joint(after))
+        common = set(scd.drawing.ends_of_joint(before)) & set(scd.drawing.ends_of_joint(after))
         if not common:
             clusters.append(1)
             corners.append(-1)

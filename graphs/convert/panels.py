@@ -14,7 +14,7 @@ from typing import Any
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import face_cycles, trace_faces
+from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import sides_of_face
 

@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphs.ids import LinkId
+from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
-from graphs.mechanism.scd import FaceKind, SCDGraph
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["VertexStep", "internal_rods", "reconstruct", "vertex_steps"]
 
@@ -57,7 +58,7 @@ def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
                 face_of[vertex] = face.index
     for vertex in sorted(meeting):
         face_index = face_of[vertex]
-        yield VertexStep(vertex, face_index, scd.kind_of_face(face_index), tuple(meeting[vertex]))
+        yield VertexStep(vertex, face_index, scd.drawing.kind_of_face(face_index), tuple(meeting[vertex]))
 
 
 def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
@@ -113,10 +114,10 @@ def reconstruct(scd: SCDGraph) -> PolyhedronModel:
 
 
 def _is_implicit(scd: SCDGraph, face: int) -> bool:
-    return scd.kind_of_face(face) is FaceKind.IMPLICIT
+    return scd.drawing.kind_of_face(face) is FaceKind.IMPLICIT
 
 
 def _remote_centre(scd: SCDGraph, face: int) -> RemoteCentre:
-    loop = scd.loop_of_face(face)
+    loop = scd.drawing.loop_of_face(face)
     assert loop is not None
-    return RemoteCentre(3, tuple(scd.ends_of_joint(joint) for joint in loop.joints), loop.name)
+    return RemoteCentre(3, tuple(scd.drawing.ends_of_joint(joint) for joint in loop.joints), loop.name)

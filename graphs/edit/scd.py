@@ -15,8 +15,9 @@ from graphs.edit.sc import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import Side
-from graphs.mechanism.scd import FaceKind, SCDGraph
+from graphs.mechanism.drawing import FaceKind
+from graphs.mechanism.rotation import Side
+from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["crease_link", "lock_hinge", "make_explicit", "make_implicit", "ride_along"]
 
@@ -320,9 +321,12 @@ def _opposite_open_edge(scd: SCDGraph, link: LinkId, vertex: int, place: int) ->
 def _face_with(scd: SCDGraph, loop: int, kind: FaceKind) -> int:
     if not 0 <= loop < len(scd.loops):
         raise InvariantError("edit", f"there is no loop {shown(loop)}", f"0 to {len(scd.loops) - 1}")
-    if loop not in scd.face_loops or scd.kind_of_face(scd.face_loops.index(loop)) is not kind:
+    if (
+        loop not in scd.drawing.face_loops
+        or scd.drawing.kind_of_face(scd.drawing.face_loops.index(loop)) is not kind
+    ):
         raise InvariantError("edit", f"the centre of {scd.loops[loop].label} is not {kind.value}", kind.value)
-    return scd.face_loops.index(loop)
+    return scd.drawing.face_loops.index(loop)
 
 
 def _with_ride_along(
@@ -349,7 +353,7 @@ def _with_ride_along(
 def _outer_after_ride_along(scd: SCDGraph, joint: JointId, a: LinkId, au: JointId) -> tuple[JointId, str] | None:
     """Name the outer face where its old name now stands for the new loop: it lies beyond the joint a-u."""
     side = "right" if scd.joints[joint][0] == a else "left"  # the face on the left when going from b to a
-    in_outer = scd.face_at(joint, side) == scd.outer_face
+    in_outer = scd.drawing.face_at(joint, side) == scd.drawing.outer_face
     return (au, "right") if in_outer else scd.outer
 
 
@@ -357,7 +361,7 @@ def _other_side_of(scd: SCDGraph, joint: JointId) -> tuple[JointId, str] | None:
     """Name the outer face by a joint that is not to go."""
     if scd.outer is None or scd.outer[0] != joint:
         return scd.outer
-    for corner in scd.faces[scd.outer_face].corners:
+    for corner in scd.faces[scd.drawing.outer_face].corners:
         other = corner.leaving
         if other is not None and other != joint:
             return other, "left" if scd.joints[other][0] == corner.link else "right"

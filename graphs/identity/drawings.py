@@ -25,7 +25,7 @@ from graphs.ids import JointId, LinkId
 from graphs.loops.classes import centre_classes
 from graphs.loops.cycle_space import cut_into_cycles, signed_cycle
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import Rotation, Side, trace_faces
+from graphs.mechanism.rotation import Rotation, Side, trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 
@@ -280,7 +280,7 @@ def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
         If the loops are not faces.
     """
     if isinstance(mechanism, SCDGraph):
-        corner = mechanism.faces[mechanism.outer_face].corners[0]
+        corner = mechanism.faces[mechanism.drawing.outer_face].corners[0]
         if corner.leaving is None:
             raise UnsolvableError("a single link has no joint to begin with")
         return mechanism.rotation, (corner.leaving, corner.link)

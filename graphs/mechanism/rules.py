@@ -1,4 +1,4 @@
-"""The rules that make an SCD graph valid (DESIGN, section 3; Wiener 2016, section 3.4).
+"""The rules that make an SCD graph valid, told of its drawing and its centre classes (Wiener 2016, section 3.4).
 
 *Points* are the vertices of the links and the centres of the classes, identified where they coincide: an
 explicit centre is its vertex. In the order in which they are checked:
@@ -25,80 +25,80 @@ here.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
+from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import Face, Rotation
-
-if TYPE_CHECKING:
-    from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.drawing import Drawing
+from graphs.mechanism.rotation import Face
 
 K = TypeVar("K", bound=Hashable)
 
-__all__ = ["check_rules", "check_sides", "points_of_joints", "points_of_links"]
+__all__ = ["check_rules", "points_of_joints", "points_of_links"]
 
 
-def check_sides(rotation: Rotation) -> None:
-    """Refuse a link of fewer than three sides."""
-    for link, sides in rotation.items():
-        if len(sides) < 3:
-            raise InvariantError(
-                "link degree",
-                f"link {shown(link)} has {len(sides)} side(s)",
-                "three or more, open edges included",
-            )
+def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
+    """Refuse a drawing that breaks a rule of the table above; link degree is checked when it is made.
 
-
-def check_rules(scd: SCDGraph) -> None:
-    """Refuse an SCD graph that breaks a rule; see the table above.
+    Parameters
+    ----------
+    drawing : Drawing
+        With its loops placed.
+    classes : sequence of CentreClass
+        Of these loops.
 
     Raises
     ------
     InvariantError
         ``rule`` is the first column of the table.
     """
-    for face in scd.faces:
-        _check_face(scd, face)
-    centres = _centre_points(scd)
-    _check_own_vertices(scd)
-    joints = points_of_joints(scd, centres)
+    for face in drawing.faces:
+        _check_face(drawing, face)
+    centres = _centre_points(drawing, classes)
+    _check_own_vertices(drawing)
+    joints = _with_centres({j: drawing.ends_of_joint(j) for j in drawing.joints}, classes, centres)
     _check_s1(joints)
-    _check_s2(scd, joints, points_of_links(scd, centres))
+    _check_s2(drawing, joints, points_of_links(drawing, classes))
 
 
-def points_of_joints(scd: SCDGraph, centres: tuple[int, ...] | None = None) -> dict[JointId, frozenset[int]]:
+def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[JointId, frozenset[int]]:
     """Return the points on the axis of each joint: its two ends and the centres it passes through."""
-    centres = _centre_points(scd) if centres is None else centres
-    points = {joint: set(scd.ends_of_joint(joint)) for joint in scd.joints}
-    for one, point in zip(scd.centre_classes(), centres, strict=True):
+    ends = {joint: drawing.ends_of_joint(joint) for joint in drawing.joints}
+    return _with_centres(ends, classes, _centre_points(drawing, classes))
+
+
+def points_of_links(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[LinkId, frozenset[int]]:
+    """Return the points of each link: its vertices and the centres on the axes of its joints."""
+    points = {link: set(here) for link, here in drawing.vertices.items()}
+    for one, point in zip(classes, _centre_points(drawing, classes), strict=True):
+        for joint in one.joints:
+            for link in drawing.joints[joint]:
+                points[link].add(point)
+    return {link: frozenset(here) for link, here in points.items()}
+
+
+def _with_centres(
+    ends: Mapping[JointId, tuple[int, int]], classes: Sequence[CentreClass], centres: Sequence[int]
+) -> dict[JointId, frozenset[int]]:
+    points = {joint: set(here) for joint, here in ends.items()}
+    for one, point in zip(classes, centres, strict=True):
         for joint in one.joints:
             points[joint].add(point)
     return {joint: frozenset(here) for joint, here in points.items()}
 
 
-def points_of_links(scd: SCDGraph, centres: tuple[int, ...] | None = None) -> dict[LinkId, frozenset[int]]:
-    """Return the points of each link: its vertices and the centres on the axes of its joints."""
-    centres = _centre_points(scd) if centres is None else centres
-    points = {link: set(here) for link, here in scd.vertices.items()}
-    for one, point in zip(scd.centre_classes(), centres, strict=True):
-        for joint in one.joints:
-            for link in scd.joints[joint]:
-                points[link].add(point)
-    return {link: frozenset(here) for link, here in points.items()}
-
-
-def _check_face(scd: SCDGraph, face: Face) -> None:
-    loop = scd.loop_of_face(face.index)
+def _check_face(drawing: Drawing, face: Face) -> None:
+    loop = drawing.loop_of_face(face.index)
     if loop is not None and loop.has_centre:
         _check_centre(face, loop)
         return
-    outer = face.index == scd.outer_face
+    outer = face.index == drawing.outer_face
     rule = "outer face" if outer else "spatial face"
-    tree = len(scd.faces) == 1
+    tree = len(drawing.faces) == 1
     if face.open_edges < 3 or (face.open_corners < 3 and not tree):
         name = "the outer face" if outer else f"the face {_around(face)}"
         corners = "" if tree else f" in {face.open_corners} corner(s)"
@@ -134,14 +134,14 @@ def _check_centre(face: Face, loop: Loop) -> None:
             gap, last = 0, corner.leaving
 
 
-def _centre_points(scd: SCDGraph) -> tuple[int, ...]:
+def _centre_points(drawing: Drawing, classes: Sequence[CentreClass]) -> tuple[int, ...]:
     """Return the point of each class of loops: the vertex of its explicit centre, or a new point."""
-    face_of_loop = {loop: face for face, loop in enumerate(scd.face_loops) if loop is not None}
+    face_of_loop = {loop: face for face, loop in enumerate(drawing.face_loops) if loop is not None}
     points = []
-    for index, one in enumerate(scd.centre_classes()):
-        explicit = [face for loop in one.loops if not scd.faces[face := face_of_loop[loop]].open_edges]
+    for index, one in enumerate(classes):
+        explicit = [face for loop in one.loops if not drawing.faces[face := face_of_loop[loop]].open_edges]
         if len(explicit) > 1:
-            a, b = (scd.loop_of_face(face) for face in explicit[:2])
+            a, b = (drawing.loop_of_face(face) for face in explicit[:2])
             assert a is not None
             assert b is not None
             raise InvariantError(
@@ -150,21 +150,21 @@ def _centre_points(scd: SCDGraph) -> tuple[int, ...]:
                 "an open edge in every corner of all but one of them",
             )
         if explicit:
-            corner = scd.faces[explicit[0]].corners[0]
-            points.append(scd.vertices[corner.link][corner.last_side])
+            corner = drawing.faces[explicit[0]].corners[0]
+            points.append(drawing.vertices[corner.link][corner.last_side])
         else:
-            points.append(scd.counts.vertices + index)
+            points.append(drawing.vertex_count + index)
     return tuple(points)
 
 
-def _check_own_vertices(scd: SCDGraph) -> None:
-    for joint in scd.joints:
-        a, b = scd.ends_of_joint(joint)
+def _check_own_vertices(drawing: Drawing) -> None:
+    for joint in drawing.joints:
+        a, b = drawing.ends_of_joint(joint)
         if a == b:
             raise InvariantError(
                 "joint ends", f"both ends of joint {shown(joint)} are vertex {a}", "two different vertices"
             )
-    for link, vertices in scd.vertices.items():
+    for link, vertices in drawing.vertices.items():
         if len(set(vertices)) < len(vertices):
             raise InvariantError(
                 "link corners", f"two corners of link {shown(link)} are one vertex", "different vertices"
@@ -181,17 +181,20 @@ def _check_s1(points: Mapping[JointId, frozenset[int]]) -> None:
 
 
 def _check_s2(
-    scd: SCDGraph, of_joint: Mapping[JointId, frozenset[int]], of_link: Mapping[LinkId, frozenset[int]]
+    drawing: Drawing, of_joint: Mapping[JointId, frozenset[int]], of_link: Mapping[LinkId, frozenset[int]]
 ) -> None:
+    between: dict[frozenset[LinkId], list[JointId]] = {}
+    for joint, ends in drawing.joints.items():
+        between.setdefault(frozenset(ends), []).append(joint)
     for a, b in _sharing_two(of_link):
         common = of_link[a] & of_link[b]
-        if not scd.has_edge(a, b):
+        if frozenset((a, b)) not in between:
             raise InvariantError(
                 "S2",
                 f"links {shown(a)} and {shown(b)} share {len(common)} points and no joint",
                 "one at most",
             )
-        if not any(common <= of_joint[joint] for joint in scd[a][b]):
+        if not any(common <= of_joint[joint] for joint in between[frozenset((a, b))]):
             raise InvariantError(
                 "S2",
                 f"links {shown(a)} and {shown(b)} share points off the axis of their joint",

@@ -87,7 +87,7 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
     points = [(one.joints, one.centre is Centre.INFINITE) for one in classes]
     if forced and isinstance(mechanism, SCDGraph):
         through: dict[int, set[JointId]] = defaultdict(set)
-        for joint, here in points_of_joints(mechanism).items():
+        for joint, here in points_of_joints(mechanism.drawing, mechanism.centre_classes()).items():
             for point in here:
                 through[point].add(joint)
         known = {joints for joints, _ in points}

@@ -6,7 +6,7 @@ from itertools import combinations_with_replacement, permutations, product
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
-from graphs.mechanism.drawing import trace_faces
+from graphs.mechanism.rotation import trace_faces
 from graphs.mechanism.scd import SCDGraph
 
 
@@ -41,7 +41,7 @@ def code(scd):
     codes = []
     for mirror in (False, True):
         turns = {link: sides[::-1] if mirror else sides for link, sides in scd.rotation.items()}
-        for corner in scd.faces[scd.outer_face].corners:
+        for corner in scd.faces[scd.drawing.outer_face].corners:
             first = corner.arriving if mirror else corner.leaving
             number, start, order, text = {corner.link: 0}, {corner.link: first}, [corner.link], []
             for link in order:

@@ -24,8 +24,8 @@ from graphs.files.formats import read
 from graphs.files.native.documents import dumps
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.scd import FaceKind
 from graphs.rank.generic import exact_mobility
 from graphs.rank.rods import exact_mobility_of_model
 
@@ -101,7 +101,7 @@ def check(row, scd, tmp_path=None):
     model = reconstruct(scd)
     assert exact_mobility_of_model(model).mobility == row["dof"]
     assert len(model) == scd.counts.vertices == row["vertices"]
-    kinds = [scd.kind_of_face(face.index) for face in scd.faces]
+    kinds = [scd.drawing.kind_of_face(face.index) for face in scd.faces]
     assert (kinds.count(FaceKind.EXPLICIT), kinds.count(FaceKind.IMPLICIT)) == (row["explicit"], row["implicit"])
     assert scd.counts.open_edges == row["open_edges"]
     degrees = [len(sides) for sides in scd.rotation.values()]

@@ -33,10 +33,10 @@ def test_creases_of_a_cluster_meet_in_one_vertex_and_panels_part_clusters(chain_
     scd = chain_scd(chain, mode)
     crease = 0
     for k in chain.clusters:
-        ends = [set(scd.ends_of_joint(j)) for j in range(crease, crease + k)]
+        ends = [set(scd.drawing.ends_of_joint(j)) for j in range(crease, crease + k)]
         assert k == 1 or len(set.intersection(*ends)) == 1
         if crease:
-            assert not set(scd.ends_of_joint(crease - 1)) & ends[0]
+            assert not set(scd.drawing.ends_of_joint(crease - 1)) & ends[0]
         crease += k
 
 

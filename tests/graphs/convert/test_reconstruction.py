@@ -6,7 +6,8 @@ from graphs.convert.panels import scd_from_panels
 from graphs.convert.reconstruction import internal_rods, reconstruct, vertex_steps
 from graphs.count.equations import mobility_of_model
 from graphs.loops.loop import Loop
-from graphs.mechanism.scd import FaceKind, SCDGraph
+from graphs.mechanism.drawing import FaceKind
+from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import sheet_from_model
 
 
@@ -32,7 +33,7 @@ def test_every_vertex_is_told_once_with_the_links_that_have_it(scd):
 def test_links_of_the_model_share_rods_where_they_are_joined(scd):
     model = reconstruct(scd)
     for joint, (a, b) in scd.joints.items():
-        ends = set(scd.ends_of_joint(joint))
+        ends = set(scd.drawing.ends_of_joint(joint))
         assert ends <= set(model.links[a]) & set(model.links[b])
         assert model.has_edge(*ends)
 
@@ -43,7 +44,7 @@ def test_links_of_the_model_as_panels_give_the_graph_back(scd):
     back = scd_from_panels(dict(reconstruct(scd).links))
     assert sorted(map(sorted, back.joints.values())) == sorted(map(sorted, scd.joints.values()))
     assert back.counts.external_edges == scd.counts.external_edges
-    explicit = [kind for kind in map(scd.kind_of_face, range(len(scd.faces))) if kind is FaceKind.EXPLICIT]
+    explicit = [kind for kind in map(scd.drawing.kind_of_face, range(len(scd.faces))) if kind is FaceKind.EXPLICIT]
     assert len(back.loops) == len(explicit)
 
 
@@ -66,7 +67,9 @@ def test_a_remote_centre_keeps_the_rods_of_its_joints():
     )
     (centre,) = reconstruct(scd).centres
     assert centre.name == "S"
-    assert {frozenset(rod) for rod in centre.rods} == {frozenset(scd.ends_of_joint(joint)) for joint in scd.joints}
+    assert {frozenset(rod) for rod in centre.rods} == {
+        frozenset(scd.drawing.ends_of_joint(joint)) for joint in scd.joints
+    }
 
 
 @given(scd_graphs)

@@ -110,7 +110,7 @@ def test_the_outer_boundary_may_be_named():
     ring = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
     for side in ((0, 1), (4, 5)):
         scd = scd_from_panels(ring, outer=side)
-        on_outer = {v for face in [scd.faces[scd.outer_face]] for c in face.corners for v in [c.link]}
+        on_outer = {v for face in [scd.faces[scd.drawing.outer_face]] for c in face.corners for v in [c.link]}
         assert on_outer == {0, 1, 2, 3}
     assert scd_from_panels(ring, outer=(0, 1)).outer != scd_from_panels(ring, outer=(4, 5)).outer
 

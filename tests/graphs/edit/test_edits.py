@@ -10,8 +10,8 @@ from graphs.edit.sc import add_crease, add_loop, add_ride_along, fresh, lock_joi
 from graphs.edit.scd import crease_link, lock_hinge, make_explicit, make_implicit, ride_along
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
+from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.scd import FaceKind
 from graphs.reduce.ride_alongs import reduce_addenda
 
 SIX = SCGraph(6, [(i, (i + 1) % 6) for i in range(6)], [Loop(range(6))])
@@ -122,7 +122,7 @@ def test_a_crease_and_its_lock_cancel():
 
 def test_a_centre_goes_and_comes_back():
     away = confirmed(make_implicit(FAN, 0))
-    assert away.graph.kind_of_face(away.graph.face_loops.index(0)) is FaceKind.IMPLICIT
+    assert away.graph.drawing.kind_of_face(away.graph.drawing.face_loops.index(0)) is FaceKind.IMPLICIT
     assert confirmed(make_explicit(away.graph, 0)).graph.is_identical(FAN)
 
 

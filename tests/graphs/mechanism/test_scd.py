@@ -10,8 +10,9 @@ from graphs.count.equations import loop_form, polyhedron_equation
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
+from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.rules import points_of_joints, points_of_links
-from graphs.mechanism.scd import FaceKind, SCDGraph
+from graphs.mechanism.scd import SCDGraph
 
 FOUR = [(0, 1), (1, 2), (2, 3), (3, 0)]
 RING = [Loop((0, 1, 2, 3))]
@@ -26,7 +27,7 @@ def four_bar(rotation=TRIANGLES, loops=RING, outer=(0, "right"), **options):
 def test_four_bar_of_triangles():
     scd = four_bar()
     assert (scd.counts.vertices, scd.counts.external_edges, scd.counts.internal_edges) == (5, 8, 0)
-    assert [scd.kind_of_face(face.index) for face in scd.faces] == [FaceKind.EXPLICIT, FaceKind.OUTER]
+    assert [scd.drawing.kind_of_face(face.index) for face in scd.faces] == [FaceKind.EXPLICIT, FaceKind.OUTER]
     centre = set.intersection(*(set(around) for around in scd.vertices.values()))
     assert len(centre) == 1
 
@@ -160,12 +161,15 @@ def test_the_two_ends_of_a_joint_are_seen_alike_from_both_links(scd):
         for link in links:
             i = scd.rotation[link].index(joint)
             around = scd.vertices[link]
-            assert {around[i - 1], around[i]} == set(scd.ends_of_joint(joint))
+            assert {around[i - 1], around[i]} == set(scd.drawing.ends_of_joint(joint))
 
 
 @given(scd_graphs)
 def test_rules_s1_and_s2_by_comparing_every_pair(scd):
-    of_joint, of_link = points_of_joints(scd), points_of_links(scd)
+    of_joint, of_link = (
+        points_of_joints(scd.drawing, scd.centre_classes()),
+        points_of_links(scd.drawing, scd.centre_classes()),
+    )
     for a in of_joint:
         assert all(a == b or len(of_joint[a] & of_joint[b]) <= 1 for b in of_joint)
     for a in of_link:
@@ -211,7 +215,7 @@ def test_a_sub_mechanism_may_hang_inside_a_face():
     report = mobility_report(scd)
     assert (report.mechanism_class, report.mobility) == ("hybrid", 11 - 3 - 6)
     assert report.equations["polyhedron"].value == 2
-    kinds = sorted(scd.kind_of_face(face.index).value for face in scd.faces)
+    kinds = sorted(scd.drawing.kind_of_face(face.index).value for face in scd.faces)
     assert kinds == ["explicit", "outer", "spatial"]
 
 
