@@ -15,11 +15,12 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def _renew_compiled_code() -> None:
     """Remove machine code kept by numba that is older than a source file: it may call an old function in another."""
-    folder = ROOT / "enumerate"
-    newest = max(source.stat().st_mtime for source in folder.glob("*.py"))
-    for kept in (folder / "__pycache__").glob("*.nbi"):
-        if kept.stat().st_mtime < newest:
-            kept.unlink(missing_ok=True)
+    folders = [ROOT / package for package in ("graphs", "enumerate", "synth")]
+    newest = max(source.stat().st_mtime for folder in folders for source in folder.rglob("*.py"))
+    for folder in folders:
+        for kept in folder.rglob("__pycache__/*.nbi"):
+            if kept.stat().st_mtime < newest:
+                kept.unlink(missing_ok=True)
 
 
 _renew_compiled_code()

@@ -1,1 +1,34 @@
-"""The runner of every enumerator: units of work, worker processes, sinks and stores."""
+"""The runner of every enumerator: jobs in units of work, worker processes, sinks and stores."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from graphs.lazy import offered
+
+if TYPE_CHECKING:
+    from enumerate.runner.job import Counting as Counting
+    from enumerate.runner.job import Job as Job
+    from enumerate.runner.job import Progress as Progress
+    from enumerate.runner.job import Row as Row
+    from enumerate.runner.job import Sink as Sink
+    from enumerate.runner.job import Unit as Unit
+    from enumerate.runner.running import Interrupted as Interrupted
+    from enumerate.runner.running import run as run
+    from enumerate.runner.sinks import CountSink as CountSink
+    from enumerate.runner.sinks import RowSink as RowSink
+    from enumerate.runner.sinks import SortedSink as SortedSink
+    from enumerate.runner.sinks import sink_for as sink_for
+    from enumerate.runner.store import SqliteSink as SqliteSink
+    from enumerate.runner.store import read_meta as read_meta
+    from enumerate.runner.store import read_rows as read_rows
+else:
+    __getattr__, __dir__, __all__ = offered(
+        __name__,
+        {
+            "job": "Counting Job Progress Row Sink Unit",
+            "running": "Interrupted run",
+            "sinks": "CountSink RowSink SortedSink sink_for",
+            "store": "SqliteSink read_meta read_rows",
+        },
+    )

@@ -1,1 +1,1 @@
-"""The ``synth`` command."""
+"""The ``synth`` command: each subcommand reads, calls one function, and prints."""

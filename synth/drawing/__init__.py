@@ -1,1 +1,26 @@
-"""Pictures."""
+"""Pictures: loop sums, linkages on cones, orientations on the sphere."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from graphs.lazy import offered
+
+if TYPE_CHECKING:
+    from synth.drawing.conformed import draw_conformed as draw_conformed
+    from synth.drawing.figure import new_figure as new_figure
+    from synth.drawing.figure import save_figure as save_figure
+    from synth.drawing.sphere import draw_hoop as draw_hoop
+    from synth.drawing.sphere import draw_map as draw_map
+    from synth.drawing.sums import draw_cone_sums as draw_cone_sums
+    from synth.drawing.sums import draw_cylinder_sums as draw_cylinder_sums
+else:
+    __getattr__, __dir__, __all__ = offered(
+        __name__,
+        {
+            "conformed": "draw_conformed",
+            "figure": "new_figure save_figure",
+            "sphere": "draw_hoop draw_map",
+            "sums": "draw_cone_sums draw_cylinder_sums",
+        },
+    )

@@ -1,1 +1,1 @@
-"""The native JSON formats."""
+"""The native JSON formats, each with its reader and its writer; schemas are in ``graphs/schema/``."""

@@ -1,1 +1,1 @@
-"""Crease patterns: FOLD, .cp, SVG, OBJ."""
+"""Crease patterns as files: FOLD, .cp, SVG, OBJ; each reader makes a `Sheet`."""

@@ -1,1 +1,1 @@
-"""``synth enumerate``."""
+"""``synth enumerate``: a module for each subcommand."""

@@ -1,0 +1,134 @@
+"""The rooms of the project: which may import which, how large they are, and what their faces offer."""
+
+import ast
+from importlib import import_module
+from pathlib import Path
+
+import networkx as nx
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ["graphs", "enumerate", "synth"]
+SOURCES = [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
+FACES = [path for path in SOURCES if path.name == "__init__.py"]
+
+
+def dotted(path):
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+NAMES = {dotted(path) for path in SOURCES}
+
+
+def imported(path):
+    """Every name of ours that a file imports, at its head or inside a function, with the module it is in."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in NAMES else node.module
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+
+
+def room(name):
+    """A folder of a package, with its subfolders; a file beside the folders is a room of its own."""
+    return ".".join(name.split(".")[:2])
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_imports_go_one_way(package):
+    later = PACKAGES[PACKAGES.index(package) + 1 :]
+    for path in (ROOT / package).rglob("*.py"):
+        for name in imported(path):
+            assert name.split(".")[0] not in later, f"{path} imports {name}"
+            assert name != "enumerate", f"{path} hides the builtin"
+
+
+def test_there_is_no_circle_between_rooms():
+    """What faces import does not count: they offer what their own rooms have."""
+    rooms = nx.DiGraph()
+    for path in SOURCES:
+        here = room(dotted(path))
+        rooms.add_edges_from(
+            (here, room(name)) for name in imported(path) if name.split(".")[0] in PACKAGES and room(name) != here
+        )
+    assert {room(name) for name in NAMES} >= set(rooms)
+    assert list(nx.simple_cycles(rooms)) == []
+
+
+def test_rooms_fit_a_readers_head():
+    sizes = {face.parent: len(list(face.parent.glob("*.py"))) - 1 for face in FACES}
+    assert {str(folder): size for folder, size in sizes.items() if size > 12} == {}
+
+
+def test_no_file_outgrows_a_reader():
+    lines = {str(path): len(path.read_text(encoding="utf-8").splitlines()) for path in SOURCES}
+    assert {path: n for path, n in lines.items() if n > 430} == {}
+
+
+def test_every_folder_of_code_is_a_room_with_a_word_to_say():
+    for path in SOURCES:
+        face = path.parent / "__init__.py"
+        assert face in FACES, f"{path.parent} has no face"
+        assert ast.get_docstring(ast.parse(face.read_text(encoding="utf-8"))), face
+
+
+def offered(face):
+    """What a face offers lazily, and what it tells type checkers: name to module, twice."""
+    tree = ast.parse(face.read_text(encoding="utf-8"))
+    told = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] in PACKAGES:
+            for alias in node.names:
+                if alias.asname:
+                    assert alias.asname == alias.name
+                    told[alias.name] = node.module
+    tables = [
+        ast.literal_eval(node.args[1])
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "offered"
+    ]
+    module = dotted(face)
+    lazy = {}
+    for table in tables:
+        for file, names in table.items():
+            where = file if "." in file else f"{module}.{file}"
+            lazy.update(dict.fromkeys(names.split(), where))
+    return lazy, told
+
+
+@pytest.mark.parametrize("face", FACES, ids=dotted)
+def test_a_face_offers_what_it_says(face):
+    lazy, told = offered(face)
+    assert lazy == told
+    module = import_module(dotted(face))
+    for name, where in lazy.items():
+        assert getattr(module, name) is getattr(import_module(where), name)
+    assert set(lazy) <= set(dir(module))
+
+
+@pytest.mark.parametrize("face", FACES, ids=dotted)
+def test_no_name_of_a_face_is_a_file_or_room(face):
+    """Importing the file would put the module in the place of what the face offers."""
+    lazy, _ = offered(face)
+    inside = {path.stem for path in face.parent.glob("*.py")} | {
+        path.name for path in face.parent.iterdir() if (path / "__init__.py").exists()
+    }
+    assert not set(lazy) & inside
+
+
+def test_a_face_has_no_other_names():
+    import graphs.loops
+
+    with pytest.raises(AttributeError, match=r"module 'graphs.loops' has no attribute 'loop_of_nothing'"):
+        _ = graphs.loops.loop_of_nothing
+
+
+def test_tests_mirror_the_rooms():
+    """A folder of tests is named as a room is."""
+    for package in PACKAGES:
+        for folder in (ROOT / "tests" / package).rglob("*"):
+            if folder.is_dir() and folder.name != "__pycache__":
+                assert (ROOT / folder.relative_to(ROOT / "tests") / "__init__.py").exists(), folder
