@@ -5,8 +5,8 @@ joints (`enumerate.contracted.binary_links`), so work grows with the number of c
 a chain of one loop is a ring. Numbers are found in two ways (`enumerate.chains.counting`). Theory:
 docs/theory/chains.md.
 
-Source: Yan and Hwang, *The specialization of mechanisms*, Mech. Mach. Theory 26 (1991), for the words; the method
-is DESIGN, section 6. OEIS A233288 has the numbers for M = 1.
+Source: Yan and Hwang, *The specialization of mechanisms*, Mech. Mach. Theory 26 (1991), for the words. OEIS
+A233288 has the numbers for M = 1.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ A *code* reads a map off breadth-first: from a root dart, link by link in the or
 sides of each in their cyclic order, beginning with the joint by which it was met. Joints are numbered as they
 come, so every one occurs twice. A map may be read counter-clockwise or clockwise; the canonical code is the
 least over all allowed roots and both senses, and the roots that give it are the symmetries. The text form is in
-`graphs.identity.drawings`. Source: DESIGN, section 6. Theory: docs/theory/map-codes.md.
+`graphs.identity.drawings`. Theory: docs/theory/map-codes.md.
 """
 
 from __future__ import annotations

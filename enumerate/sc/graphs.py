@@ -5,8 +5,7 @@ A drawn chain is a contracted map (`enumerate.contracted.maps`) with binary link
 allow. Work grows with the number of SC graphs. Numbers are found in two ways. Theory:
 docs/theory/sc-enumeration.md.
 
-Source: Wiener 2016, sections 3.3 and 6.4, which names an exhaustive type synthesis as the use of SC graphs; the
-method is DESIGN, section 6.
+Source: Wiener 2016, sections 3.3 and 6.4, which names an exhaustive type synthesis as the use of SC graphs.
 """
 
 from __future__ import annotations

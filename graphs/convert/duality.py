@@ -1,7 +1,7 @@
 """From a sheet to its mechanism, by duality.
 
 Panels are links, creases are joints and an interior vertex is a finite centre; leftover loops (holes, handles)
-are spatial. Source: DESIGN, section 4. Theory: docs/theory/crease-patterns.md.
+are spatial. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Independent loops of a bare link-joint graph: the faces of an embedding, or a shortest cycle basis.
 
-DESIGN, section 3: a planar graph for which no loops are given takes the faces of an embedding. Blocks are
+A planar graph for which no loops are given takes the faces of an embedding. Blocks are
 embedded one by one, so that every face is one cycle; a block that is not planar takes a minimum cycle basis.
 """
 

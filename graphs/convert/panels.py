@@ -1,7 +1,7 @@
 """Panels given by their vertices, as in a mesh or a crease pattern, to an SCD graph.
 
 Two panels that share a side are hinged there; an interior vertex is a finite, explicit centre; a hole is a
-spatial loop. Source: DESIGN, section 4 (duality); Wiener 2016, section 3.4. Theory:
+spatial loop. Source: Wiener 2016, section 3.4. Theory:
 docs/theory/scd-graphs.md.
 """
 

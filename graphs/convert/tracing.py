@@ -1,7 +1,7 @@
 """From the lines of a planar crease pattern to its vertices, edges and faces.
 
 Lines cross, meet in the middle of each other, stop short, and come twice. They are welded by a tolerance, split
-where they meet, and the faces are walked round. Source: DESIGN, section 4. Theory: docs/theory/crease-patterns.md.
+where they meet, and the faces are walked round. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Mobility by count: the equations of the papers, one function each.
 
-Wiener 2016, Eqs. 1 to 4 and 8; Wampler, Larson, Erdman 2007, Eqs. 5 to 10; DESIGN, section 3 (loop form,
-closed surfaces). All are formulas: they hold for a general member of a type, and not for every type
+Wiener 2016, Eqs. 1 to 4 and 8; Wampler, Larson, Erdman 2007, Eqs. 5 to 10. Beside them the loop form and the count
+of closed surfaces. All are formulas: they hold for a general member of a type, and not for every type
 (docs/theory/mobility-by-count.md). :mod:`graphs.count.report` says which of them apply to a given mechanism.
 """
 
@@ -118,7 +118,7 @@ def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
 
     Notes
     -----
-    DESIGN, section 3. For a connected SCD graph it equals :func:`polyhedron_equation` identically.
+    For a connected SCD graph it equals :func:`polyhedron_equation` identically.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def closed_surface(joints: int, faces: int, spatial_loops: int, centres: Iterabl
 
     Notes
     -----
-    DESIGN, section 3. By duality the joint axes are the bars of a framework whose joints are the centres:
+    By duality the joint axes are the bars of a framework whose joints are the centres:
     motions of the one are stresses of the other, of dimension J - (3 F - 6).
 
     Examples

@@ -1,6 +1,6 @@
 """The mobility report: the class of a mechanism, which equations apply, why the others do not, their values.
 
-Source: Wiener 2016, Fig. 37 and Table 6; Wampler, Larson, Erdman 2007, Eqs. 5 to 10; DESIGN, section 3.
+Source: Wiener 2016, Fig. 37 and Table 6; Wampler, Larson, Erdman 2007, Eqs. 5 to 10.
 Theory: docs/theory/mobility-by-count.md.
 """
 
@@ -97,7 +97,7 @@ class MobilityReport:
         return replace(self, repairs=(*self.repairs, *repairs), warnings=(*self.warnings, *warnings))
 
     def to_json(self, file: str) -> dict[str, Any]:
-        """Return the report as plain data, with the keys that scripts rely on (DESIGN, section 5)."""
+        """Return the report as plain data, with the keys that scripts rely on (docs/files.md)."""
         return {
             "file": file,
             "class": self.mechanism_class,

@@ -198,7 +198,7 @@ def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
     """
     _check_links(sc, link)
     beyond = set(moved)
-    for joint in beyond:
+    for joint in moved:
         if joint not in sc.joints or link not in sc.joints[joint]:
             raise InvariantError(
                 "crease", f"joint {shown(joint)} is not at link {shown(link)}", "one of its joints"

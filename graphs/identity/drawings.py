@@ -8,7 +8,7 @@ two joints. Where centres are not all finite, ``;`` and a letter for each bounde
 which they are met: ``f`` finite, ``i`` infinite, ``s`` spatial. With more than 52 joints these are numbers,
 parted by commas.
 
-Names and ground links do not count. A changed form would be ``m2:``. Source: DESIGN, section 6.
+Names and ground links do not count. A changed form would be ``m2:``.
 Theory: docs/theory/map-codes.md.
 """
 

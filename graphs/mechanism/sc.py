@@ -47,7 +47,7 @@ class SCGraph(nx.MultiGraph):
     Raises
     ------
     InvariantError
-        Naming what breaks which invariant (DESIGN, section 3): link names distinct as text, joints between
+        Naming what breaks which invariant: link names distinct as text, joints between
         two different known links, each loop one cycle, loops independent over GF(2), closing loops dependent
         on them and independent of each other, finite and infinite centres never forced to be one.
 

@@ -6,7 +6,7 @@ earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre at inf
 p x u). An SCD graph has more points on its axes than centres, its vertices, and is placed with these: its *forced
 geometry*.
 
-Source: DESIGN, section 6. Theory: docs/theory/exact-mobility.md.
+Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ for a point on a line, five for a scissors element. Vertices are placed so that 
 a point. There the vertices of a link are coplanar and its rods alone misreport, so links of four vertices or more
 get a virtual apex, a random point joined to all their vertices.
 
-Source: Wampler, Larson, Erdman 2007, Eqs. 5 to 10; DESIGN, section 3. Theory: docs/theory/exact-mobility.md.
+Source: Wampler, Larson, Erdman 2007, Eqs. 5 to 10. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations

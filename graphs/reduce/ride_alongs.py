@@ -2,7 +2,7 @@
 
 A *ride-along addendum* is two binary links u, v appended to two adjacent links a, b so that the four meet in one
 centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. Source: Wiener 2016, sections
-4.2.4 and 4.2.5; DESIGN, section 6. Theory: docs/theory/reduction.md.
+4.2.4 and 4.2.5. Theory: docs/theory/reduction.md.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ class Reduction:
         return [forest.subgraph(sorted(part)).copy() for part in nx.weakly_connected_components(forest)]
 
     def to_json(self) -> dict[str, Any]:
-        """Return the reduction as plain data, with the keys that scripts rely on (DESIGN, section 5)."""
+        """Return the reduction as plain data, with the keys that scripts rely on (docs/files.md)."""
 
         def counts(sc: SCGraph) -> dict[str, Any]:
             return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility_report(sc).mobility}

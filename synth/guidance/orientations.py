@@ -38,7 +38,7 @@ Pair: TypeAlias = tuple[int, int]
 """Two orientations i < j, numbered from 1."""
 
 _NORM_TOLERANCE = 1e-3
-"""Printed quaternions have five digits or so; more is a mistake and not rounding (DESIGN, section 4)."""
+"""Printed quaternions have five digits or so; more is a mistake and not rounding."""
 
 _EQUAL = 1e-8
 """Half the angle between two orientations, radians, below which they are one."""

@@ -1,7 +1,7 @@
 """Circuits: how the joints of a loop follow each other round the circle.
 
 A loop is given by its signed steps, the projected angles between successive joint axes. Sources: Hyatt et al.
-2020, Table 1 (printed with every row inverted, docs/misprints.md 000-1); DESIGN, section 1. Theory:
+2020, Table 1 (printed with every row inverted, docs/misprints.md 000-1). Theory:
 docs/theory/conformed.md.
 """
 

@@ -1,6 +1,6 @@
 """The native JSON files: SC graphs, SCD graphs, polyhedron models and vertex-edge graphs.
 
-The formats are published as JSON Schemas in ``graphs/schema/``; DESIGN, section 4. Guide: docs/files.md.
+The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/files.md.
 """
 
 from __future__ import annotations
