@@ -23,7 +23,7 @@ from time import perf_counter
 import numpy as np
 
 from graphs.convert.panels import scd_from_panels
-from graphs.convert.reconstruction import reconstruct
+from graphs.convert.reconstruction import polyhedron_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.closure import closure_of
@@ -140,7 +140,7 @@ def main() -> None:
         for i in range(20)
         for j in range(20)
     ]
-    model = reconstruct(scd_from_panels(panels))
+    model = polyhedron_of(scd_from_panels(panels))
     start = perf_counter()
     by_rods = exact_mobility_of_model(model)
     figures["rods, 20 x 20 panels, two primes"] = {

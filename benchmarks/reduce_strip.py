@@ -19,7 +19,7 @@ import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.reduce.ride_alongs import reduce_addenda
+from graphs.reduce.ride_alongs import reduce
 
 SIZES = [12_500, 25_000, 50_000, 100_000, 200_000, 400_000]
 RUNS = 3
@@ -44,7 +44,7 @@ def main() -> None:
         times = []
         for _ in range(RUNS):
             start = perf_counter()
-            reduction = reduce_addenda(sc)
+            reduction = reduce(sc)
             times.append(perf_counter() - start)
             assert len(reduction.graph) == 4
         start = perf_counter()

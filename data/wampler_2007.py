@@ -9,7 +9,7 @@ from entries import entries_of
 from wiener_2016 import WATT, WATT_LOOPS
 
 from graphs.convert.panels import scd_from_panels
-from graphs.convert.reconstruction import reconstruct
+from graphs.convert.reconstruction import polyhedron_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph
@@ -27,7 +27,7 @@ def body(vertices: int) -> PolyhedronModel:
 def fig1() -> PolyhedronModel:
     """Return two rectangles hinged on GH with triangles at either end: the mechanism of Fig. 1."""
     panels = ["BCHG", "FEHG", "AGB", "AGF", "DHC", "DHE"]
-    return reconstruct(scd_from_panels({"".join(panel): tuple(panel) for panel in panels}))
+    return polyhedron_of(scd_from_panels({"".join(panel): tuple(panel) for panel in panels}))
 
 
 def rods_of(*rods: tuple[int, int]) -> PolyhedronModel:
@@ -105,9 +105,9 @@ ENTRIES = [
     wampler("fig9-diagonal", "Fig. 9, with a diagonal", "fig9_diagonal",
             lambda: rods_of(*FIG9, (0, 2)), "V 5 E 9 M 0"),
     wampler("fig10", "Fig. 10", "fig10", lambda: rods_of(*FIG10), "V 8 E 16 M 2"),
-    wampler("fig12", "Fig. 12, Eq. 7", "fig12_remote", lambda: reconstruct(fig12()), "V 8 E 20 M 1"),
+    wampler("fig12", "Fig. 12, Eq. 7", "fig12_remote", lambda: polyhedron_of(fig12()), "V 8 E 20 M 1"),
     wampler("fig12-scd", "Fig. 12", "fig12_remote", fig12, "N 4 J 4 V 8 C 1 E_ext 12 E_int 8 M 1"),
-    wampler("fig12-open", "Fig. 12, before closing", "fig12_remote", lambda: reconstruct(fig12_open()), "V 10 E 21 M 3"),
+    wampler("fig12-open", "Fig. 12, before closing", "fig12_remote", lambda: polyhedron_of(fig12_open()), "V 10 E 21 M 3"),
     wampler("two-centres", "text after Eq. 2", "eq2_two_centres",
             lambda: SCGraph(6, WATT, WATT_LOOPS), "N 6 J 7 M 1"),
     wampler("spherical-scissors", "Spherical Scissors Linkages", "scissors_spherical_loops",

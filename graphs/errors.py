@@ -12,9 +12,11 @@ __all__ = [
     "FileError",
     "InvariantError",
     "NumericalError",
+    "OpenError",
     "StoreError",
     "SynthedraError",
     "UnsolvableError",
+    "numbered",
     "shown",
 ]
 
@@ -42,11 +44,22 @@ def shown(thing: object) -> str:
     return text
 
 
+def numbered(number: int, word: str, more: str = "") -> str:
+    """Return a number and what it counts, in words for one or for several.
+
+    Examples
+    --------
+    >>> numbered(1, "link"), numbered(2, "link"), numbered(0, "vertex", "vertices")
+    ('1 link', '2 links', '0 vertices')
+    """
+    return f"{number} {word if number == 1 else more or word + 's'}"
+
+
 class SynthedraError(Exception):
     """Root of every error raised on purpose."""
 
 
-class FileError(SynthedraError):
+class FileError(SynthedraError, ValueError):
     """A file cannot be read or written.
 
     Parameters
@@ -76,7 +89,17 @@ class FileError(SynthedraError):
         return where + self.found + (f"; expected {self.expected}" if self.expected else "")
 
 
-class InvariantError(SynthedraError):
+class OpenError(FileError, OSError):
+    """A file could not be opened, or the system refused to read or write it.
+
+    Examples
+    --------
+    >>> isinstance(OpenError("a.json", "", "no such file", "a file"), OSError)
+    True
+    """
+
+
+class InvariantError(SynthedraError, ValueError):
     """An object would break one of its invariants.
 
     Parameters

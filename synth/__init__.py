@@ -1,1 +1,86 @@
-"""Dimensions and use of mechanisms, and the command line (``synth.cli``)."""
+"""Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
+
+Where to begin::
+
+    import synth
+
+    mechanism = synth.read("data/patterns/bird-base.fold")  # any file, or an id: "k1:Cr"
+    print(synth.mobility(mechanism))                        # how many freedoms, by which formula, and why
+    synth.write(synth.reduce(mechanism).graph, "smaller.json")
+    for chain in synth.chains(links=8, dof=1): ...          # all kinematic chains of a size
+    synth.map_to_cones([2.1, 1.7, 0.8, 1.5])                # cones on which a four-bar lies
+
+Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `reconstruct`. New mechanisms of old ones:
+`reduce`, `convert`; edits are in `graphs.edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
+`strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
+`map_to_cylinders`. Guidance of a body: `Orientations`, `four_bars`.
+
+Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
+error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from graphs.lazy import offered
+
+if TYPE_CHECKING:
+    from enumerate.chains.kinematic import chains as chains
+    from enumerate.chains.kinematic import count_chains as count_chains
+    from enumerate.sc.graphs import count_sc_graphs as count_sc_graphs
+    from enumerate.sc.graphs import sc_graphs as sc_graphs
+    from enumerate.scd.graphs import count_scd_graphs as count_scd_graphs
+    from enumerate.scd.graphs import scd_graphs as scd_graphs
+    from enumerate.strings.panel_strings import strings as strings
+    from graphs.answer.identity import identify as identify
+    from graphs.answer.mechanisms import mobility as mobility
+    from graphs.answer.reconstruction import reconstruct as reconstruct
+    from graphs.convert.by_name import convert as convert
+    from graphs.errors import FileError as FileError
+    from graphs.errors import InvariantError as InvariantError
+    from graphs.errors import SynthedraError as SynthedraError
+    from graphs.errors import UnsolvableError as UnsolvableError
+    from graphs.files.formats import read as read
+    from graphs.files.formats import write as write
+    from graphs.loops.loop import Centre as Centre
+    from graphs.loops.loop import Loop as Loop
+    from graphs.mechanism.conical import ConicalLinkage as ConicalLinkage
+    from graphs.mechanism.polyhedron import PolyhedronModel as PolyhedronModel
+    from graphs.mechanism.sc import SCGraph as SCGraph
+    from graphs.mechanism.scd import SCDGraph as SCDGraph
+    from graphs.mechanism.sheet import Sheet as Sheet
+    from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
+    from graphs.reduce.ride_alongs import reduce as reduce
+    from synth.guidance.fourbars import four_bars as four_bars
+    from synth.guidance.orientations import Orientations as Orientations
+    from synth.surfaces.cone import map_to_cones as map_to_cones
+    from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
+else:
+    __getattr__, __dir__, __all__ = offered(
+        __name__,
+        {
+            "enumerate.chains.kinematic": "chains count_chains",
+            "enumerate.sc.graphs": "count_sc_graphs sc_graphs",
+            "enumerate.scd.graphs": "count_scd_graphs scd_graphs",
+            "enumerate.strings.panel_strings": "strings",
+            "graphs.answer.identity": "identify",
+            "graphs.answer.mechanisms": "mobility",
+            "graphs.answer.reconstruction": "reconstruct",
+            "graphs.convert.by_name": "convert",
+            "graphs.errors": "FileError InvariantError SynthedraError UnsolvableError",
+            "graphs.files.formats": "read write",
+            "graphs.loops.loop": "Centre Loop",
+            "graphs.mechanism.conical": "ConicalLinkage",
+            "graphs.mechanism.polyhedron": "PolyhedronModel",
+            "graphs.mechanism.sc": "SCGraph",
+            "graphs.mechanism.scd": "SCDGraph",
+            "graphs.mechanism.sheet": "Sheet",
+            "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
+            "graphs.reduce.ride_alongs": "reduce",
+            "synth.guidance.fourbars": "four_bars",
+            "synth.guidance.orientations": "Orientations",
+            "synth.surfaces.cone": "map_to_cones",
+            "synth.surfaces.cylinder": "map_to_cylinders",
+        },
+    )

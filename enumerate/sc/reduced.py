@@ -1,6 +1,6 @@
 """Ride-alongs taken off drawn chains, compiled: the reduced form of every SC graph of a list.
 
-The rule is that of `graphs.reduce.ride_alongs.reduce_addenda`: binary links u, v joined to each other, their other
+The rule is that of `graphs.reduce.ride_alongs.reduce`: binary links u, v joined to each other, their other
 neighbours a and b joined by a joint, and the cycle a-u-v-b a sum of loops of one class. Sets of joints are words
 of 64 bits. Theory: docs/theory/reduction.md.
 """

@@ -110,7 +110,9 @@ def sc_from_link_joint_graph(
                 raise InvariantError("closed surface", "a block of the graph is not planar", "a planar graph")
             if len(block.inner) > 1:  # a ring has the same loop on both its sides
                 closing.append(Loop(block.outer, Centre(centre)))
-    return bare.with_loops(loops, closing)
+    made = bare.with_loops(loops, closing)
+    made.centres_assumed = True
+    return made
 
 
 def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict[frozenset[object], JointId]]:

@@ -13,7 +13,7 @@ from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.mechanism.scd import SCDGraph
 
-__all__ = ["VertexStep", "internal_rods", "reconstruct", "vertex_steps"]
+__all__ = ["VertexStep", "internal_rods", "polyhedron_of", "vertex_steps"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
     return from_first + from_second
 
 
-def reconstruct(scd: SCDGraph) -> PolyhedronModel:
+def polyhedron_of(scd: SCDGraph) -> PolyhedronModel:
     """Build the polyhedron model of an SCD graph.
 
     Each side of a link is a rod, shared where it is a joint; a link of n >= 4 sides gets 2n - 6 internal
@@ -96,7 +96,7 @@ def reconstruct(scd: SCDGraph) -> PolyhedronModel:
     Examples
     --------
     >>> from graphs.convert.panels import scd_from_panels
-    >>> model = reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
+    >>> model = polyhedron_of(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
     >>> len(model), model.number_of_edges()
     (4, 6)
     """

@@ -12,8 +12,9 @@ from collections.abc import Callable
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.panels import oriented_panels, scd_from_panels
-from graphs.convert.reconstruction import reconstruct
+from graphs.convert.reconstruction import polyhedron_of
 from graphs.errors import UnsolvableError
+from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -22,7 +23,7 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, v
 
 __all__ = ["CONVERSIONS", "Mechanism", "to_polyhedron", "to_sc", "to_scd", "to_sheet", "to_vertex_edge"]
 
-Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet
+Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage
 """What a file may hold (an SCDGraph is an SCGraph)."""
 
 
@@ -46,6 +47,8 @@ def to_sc(thing: Mechanism) -> SCGraph:
         return sc_from_vertex_edge(thing)
     if isinstance(thing, Sheet):
         return mechanism_of_sheet(thing).sc
+    if isinstance(thing, ConicalLinkage):
+        return thing.chain
     return to_scd(thing).sc_graph()
 
 
@@ -85,7 +88,7 @@ def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
     if isinstance(thing, PolyhedronModel):
         return thing
     scd = to_scd(thing)
-    model = reconstruct(scd)
+    model = polyhedron_of(scd)
     if not isinstance(thing, Sheet) or thing.coordinates is None:
         return model
     panels = oriented_panels(dict(enumerate(thing.faces)))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Self
 
 import networkx as nx
 
@@ -74,8 +74,6 @@ class MobilityReport:
     equations : mapping of str to EquationResult
     counts : mapping of str to int
         Further counts: V, C, E_ext, E_int, spatial loops, parts, ... as far as the input tells.
-    exact, pose : mapping or None
-        The generic rank and the freedoms at a pose; None where they were not computed.
     repairs, warnings : tuple of str
     """
 
@@ -87,19 +85,16 @@ class MobilityReport:
     mobility: int | None
     equations: Mapping[str, EquationResult]
     counts: Mapping[str, int]
-    exact: Mapping[str, Any] | None = None
-    pose: Mapping[str, Any] | None = None
     repairs: tuple[str, ...] = ()
     warnings: tuple[str, ...] = field(default=())
 
-    def with_notes(self, repairs: Iterable[str] = (), warnings: Iterable[str] = ()) -> MobilityReport:
+    def with_notes(self, repairs: Iterable[str] = (), warnings: Iterable[str] = ()) -> Self:
         """Return the report with more repairs and warnings."""
         return replace(self, repairs=(*self.repairs, *repairs), warnings=(*self.warnings, *warnings))
 
-    def to_json(self, file: str) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """Return the report as plain data, with the keys that scripts rely on (docs/files.md)."""
         return {
-            "file": file,
             "class": self.mechanism_class,
             "links": self.links,
             "joints": self.joints,
@@ -111,8 +106,6 @@ class MobilityReport:
                 for name, one in self.equations.items()
             },
             "counts": dict(self.counts),
-            "exact": None if self.exact is None else dict(self.exact),
-            "pose": None if self.pose is None else dict(self.pose),
             "repairs": list(self.repairs),
             "warnings": list(self.warnings),
         }

@@ -14,12 +14,11 @@ if TYPE_CHECKING:
     from graphs.files.formats import Entry as Entry
     from graphs.files.formats import read as read
     from graphs.files.formats import read_all as read_all
-    from graphs.files.formats import read_frame as read_frame
     from graphs.files.formats import write as write
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "formats": "Entry read read_all read_frame write",
+            "formats": "Entry read read_all write",
         },
     )

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from graphs.errors import FileError
+from graphs.errors import OpenError
 
 __all__ = ["Beside", "FolderBeside", "reason_of", "write_chunks", "write_text"]
 
@@ -19,7 +19,7 @@ def write_text(path: Path, text: str) -> None:
 
     Raises
     ------
-    FileError
+    OpenError
         If it cannot be written; what was there is kept.
     """
     write_chunks(path, [text])
@@ -45,18 +45,18 @@ class FolderBeside:
 
     Raises
     ------
-    FileError
+    OpenError
         If there is something at its place, or it cannot be made.
     """
 
     def __init__(self, path: Path) -> None:
         if path.exists():
-            raise FileError(path, "", "exists already", "a new folder")
+            raise OpenError(path, "", "exists already", "a new folder")
         self._place = path
         try:
             self.path = Path(tempfile.mkdtemp(prefix=f".{path.name[:32]}.", dir=path.parent))
         except OSError as error:
-            raise FileError(path, "", f"cannot be made: {error.strerror}", "a writable folder") from None
+            raise OpenError(path, "", f"cannot be made: {error.strerror}", "a writable folder") from None
 
     def commit(self) -> None:
         """Move the folder to its place."""
@@ -78,18 +78,18 @@ class Beside:
 
     Raises
     ------
-    FileError
+    OpenError
         If the folder cannot be written to.
     """
 
     def __init__(self, path: Path) -> None:
         if path.is_dir():
-            raise FileError(path, "", "a directory", "a file to write")
+            raise OpenError(path, "", "a directory", "a file to write")
         try:
             self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
             handle, name = tempfile.mkstemp(prefix=f".{path.name[:32]}.", dir=path.parent)
         except (OSError, ValueError) as error:
-            raise FileError(path, "", f"cannot be written: {reason_of(error)}", "a writable folder") from None
+            raise OpenError(path, "", f"cannot be written: {reason_of(error)}", "a writable folder") from None
         self._path, self._beside = path, Path(name)
         self.stream = os.fdopen(handle, "wb")
 
@@ -122,7 +122,7 @@ class Beside:
         try:
             yield
         except OSError as error:
-            raise FileError(self._path, "", f"cannot be written: {reason_of(error)}") from None
+            raise OpenError(self._path, "", f"cannot be written: {reason_of(error)}") from None
 
 
 def reason_of(error: OSError | ValueError) -> str:

@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError
+from graphs.errors import FileError, InvariantError, OpenError
 from graphs.files.atomic import write_text
 from graphs.files.bare import (
     as_sc,
@@ -22,12 +23,16 @@ from graphs.files.bare import (
     read_graphml,
 )
 from graphs.files.native.documents import dumps, from_document
-from graphs.files.patterns.fold import fold_text, sheet_from_fold
+from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
+from graphs.identity.chains import chain_from_id
+from graphs.identity.drawings import mechanism_from_map_id
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_frame", "write"]
+__all__ = ["READERS", "WRITERS", "Entry", "is_id", "mechanism_of_id", "read", "read_all", "write"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,13 +51,16 @@ class Entry:
 
 
 def read_all(path: str | Path) -> Iterator[Entry]:
-    """Yield every mechanism of a file; most files hold one, graph6 files one a line.
+    """Yield every mechanism of a file; most files hold one, graph6 files one a line, an id is one.
 
     Raises
     ------
     FileError
         If the file cannot be read.
     """
+    if is_id(path):
+        yield Entry(str(path), mechanism_of_id(str(path)))
+        return
     path = Path(path)
     found = list(_reader(path)(path))
     for place, mechanism in found:
@@ -60,7 +68,13 @@ def read_all(path: str | Path) -> Iterator[Entry]:
 
 
 def read(path: str | Path) -> Mechanism:
-    """Return the one mechanism of a file.
+    """Return the one mechanism of a file, or of an id.
+
+    Parameters
+    ----------
+    path : str or Path
+        A file whose extension names its format, or an id, ``k1:...`` or ``m1:...`` (a file so named is written
+        ``./k1:...``).
 
     Raises
     ------
@@ -72,7 +86,7 @@ def read(path: str | Path) -> Mechanism:
     >>> read("no such file.json")
     Traceback (most recent call last):
     ...
-    graphs.errors.FileError: no such file.json: no such file; expected a file
+    graphs.errors.OpenError: no such file.json: no such file; expected a file
     """
     entries = list(read_all(path))
     if len(entries) != 1:
@@ -80,42 +94,39 @@ def read(path: str | Path) -> Mechanism:
     return entries[0].mechanism
 
 
-def read_frame(path: str | Path, frame: int | None = None) -> Sheet:
-    """Return one frame of a FOLD file.
+_IDS = ("k1:", "m1:")
 
-    Parameters
-    ----------
-    path : str or Path
-    frame : int, optional
-        Its number; if left out, the first that has a pattern and coordinates.
+
+def is_id(path: str | Path) -> bool:
+    """Tell whether the name of a file is the id of a mechanism.
+
+    Examples
+    --------
+    >>> is_id("k1:Cr"), is_id("./k1:Cr")
+    (True, False)
+    """
+    return str(path).startswith(_IDS) and not isinstance(path, Path)
+
+
+def mechanism_of_id(code: str) -> SCGraph:
+    """Return the mechanism of an id; a chain gets finite centres, as a bare link-joint graph does.
 
     Raises
     ------
     FileError
-        If the file cannot be read or has no such frame.
+        If it is not an id.
 
     Examples
     --------
-    >>> read_frame("no such file.fold", 1)
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: no such file.fold: no such file; expected a file
+    >>> mechanism_of_id("k1:Cr")
+    <SCGraph: 4 links, 4 joints, 1 centre>
     """
-    path = Path(path)
-    if path.suffix.lower() != ".fold":
-        raise FileError(path, "", "has no frames", "a .fold file")
-    document = load_json(path)
-    if frame is not None:
-        return sheet_from_fold(document, path, frame)
-    first = sheet_from_fold(document, path)
-    further = document.get("file_frames") or []
-    for number in range(1, len(further) + 1):
-        if first.coordinates is not None:
-            break
-        frame_here = {**document, **further[number - 1]}
-        if frame_here.get("vertices_coords"):
-            first = sheet_from_fold(document, path, number)
-    return first
+    try:
+        if code.startswith("k1:"):
+            return sc_from_link_joint_graph(chain_from_id(code))
+        return mechanism_from_map_id(code)
+    except InvariantError as error:
+        raise FileError(code, "", error.offender, error.expected) from None
 
 
 def write(mechanism: Mechanism, path: str | Path) -> tuple[str, ...]:
@@ -144,6 +155,8 @@ def write(mechanism: Mechanism, path: str | Path) -> tuple[str, ...]:
     if writer is None:
         raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(WRITERS)))
     text, lost = writer(mechanism)
+    if isinstance(mechanism, ConicalLinkage) and path.suffix.lower() != ".json":
+        lost = (*lost, "angles on the cone")
     write_text(path, text)
     return lost
 
@@ -151,9 +164,9 @@ def write(mechanism: Mechanism, path: str | Path) -> tuple[str, ...]:
 def _reader(path: Path) -> Callable[[Path], Iterator[tuple[str, Mechanism]]]:
     reader = READERS.get(path.suffix.lower())
     if reader is None and path.is_dir():
-        raise FileError(path, "", "a directory", "a file")
+        raise OpenError(path, "", "a directory", "a file")
     if reader is None and not path.exists():
-        raise FileError(path, "", "no such file", "a file")
+        raise OpenError(path, "", "no such file", "a file")
     if reader is None:
         raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(READERS)))
     return reader
@@ -168,7 +181,7 @@ def _read_json(path: Path) -> Iterator[tuple[str, Mechanism]]:
 
 
 def _read_fold(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", sheet_from_fold(load_json(path), path)
+    yield "", read_fold(path)
 
 
 def _read_graph6(path: Path) -> Iterator[tuple[str, Mechanism]]:

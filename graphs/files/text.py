@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
-from graphs.errors import FileError
+from graphs.errors import FileError, OpenError
 from graphs.files.atomic import reason_of
 
 __all__ = ["json_text", "load_json", "read_text"]
@@ -24,13 +24,13 @@ def read_text(path: Path) -> str:
     try:
         raw = path.read_bytes()
     except FileNotFoundError:
-        raise FileError(path, "", "no such file", "a file") from None
+        raise OpenError(path, "", "no such file", "a file") from None
     except IsADirectoryError:
-        raise FileError(path, "", "a directory", "a file") from None
+        raise OpenError(path, "", "a directory", "a file") from None
     except PermissionError:
-        raise FileError(path, "", "no permission to read it") from None
+        raise OpenError(path, "", "no permission to read it") from None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        raise FileError(path, "", f"cannot be read: {reason_of(error)}") from None
+        raise OpenError(path, "", f"cannot be read: {reason_of(error)}") from None
     if not raw.strip():
         raise FileError(path, "", "the file is empty", "a mechanism")
     try:
@@ -65,6 +65,8 @@ def load_json(path: Path) -> Any:
 
     try:
         return json.loads(text, object_pairs_hook=once, parse_constant=no_constant)
+    except FileError:
+        raise
     except json.JSONDecodeError as error:
         raise FileError(
             path, f"line {error.lineno} column {error.colno}", f"not JSON: {error.msg}", "a JSON document"

@@ -14,7 +14,7 @@ from typing import Any
 import bliss_bind
 import networkx as nx
 
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, shown
 
 __all__ = ["HEURISTIC", "automorphisms_of", "canonical_links", "canonical_order", "chain_from_id", "chain_id"]
 
@@ -170,5 +170,5 @@ def chain_from_id(code: str) -> nx.Graph:
     try:
         data = text.encode("ascii")
         return nx.from_sparse6_bytes(data) if text.startswith(":") else nx.from_graph6_bytes(data)
-    except (nx.NetworkXError, ValueError, IndexError) as error:
-        raise InvariantError("id", f"the id {code!r}: {error}", "graph6 or sparse6 after k1:") from None
+    except (nx.NetworkXError, ValueError, IndexError):
+        raise InvariantError("id", f"the id {shown(code)}", "graph6 or sparse6 after k1:") from None

@@ -19,7 +19,7 @@ Pair = tuple[JointId, JointId]
 """Two joints of one link."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ConicalLinkage:
     """A linkage whose joint axes are ruling lines of a cone.
 
@@ -38,6 +38,10 @@ class ConicalLinkage:
     angles: Mapping[Pair, float] | None = None
     steps: Mapping[Pair, float] | None = None
     cone_angle: float | None = None
+
+    def __repr__(self) -> str:
+        given = "link angles" if self.steps is None else "steps between its axes"
+        return f"<ConicalLinkage: {self.chain!r}, {given}>"
 
     def places(self) -> list[float]:
         """Return the azimuths of the joints, radians, in the order of the chain's joints.

@@ -14,7 +14,7 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 
 __all__ = ["GROUND", "PointConstraint", "PolyhedronModel", "RemoteCentre"]
 
@@ -132,6 +132,11 @@ class PolyhedronModel(nx.Graph):
         for link, around in (links or {}).items():
             self._links[link] = self._checked_link(link, around)
         nx.freeze(self)
+
+    def __repr__(self) -> str:
+        parts = [numbered(len(self), "vertex", "vertices"), numbered(self.number_of_edges(), "rod")]
+        parts += [numbered(len(self.centres), "remote centre")] * bool(self.centres)
+        return f"<PolyhedronModel: {', '.join(parts)}>"
 
     # ---- construction -------------------------------------------------------------------------------
 

@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 
 import networkx as nx
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass, centre_classes
 from graphs.loops.cycle_space import check_independent, dependent_loop
@@ -70,6 +70,8 @@ class SCGraph(nx.MultiGraph):
     loops: tuple[Loop, ...]
     closing: tuple[Loop, ...]
     ground: LinkId | None
+    centres_assumed: bool = False
+    """Whether nobody gave the centres, and each face of an embedding was taken for a loop with one."""
 
     def __init__(
         self,
@@ -283,6 +285,17 @@ class SCGraph(nx.MultiGraph):
             _loop_identity(self.closing),
             self.ground,
         )
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {', '.join(self._features())}>"
+
+    def _features(self) -> list[str]:
+        """Return what a short description names."""
+        return [
+            numbered(len(self), "link"),
+            numbered(len(self._joints), "joint"),
+            numbered(len(self.centre_classes()), "centre"),
+        ]
 
     def __str__(self) -> str:
         return (

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Loop
 from graphs.mechanism.drawing import Drawing, FaceKind
@@ -128,6 +128,9 @@ class SCDGraph(SCGraph):
     def vertices(self) -> Mapping[LinkId, tuple[int, ...]]:
         """Link to its vertices, counter-clockwise; item ``i`` lies between side ``i`` and side ``i + 1``."""
         return self.drawing.vertices
+
+    def _features(self) -> list[str]:
+        return [*super()._features(), numbered(self.drawing.vertex_count, "vertex", "vertices")]
 
     @cached_property
     def counts(self) -> FeatureCounts:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TypeVar
+from dataclasses import dataclass, field
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -20,6 +20,7 @@ __all__ = [
     "FLAT",
     "HINGES",
     "Edge",
+    "Frames",
     "Sheet",
     "flat_places",
     "in_one_plane",
@@ -39,7 +40,17 @@ V = TypeVar("V")
 Edge = tuple[int, int]
 
 
-@dataclass(frozen=True)
+class Frames(Protocol):
+    """The frames of the file that a sheet was read from: the same sheet in other poses."""
+
+    def frame(self, number: int) -> Sheet:
+        """Return the sheet of one frame; 0 is the key frame."""
+
+    def first_placed(self) -> Sheet:
+        """Return the sheet as it was read, or if that has no coordinates, of the first frame that has."""
+
+
+@dataclass(frozen=True, repr=False)
 class Sheet:
     """Vertices, edges with their assignments, and faces.
 
@@ -58,6 +69,8 @@ class Sheet:
         What was mended on reading.
     fold_angles : tuple of float or None, optional
         One for each edge, in degrees as in files; None where an edge has none.
+    frames : Frames, optional
+        The frames of the file it was read from; two sheets are equal whatever theirs are.
 
     Raises
     ------
@@ -80,6 +93,7 @@ class Sheet:
     title: str = ""
     repairs: tuple[str, ...] = ()
     fold_angles: tuple[float | None, ...] | None = None
+    frames: Frames | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         for i, (a, b) in enumerate(self.edges):
@@ -95,6 +109,13 @@ class Sheet:
                     "three or more, each once",
                     ("faces", i),
                 )
+
+    def __repr__(self) -> str:
+        creases = sum(letter in HINGES for letter in self.assignments)
+        lies = "no coordinates"
+        if self.coordinates is not None:
+            lies = "flat" if in_one_plane(self.coordinates) else "folded"
+        return f"<Sheet: {len(self.faces)} faces, {creases} creases, {self.vertices} vertices, {lies}>"
 
 
 def sheet_from_model(model: PolyhedronModel) -> Sheet:

@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 import networkx as nx
 
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.cycle_space import split_dependent
 from graphs.loops.loop import Centre, Loop
@@ -64,6 +64,10 @@ class VertexEdgeGraph:
                 raise InvariantError(
                     "vertex-edge graph", f"crease {shown(crease)} ends in {len(ends)} vertices", "two at most"
                 )
+
+    def __repr__(self) -> str:
+        vertices = numbered(len(self._vertices), "vertex", "vertices")
+        return f"<VertexEdgeGraph: {vertices}, {numbered(len(self._creases), 'crease')}>"
 
     @property
     def vertices(self) -> Mapping[Hashable, tuple[JointId, ...]]:

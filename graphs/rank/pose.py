@@ -15,7 +15,6 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.count.equations import overconstraint
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -56,25 +55,28 @@ class PoseMobility:
     spectrum: Spectrum
     flat: bool
 
-    def to_json(self, count: int | None) -> dict[str, Any]:
-        """Return the keys that scripts rely on; h = M_actual - M is the overconstraint against a count (Eq. 8)."""
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on; a report adds h, the overconstraint against its count."""
         return {
             "dof": self.dof,
             "gap": self.spectrum.gap if np.isfinite(self.spectrum.gap) else None,
-            "h": None if self.dof is None or count is None else overconstraint(self.dof, count),
             "self_stresses": self.self_stresses,
             "nearly_mobile": self.spectrum.nearly,
             "flat": self.flat,
         }
 
 
-def pose_mobility(sheet: Sheet, *, hinge_flat: bool = False) -> PoseMobility:
+def pose_mobility(
+    sheet: Sheet, mechanism: SheetMechanism | None = None, *, hinge_flat: bool = False
+) -> PoseMobility:
     """Return the infinitesimal freedoms of a crease pattern as it lies.
 
     Parameters
     ----------
     sheet : Sheet
         With coordinates, any unit of length.
+    mechanism : SheetMechanism, optional
+        Of this sheet, where it is at hand.
     hinge_flat : bool, optional
         Make hinges of flat edges too.
 
@@ -94,8 +96,7 @@ def pose_mobility(sheet: Sheet, *, hinge_flat: bool = False) -> PoseMobility:
     >>> pose_mobility(sheet).dof
     1
     """
-    found = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
-    closure = closure_at_pose(sheet, found)
+    closure = closure_at_pose(sheet, mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat))
     evidence = spectrum(dense(closure))
     assert sheet.coordinates is not None
     return _mobility(evidence, len(closure.joints), len(closure.rows), np.asarray(_in_space(sheet.coordinates)))

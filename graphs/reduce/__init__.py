@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from graphs.reduce.ride_alongs import RULES as RULES
     from graphs.reduce.ride_alongs import Reduction as Reduction
     from graphs.reduce.ride_alongs import ReductionStep as ReductionStep
-    from graphs.reduce.ride_alongs import reduce_addenda as reduce_addenda
+    from graphs.reduce.ride_alongs import reduce as reduce
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
             "assur": "AssurGroup AssurReduction assur_groups reduce_assur",
-            "ride_alongs": "RULES Reduction ReductionStep reduce_addenda",
+            "ride_alongs": "RULES Reduction ReductionStep reduce",
         },
     )

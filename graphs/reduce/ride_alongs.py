@@ -13,6 +13,7 @@ from typing import Any
 
 import networkx as nx
 
+from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
@@ -20,7 +21,7 @@ from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.working import Removal, WorkingGraph
 
-__all__ = ["RULES", "Reduction", "ReductionStep", "reduce_addenda"]
+__all__ = ["RULES", "Reduction", "ReductionStep", "reduce"]
 
 RULES = ("ride-along", "dyad")
 
@@ -132,15 +133,15 @@ class Reduction:
         }
 
 
-def reduce_addenda(
-    sc: SCGraph, *, rule: str = "ride-along", fully: bool = False, keep: Iterable[LinkId] = ()
+def reduce(
+    mechanism: Mechanism, *, rule: str = "ride-along", fully: bool = False, keep: Iterable[LinkId] = ()
 ) -> Reduction:
     """Take off ride-alongs (or dyads) until none is left.
 
     Parameters
     ----------
-    sc : SCGraph
-        Of an SCD graph, the SC graph is reduced.
+    mechanism : SCGraph, or anything that has an SC graph
+        Its SC graph is reduced.
     rule : {"ride-along", "dyad"}, optional
         ``"ride-along"``: a and b are joined, and the cycle a-u-v-b is a sum of loops of one class.
         ``"dyad"``: a and b need not be joined; some loop through u and v has a centre.
@@ -171,20 +172,20 @@ def reduce_addenda(
 
     >>> from graphs.convert.panels import scd_from_panels
     >>> squares = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10)]
-    >>> reduction = reduce_addenda(scd_from_panels(squares))
+    >>> reduction = reduce(scd_from_panels(squares))
     >>> len(reduction.graph), [step.removed for step in reduction.steps]
     (4, [(0, 1)])
     """
     if rule not in RULES:
         raise ValueError(f"the rule {rule!r} is not one of {', '.join(RULES)}")
+    sc = to_sc(mechanism)
     protected = set(keep)
     for link in protected:
         if link not in sc:
             raise InvariantError("keep", f"{shown(link)} is to be kept and is no link", "one of the links")
     if sc.ground is not None:
         protected.add(sc.ground)
-    bare = sc.sc_graph() if hasattr(sc, "sc_graph") else sc
-    work = WorkingGraph(bare)
+    work = WorkingGraph(sc)
     take = _take_ride_along if rule == "ride-along" else _take_dyad
     taken: list[tuple[Removal, JointId | None, tuple[LinkId, LinkId]]] = []
     waiting = dict.fromkeys(reversed(list(work.joints)))
@@ -203,7 +204,7 @@ def reduce_addenda(
         for link in (a, b):
             if work.degree[link] == 2:
                 waiting |= dict.fromkeys(work.joints_at(link))
-    return Reduction(bare, work.graph(), rule, _steps(taken), tuple(removal for removal, _, _ in taken), work)
+    return Reduction(sc, work.graph(), rule, _steps(taken), tuple(removal for removal, _, _ in taken), work)
 
 
 def _steps(

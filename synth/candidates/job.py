@@ -20,7 +20,7 @@ from enumerate.conical.query import ConicalQuery, Portion
 from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.files.native.conical import conical_text
+from graphs.files.native.documents import dumps
 from graphs.identity.chains import chain_id
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.conical import ConicalLinkage
@@ -254,7 +254,7 @@ class CandidateJob:
 
     def mechanism_text(self, row: Mapping[str, Any]) -> str:
         """Return the file of the linkage of a row, ``synthedra/conical``."""
-        return conical_text(self.linkage(row))
+        return dumps(self.linkage(row))
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ _COMMANDS = {
     "cylinder": "synth.cli.surfaces.cylinder:cylinder_group",
     "convert": "synth.cli.graphs.convert:convert",
     "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
+    "id": "synth.cli.graphs.id:id_command",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",

@@ -4,40 +4,25 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from time import monotonic
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from graphs.printing import UNWRAPPED, console_for, plain
+from graphs.printing import rich_table as table
+
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
 
     from graphs.files.formats import Entry
 
 __all__ = ["about", "console", "entries", "plain", "print_json", "table"]
 
-_WIDEST = 60
-_UNWRAPPED = 10_000
 _PATIENCE = 2.0
 """Seconds before progress is shown."""
-
-
-def plain(value: object, widest: int = _WIDEST) -> str:
-    r"""Return text that is safe to print: one line, no control characters, not too long.
-
-    Examples
-    --------
-    >>> plain("\x1b[31mred")
-    '\\x1b[31mred'
-    >>> plain(None)
-    '-'
-    """
-    text = "-" if value is None else str(value)
-    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
-    return text if len(text) <= widest else text[: widest - 3] + "..."
 
 
 @contextmanager
@@ -65,26 +50,7 @@ def console() -> Console:
 
     Lines are wrapped on a terminal only; in a file or a pipe a row stays a line.
     """
-    from rich.console import Console
-
-    width = None if sys.stdout.isatty() else _UNWRAPPED
-    return Console(markup=False, highlight=False, emoji=False, soft_wrap=False, width=width)
-
-
-def table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) -> Table:
-    """Return an empty table; columns named in ``numbers`` are set flush right."""
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table
-    from rich.text import Text
-
-    made = Table(
-        box=SIMPLE_HEAD, title=None if title is None else Text(title), title_justify="left", pad_edge=False
-    )
-    flush = set(numbers)
-    for column in columns:
-        justify: Literal["left", "right"] = "right" if column in flush else "left"
-        made.add_column(Text(column), justify=justify, overflow="fold")
-    return made
+    return console_for(None, None if sys.stdout.isatty() else UNWRAPPED)
 
 
 def entries(files: Sequence[str], failures: list[str]) -> Iterator[Entry]:

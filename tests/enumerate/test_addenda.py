@@ -11,7 +11,7 @@ from graphs.identity.classes import class_code
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.generic import exact_mobility
-from graphs.reduce.ride_alongs import reduce_addenda
+from graphs.reduce.ride_alongs import reduce
 
 FILES = ["watt", "stephenson", "six-bar-loop-spherical", "eight-bar", "hybrid-ten-bar", "stephenson-planar"]
 
@@ -58,10 +58,10 @@ def test_ride_alongs_and_dyads_are_taken_off_again(data):
     base = mechanism(data, "stephenson")
     for one in addenda(base, 0):
         if one.kind == "ride-along":
-            reduced = reduce_addenda(one.edit.graph, keep=base.nodes).graph
+            reduced = reduce(one.edit.graph, keep=base.nodes).graph
             assert class_code(reduced) == class_code(base)
         if one.kind == "dyad":
-            reduced = reduce_addenda(one.edit.graph, rule="dyad", keep=base.nodes).graph
+            reduced = reduce(one.edit.graph, rule="dyad", keep=base.nodes).graph
             assert nx.is_isomorphic(nx.Graph(reduced), nx.Graph(base))
 
 

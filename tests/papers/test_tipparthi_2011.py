@@ -7,7 +7,7 @@ import pytest
 
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
-from graphs.reduce.ride_alongs import reduce_addenda
+from graphs.reduce.ride_alongs import reduce
 from synth.guidance.five import dyads_of_five
 from synth.guidance.hoop_method import hoop, hoop_sequence, pair_name
 from synth.guidance.order import analyse_order
@@ -22,8 +22,8 @@ def test_two_rr_dyads_make_a_spherical_four_bar(golden):
     sc = read(DATA / "spherical-4r.json")
     report = mobility_report(sc)
     assert (report.mechanism_class, report.mobility, sc.ground) == ("spherical", 1, 0)
-    assert not reduce_addenda(sc).steps
-    assert not reduce_addenda(sc, keep=[2]).steps
+    assert not reduce(sc).steps
+    assert not reduce(sc, keep=[2]).steps
 
 
 # Order of orientations. Quaternions as printed give the printed hoop angles; with the sign of 002-1 mended the printed

@@ -26,7 +26,7 @@ from graphs.identity.classes import class_code
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.reduce.ride_alongs import reduce_addenda
+from graphs.reduce.ride_alongs import reduce
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 EXAMPLES = {
@@ -230,7 +230,7 @@ def test_4_2_5_3_to_6_reductions_step_by_step(name, golden):
     entry, sits_on = REDUCED[name]
     printed = golden["003"][entry]["printed"]
     scd = read(DATA / "wiener" / f"{name}.json")
-    reduction = reduce_addenda(scd)
+    reduction = reduce(scd)
     end = reduction.graph
     assert (len(end), len(end.joints), mobility_report(end).mobility) == (printed["N"], printed["J"], printed["M"])
     assert [step.sits_on for step in reduction.steps] == sits_on

@@ -16,7 +16,7 @@ KEYS = {"N": "links", "J": "joints", "V": "vertices", "C": "implicit_centres",
 def counted_numbers(path: Path) -> dict[str, int]:
     """Everything the index may name, from the mobility report."""
     thing = read(path)
-    report = mobility_report(to_sc(thing) if isinstance(thing, Sheet) else thing).to_json("")
+    report = mobility_report(to_sc(thing) if isinstance(thing, Sheet) else thing).to_json()
     merged = report["counts"] | {k: report[k] for k in ("links", "joints")}
     found = {short: merged[long] for short, long in KEYS.items() if merged.get(long) is not None}
     if "E_ext" in found:

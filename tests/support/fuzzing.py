@@ -82,9 +82,9 @@ def answer(path: Path) -> str | None:
         for entry in read_all(path):
             thing = entry.mechanism
             if isinstance(thing, Sheet):
-                mobility_report(mechanism_of_sheet(thing).sc).to_json("")
+                mobility_report(mechanism_of_sheet(thing).sc).to_json()
             else:
-                mobility_report(thing if isinstance(thing, PolyhedronModel) else to_sc(thing)).to_json("")
+                mobility_report(thing if isinstance(thing, PolyhedronModel) else to_sc(thing)).to_json()
     except SynthedraError as error:
         return str(error)
     return None

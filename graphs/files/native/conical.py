@@ -10,6 +10,7 @@ Schema: graphs/schema/conical.schema.json. Guide: docs/files.md.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import degrees, radians
 from pathlib import Path
 from typing import Any
@@ -24,9 +25,11 @@ from graphs.ids import JointId
 from graphs.mechanism.conical import ConicalLinkage, Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["conical_text", "read_conical", "write_conical"]
+__all__ = ["conical_document", "conical_from_document", "read_conical", "write_conical"]
 
 _FORMAT = "synthedra/conical"
+_KEYS = ("format", "version", "links", "joints", "loops")
+_OPTIONAL = ("ground", "angles", "steps", "lambda_deg")
 
 
 def read_conical(path: str | Path) -> ConicalLinkage:
@@ -42,17 +45,24 @@ def read_conical(path: str | Path) -> ConicalLinkage:
     >>> read_conical("missing.json")
     Traceback (most recent call last):
     ...
-    graphs.errors.FileError: missing.json: no such file; expected a file
+    graphs.errors.OpenError: missing.json: no such file; expected a file
     """
+    if str(path).startswith(("k1:", "m1:")):
+        raise FileError(path, "", "an id, which has no angles", "a file of a linkage with angles")
     check = Checker(Path(path))
     value = load_json(check.path)
-    check.mapping(
-        value, "", ("format", "version", "links", "joints", "loops"), ("ground", "angles", "steps", "lambda_deg")
-    )
+    check.mapping(value, "", _KEYS, _OPTIONAL)
     if value["format"] != _FORMAT:
         raise FileError(path, "format", shown(value["format"]), f"{_FORMAT!r}, a linkage with angles")
     if value["version"] != VERSION or isinstance(value["version"], bool):
         raise FileError(path, "version", shown(value["version"]), str(VERSION))
+    return conical_from_document(value, check)
+
+
+def conical_from_document(value: Mapping[str, Any], check: Checker) -> ConicalLinkage:
+    """Read a linkage on a cone from its document."""
+    path = check.path
+    check.mapping(value, "", _KEYS, _OPTIONAL)
     chain = read_sc({key: value[key] for key in value if key not in ("angles", "steps", "lambda_deg")}, check)
     if not chain.loops:
         raise FileError(path, "loops", "no loops", "the loops that lie on the cone")
@@ -111,15 +121,15 @@ def write_conical(linkage: ConicalLinkage, path: str | Path) -> None:
     FileError
         If it cannot be written.
     """
-    write_text(Path(path), conical_text(linkage))
+    write_text(Path(path), json_text(conical_document(linkage)))
 
 
-def conical_text(linkage: ConicalLinkage) -> str:
-    """Return the file of a linkage on a cone as text."""
+def conical_document(linkage: ConicalLinkage) -> dict[str, Any]:
+    """Return the native document of a linkage on a cone."""
     document = sc_document(linkage.chain) | {"format": _FORMAT}
     for key, pairs in (("angles", linkage.angles), ("steps", linkage.steps)):
         if pairs is not None:
             document[key] = [[written(a), written(b), round(degrees(x), 10)] for (a, b), x in pairs.items()]
     if linkage.cone_angle is not None:
         document["lambda_deg"] = round(degrees(linkage.cone_angle), 10)
-    return json_text(document)
+    return document

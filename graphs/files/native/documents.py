@@ -1,4 +1,4 @@
-"""The native JSON files: SC graphs, SCD graphs, polyhedron models and vertex-edge graphs.
+"""The native JSON files: SC and SCD graphs, polyhedron models, vertex-edge graphs, linkages on cones.
 
 The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/files.md.
 """
@@ -11,10 +11,12 @@ from typing import Any
 
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
+from graphs.files.native.conical import conical_document, conical_from_document
 from graphs.files.native.graphs import read_sc, read_scd, sc_document
 from graphs.files.native.models import polyhedron_document, read_polyhedron
 from graphs.files.native.names import VERSION, head, tuple_of, written
 from graphs.files.text import json_text
+from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -22,7 +24,7 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph
 
 __all__ = ["FORMATS", "NativeObject", "document", "dumps", "from_document"]
 
-NativeObject = SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph
+NativeObject = SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | ConicalLinkage
 
 
 def from_document(value: Any, path: Path) -> NativeObject:
@@ -72,6 +74,8 @@ def document(thing: NativeObject) -> dict[str, Any]:
     """
     if isinstance(thing, VertexEdgeGraph):
         return _vertex_edge_document(thing)
+    if isinstance(thing, ConicalLinkage):
+        return conical_document(thing)
     return polyhedron_document(thing) if isinstance(thing, PolyhedronModel) else sc_document(thing)
 
 
@@ -120,4 +124,5 @@ FORMATS: dict[str, Callable[[Mapping[str, Any], Checker], NativeObject]] = {
     "synthedra/scd": read_scd,
     "synthedra/polyhedron": read_polyhedron,
     "synthedra/vertex-edge": _read_vertex_edge,
+    "synthedra/conical": conical_from_document,
 }

@@ -48,7 +48,7 @@ def orientation_rows(path: str | Path) -> tuple[str, Rows]:
     >>> orientation_rows("no such file.json")
     Traceback (most recent call last):
     ...
-    graphs.errors.FileError: no such file.json: no such file; expected a file
+    graphs.errors.OpenError: no such file.json: no such file; expected a file
     """
     path = Path(path)
     return rows_from_document(load_json(path), path)

@@ -7,20 +7,77 @@ demands.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError
 from graphs.files.check import MOST_NODES, Checker
 from graphs.files.patterns.fold_frames import resolved_frame
-from graphs.files.text import json_text
+from graphs.files.text import json_text, load_json
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet
 
-__all__ = ["fold_text", "sheet_from_fold"]
+__all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
 
 _FAR = 1e300
 _ASSIGNMENTS = HINGES + FLAT + "BC"
+
+
+@dataclass(frozen=True)
+class FoldFrames:
+    """The frames of a FOLD file.
+
+    Attributes
+    ----------
+    path : Path
+    sheet : Sheet
+        As the file is read when no frame is asked for.
+    document : mapping or None
+        The parsed file; None where it has the key frame only.
+    """
+
+    path: Path
+    sheet: Sheet
+    document: Mapping[str, Any] | None
+
+    def frame(self, number: int) -> Sheet:
+        """Return the sheet of one frame; 0 is the key frame.
+
+        Raises
+        ------
+        FileError
+            If there is no such frame.
+        """
+        if self.document is not None:
+            return sheet_from_fold(self.document, self.path, number)
+        if number:
+            raise FileError(self.path, "", f"no frame {number}", "a frame from 0 to 0")
+        return self.sheet
+
+    def first_placed(self) -> Sheet:
+        """Return the sheet as it was read, or if that has no coordinates, of the first frame that has."""
+        if self.sheet.coordinates is not None or self.document is None:
+            return self.sheet
+        for number, frame in enumerate(self.document["file_frames"], start=1):
+            if {**self.document, **frame}.get("vertices_coords"):
+                placed = self.frame(number)
+                if placed.coordinates is not None:
+                    return placed
+        return self.sheet
+
+
+def read_fold(path: Path) -> Sheet:
+    """Read a FOLD file; the sheet knows the frames of its file.
+
+    Raises
+    ------
+    FileError
+    """
+    document = load_json(path)
+    sheet = sheet_from_fold(document, path)
+    frames = FoldFrames(path, sheet, document if document.get("file_frames") else None)
+    return replace(sheet, frames=frames)
 
 
 def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:

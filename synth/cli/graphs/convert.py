@@ -36,18 +36,12 @@ def convert(source: str, target: str, kind: str | None, form: str | None, as_jso
       synth convert crease-pattern.fold model.json --to polyhedron
       synth convert watt.json planar-watt.json --form planar
     """
-    from graphs.convert.table import CONVERSIONS, to_sc
-    from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
+    from graphs.convert.by_name import convert as converted
     from graphs.files.formats import read, write
-    from graphs.mechanism.sc import SCGraph
 
     mechanism = read(source)
     with about(source):
-        if kind is not None:
-            mechanism = CONVERSIONS[kind](mechanism)
-        if form is not None:
-            forms = {"planar": planar_analogue, "spherical": spherical_analogue, "general": generalised_form}
-            mechanism = forms[form](mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism))
+        mechanism = converted(mechanism, kind, form=form)
         lost = write(mechanism, target)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.output import about, console, plain, print_json
 
 __all__ = ["reconstruct"]
 
@@ -23,47 +23,19 @@ def reconstruct(file: str, output: str | None, as_json: bool) -> None:
     Example:
       synth reconstruct data/wiener/six-bar.json -o model.json
     """
-    from graphs.convert.reconstruction import vertex_steps
-    from graphs.convert.table import to_polyhedron, to_scd
-    from graphs.count.equations import mobility_of_model
+    from graphs.answer.reconstruction import reconstruct as reconstructed
     from graphs.files.formats import read, write
 
     thing = read(file)
     with about(file):
-        scd = to_scd(thing)
-        model = to_polyhedron(thing)
+        reconstruction = reconstructed(thing)
     if output is not None:
-        write(model, output)
-    steps = list(vertex_steps(scd))
-    counts = scd.counts
+        write(reconstruction.model, output)
     if as_json:
-        print_json(
-            {
-                "file": file,
-                "output": output,
-                "vertices": [
-                    {"vertex": s.vertex, "in": s.kind.value, "links": [str(link) for link in s.links]}
-                    for s in steps
-                ],
-                "counts": {
-                    "vertices": counts.vertices,
-                    "implicit_centres": counts.implicit_centres,
-                    "external_edges": counts.external_edges,
-                    "internal_edges": counts.internal_edges,
-                },
-                "mobility": mobility_of_model(model),
-            }
-        )
+        print_json({"file": file, "output": output, **reconstruction.to_json()})
         return
-    rows = table("vertex", "lies in", "links that meet there", numbers=["vertex"])
-    for step in steps:
-        place = "explicit centre" if step.kind.value == "explicit" else f"{step.kind.value} face"
-        rows.add_row(str(step.vertex), place, ", ".join(plain(link) for link in step.links))
     out = console()
-    out.print(rows)
-    out.print(
-        f"V = {counts.vertices}, C = {counts.implicit_centres}, E = {counts.external_edges} external "
-        f"+ {counts.internal_edges} internal, M = {mobility_of_model(model)}"
-    )
+    for block in reconstruction.blocks():
+        out.print(block)
     if output is not None:
         out.print(f"written: {plain(output, 4096)}")

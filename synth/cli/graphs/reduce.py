@@ -60,7 +60,7 @@ def reduce_command(
     """
     from graphs.convert.table import to_sc
     from graphs.files.formats import read, write
-    from graphs.reduce.ride_alongs import reduce_addenda
+    from graphs.reduce.ride_alongs import reduce
 
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input belong to --rule assur")
@@ -69,7 +69,7 @@ def reduce_command(
         if rule == "assur":
             _reduce_assur(file, sc, output, ground, inputs, as_json)
             return
-        reduction = reduce_addenda(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
+        reduction = reduce(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
     if output is not None:
         write(reduction.graph, output)
     if as_json:

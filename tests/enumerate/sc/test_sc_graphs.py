@@ -22,7 +22,7 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.generic import exact_mobility
 from graphs.rank.overconstraint import diagnose
-from graphs.reduce.ride_alongs import reduce_addenda
+from graphs.reduce.ride_alongs import reduce
 
 COUNTS = {
     1: {4: 1, 6: 4, 8: 54, 10: 1564, 12: 66594, 14: 3404097},
@@ -92,7 +92,7 @@ def check_row(row, sc):
     assert sum(one.centre is Centre.INFINITE for one in classes) == row["infinite"]
     assert sum(loop.centre is Centre.NONE for loop in sc.loops) == row["spatial"]
     assert exact_mobility(sc).mobility == row["exact_dof"] == row["dof"]
-    assert chain_id(nx.Graph(reduce_addenda(sc).graph)) == row["reduced"]
+    assert chain_id(nx.Graph(reduce(sc).graph)) == row["reduced"]
     degrees = Counter(degree for _, degree in sc.degree())
     assert row["assortment"] == ",".join(str(degrees[d]) for d in range(2, max(degrees) + 1))
     sizes = sorted(len(loop.joints) for loop in sc.loops)

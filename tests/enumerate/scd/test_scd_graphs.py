@@ -17,7 +17,7 @@ from enumerate.scd.graphs import (
 )
 from enumerate.scd.jobs import SCDJob, scd_count_job
 from enumerate.scd.query import PlacementQuery, SCDQuery
-from graphs.convert.reconstruction import reconstruct
+from graphs.convert.reconstruction import polyhedron_of
 from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
@@ -98,7 +98,7 @@ def check(row, scd, tmp_path=None):
     result = exact_mobility(scd)
     assert (result.mobility, result.forced) == (row["exact_dof"], True)
     assert row["exact_dof"] == row["dof"]
-    model = reconstruct(scd)
+    model = polyhedron_of(scd)
     assert exact_mobility_of_model(model).mobility == row["dof"]
     assert len(model) == scd.counts.vertices == row["vertices"]
     kinds = [scd.drawing.kind_of_face(face.index) for face in scd.faces]

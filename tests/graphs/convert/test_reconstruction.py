@@ -3,7 +3,7 @@ from strategies import scd_graphs
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.panels import scd_from_panels
-from graphs.convert.reconstruction import internal_rods, reconstruct, vertex_steps
+from graphs.convert.reconstruction import internal_rods, polyhedron_of, vertex_steps
 from graphs.count.equations import mobility_of_model
 from graphs.loops.loop import Loop
 from graphs.mechanism.drawing import FaceKind
@@ -13,7 +13,7 @@ from graphs.mechanism.sheet import sheet_from_model
 
 @given(scd_graphs)
 def test_reconstruction_has_the_vertices_and_rods_that_were_counted(scd):
-    model = reconstruct(scd)
+    model = polyhedron_of(scd)
     assert len(model) == scd.counts.vertices
     assert model.number_of_edges() == scd.counts.edges
     assert [centre.k for centre in model.centres] == [3] * scd.counts.implicit_centres
@@ -31,7 +31,7 @@ def test_every_vertex_is_told_once_with_the_links_that_have_it(scd):
 
 @given(scd_graphs)
 def test_links_of_the_model_share_rods_where_they_are_joined(scd):
-    model = reconstruct(scd)
+    model = polyhedron_of(scd)
     for joint, (a, b) in scd.joints.items():
         ends = set(scd.drawing.ends_of_joint(joint))
         assert ends <= set(model.links[a]) & set(model.links[b])
@@ -41,7 +41,7 @@ def test_links_of_the_model_share_rods_where_they_are_joined(scd):
 @given(scd_graphs)
 def test_links_of_the_model_as_panels_give_the_graph_back(scd):
     """All but what panels cannot show: centres off the links, and joints in two pieces."""
-    back = scd_from_panels(dict(reconstruct(scd).links))
+    back = scd_from_panels(dict(polyhedron_of(scd).links))
     assert sorted(map(sorted, back.joints.values())) == sorted(map(sorted, scd.joints.values()))
     assert back.counts.external_edges == scd.counts.external_edges
     explicit = [kind for kind in map(scd.drawing.kind_of_face, range(len(scd.faces))) if kind is FaceKind.EXPLICIT]
@@ -65,7 +65,7 @@ def test_a_remote_centre_keeps_the_rods_of_its_joints():
         rotation={k: [k, None, (k - 1) % 4, None] for k in range(4)},
         outer=(0, "right"),
     )
-    (centre,) = reconstruct(scd).centres
+    (centre,) = polyhedron_of(scd).centres
     assert centre.name == "S"
     assert {frozenset(rod) for rod in centre.rods} == {
         frozenset(scd.drawing.ends_of_joint(joint)) for joint in scd.joints
@@ -74,6 +74,6 @@ def test_a_remote_centre_keeps_the_rods_of_its_joints():
 
 @given(scd_graphs)
 def test_the_sheet_of_a_model_has_its_joints(scd):
-    sheet = sheet_from_model(reconstruct(scd))
+    sheet = sheet_from_model(polyhedron_of(scd))
     assert sheet.assignments.count("U") == len(scd.joints)
     assert len(mechanism_of_sheet(sheet).sc.joints) == len(scd.joints)

@@ -7,7 +7,7 @@ import pytest
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.equations import loop_form
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
-from graphs.files.formats import read, read_frame
+from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.pose import closure_at_pose, dense, pose_mobility
 from graphs.rank.singular_values import spectrum
@@ -133,7 +133,7 @@ def test_crease_patterns_as_they_lie(fold_folder, most):
         try:
             sheet = read(fold_folder / row["name"])
             if sheet.coordinates is None:  # a later frame has them
-                sheet = read_frame(fold_folder / row["name"])
+                sheet = read(fold_folder / row["name"]).frames.first_placed()
             mechanism_of_sheet(sheet)
         except SynthedraError:
             continue

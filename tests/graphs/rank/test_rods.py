@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from strategies import random_scd
 
-from graphs.convert.reconstruction import reconstruct
+from graphs.convert.reconstruction import polyhedron_of
 from graphs.count.equations import mobility_of_model
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
@@ -37,7 +37,7 @@ def test_both_roads_on_all_scd_graphs_of_the_papers(mechanisms):
     for file in mechanisms:
         scd = read(file)
         if isinstance(scd, SCDGraph):
-            assert exact_mobility_of_model(reconstruct(scd)).mobility == exact_mobility(scd).mobility, file
+            assert exact_mobility_of_model(polyhedron_of(scd)).mobility == exact_mobility(scd).mobility, file
             found += 1
     assert found >= 40
 
@@ -45,7 +45,7 @@ def test_both_roads_on_all_scd_graphs_of_the_papers(mechanisms):
 @pytest.mark.parametrize("seed", range(60))
 def test_both_roads_on_random_scd_graphs(seed):
     scd = random_scd(random.Random(seed), refused=Counter())
-    assert exact_mobility_of_model(reconstruct(scd)).mobility == exact_mobility(scd).mobility
+    assert exact_mobility_of_model(polyhedron_of(scd)).mobility == exact_mobility(scd).mobility
 
 
 def test_without_an_apex_a_remote_centre_misreports():

@@ -14,7 +14,7 @@ from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.reduce.ride_alongs import RULES, reduce_addenda
+from graphs.reduce.ride_alongs import RULES, reduce
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 
@@ -125,14 +125,14 @@ def check_one(rng: random.Random, *, fully: bool) -> int:
     kept = {link: f"keep {i}" for i, link in enumerate(keep)}
     sc = sc.relabel(kept)
     there = relabelled(sc, rng) if not keep else sc
-    one = reduce_addenda(sc, fully=fully, keep=kept.values())
+    one = reduce(sc, fully=fully, keep=kept.values())
     assert mobility(one.graph) == mobility(sc)
     assert set(kept.values()) <= set(one.graph.nodes)
     assert sc.ground is None or one.graph.ground == sc.ground
     assert one.undo().is_identical(sc)
     assert len(one.steps) * 2 == len(sc) - len(one.graph)
     if not keep:
-        two = reduce_addenda(there, fully=fully)
+        two = reduce(there, fully=fully)
         assert class_code(one.graph) == class_code(two.graph)
     return len(one.steps)
 
@@ -160,24 +160,24 @@ def test_reduction_keeps_the_rank():
         if before is None:
             continue
         ranked += 1
-        assert numeric_mobility(reduce_addenda(sc, fully=bool(i % 2)).graph) == before
+        assert numeric_mobility(reduce(sc, fully=bool(i % 2)).graph) == before
     assert ranked > 100
 
 
 def test_undo_goes_step_by_step():
-    reduction = reduce_addenda(strip(6))
+    reduction = reduce(strip(6))
     for number in range(len(reduction.steps) + 1):
         back = reduction.undo(number)
         assert len(back) == len(reduction.graph) + 2 * number
         assert mobility(back) == 1
-        assert len(reduce_addenda(back).steps) == number
+        assert len(reduce(back).steps) == number
     assert reduction.undo().is_identical(strip(6))
     with pytest.raises(ValueError, match="cannot undo 9 of"):
         reduction.undo(9)
 
 
 def test_a_strip_is_one_chain():
-    reduction = reduce_addenda(strip(8))
+    reduction = reduce(strip(8))
     assert [step.sits_on for step in reduction.steps] == [*range(1, len(reduction.steps)), None]
     (chain,) = reduction.chains()
     assert nx.is_arborescence(chain)
@@ -186,8 +186,8 @@ def test_a_strip_is_one_chain():
 
 def test_blocks_keep_a_loop_unless_fully():
     four_bar = strip(2)
-    assert not reduce_addenda(four_bar).steps
-    whole = reduce_addenda(four_bar, fully=True)
+    assert not reduce(four_bar).steps
+    whole = reduce(four_bar, fully=True)
     assert (len(whole.graph), len(whole.graph.joints), mobility(whole.graph)) == (2, 1, 1)
     assert whole.undo().is_identical(four_bar)
 
@@ -195,12 +195,12 @@ def test_blocks_keep_a_loop_unless_fully():
 def test_ground_and_kept_links_stay():
     sc = strip(4)
     grounded = SCGraph(sc.nodes, sc.joints, sc.loops, ground=0)
-    assert 0 in reduce_addenda(grounded).graph
-    assert not reduce_addenda(sc, keep=[0, 7]).steps
+    assert 0 in reduce(grounded).graph
+    assert not reduce(sc, keep=[0, 7]).steps
     with pytest.raises(InvariantError, match="99 is to be kept and is no link"):
-        reduce_addenda(sc, keep=[99])
+        reduce(sc, keep=[99])
     with pytest.raises(ValueError, match="the rule 'assur' is not one of ride-along, dyad"):
-        reduce_addenda(sc, rule="assur")
+        reduce(sc, rule="assur")
 
 
 def test_a_four_bar_of_two_centres_is_no_ride_along():
@@ -208,9 +208,9 @@ def test_a_four_bar_of_two_centres_is_no_ride_along():
     sc = strip(3).with_loops(
         [Loop(loop.joints, "none" if i else "finite") for i, loop in enumerate(strip(3).loops)]
     )
-    assert len(reduce_addenda(sc).steps) == 1
+    assert len(reduce(sc).steps) == 1
     spatial = strip(3).with_loops([Loop(loop.joints, "none") for loop in strip(3).loops])
-    assert not reduce_addenda(spatial).steps
+    assert not reduce(spatial).steps
 
 
 def test_a_loop_not_given_but_a_sum_counts():
@@ -219,10 +219,10 @@ def test_a_loop_not_given_but_a_sum_counts():
     outer = Loop((1, 2, 3, 4, 5, 6))
     sc = SCGraph(6, joints, [Loop((0, 1, 2, 3)), outer])
     assert len(sc.centre_classes()) == 1
-    reduction = reduce_addenda(sc)
+    reduction = reduce(sc)
     assert len(reduction.steps) == 1
     assert mobility(reduction.graph) == mobility(sc) == 1
-    assert len(reduce_addenda(sc.with_loops([Loop((0, 1, 2, 3)), Loop(outer.joints, "none")])).steps) == 1
+    assert len(reduce(sc.with_loops([Loop((0, 1, 2, 3)), Loop(outer.joints, "none")])).steps) == 1
 
 
 def test_classes_are_kept_though_their_joints_go():
@@ -233,11 +233,11 @@ def test_classes_are_kept_though_their_joints_go():
     loops = [Loop((*path, "ab")), Loop((*path, "cb", "ac")), Loop((*path, "db", "ad"))]
     sc = SCGraph(6, joints, loops)
     assert len(sc.centre_classes()) == 1
-    reduced = reduce_addenda(sc).graph
+    reduced = reduce(sc).graph
     assert len(reduced.centre_classes()) == 1
     assert len({loop.at for loop in reduced.loops}) == 1
     assert reduced.loops[0].at is not None
-    assert reduce_addenda(sc).undo().is_identical(sc)
+    assert reduce(sc).undo().is_identical(sc)
 
 
 def test_a_closed_surface_stays_closed():
@@ -254,7 +254,7 @@ def test_a_closed_surface_stays_closed():
         loops = [*sc.loops, *sc.closing]
         for last in range(len(loops)):  # whichever face is the dependent one
             turned = sc.with_loops([x for i, x in enumerate(loops) if i != last], [loops[last]])
-            reduction = reduce_addenda(turned)
+            reduction = reduce(turned)
             assert len(reduction.graph) == 4
             assert reduction.graph.is_closed
             assert mobility(reduction.graph) == mobility(turned)
@@ -263,7 +263,7 @@ def test_a_closed_surface_stays_closed():
 
 @pytest.mark.parametrize("rule", RULES)
 def test_an_scd_graph_may_be_reduced(rule):
-    reduction = reduce_addenda(read(DATA / "wiener" / "fortune-teller.json"), rule=rule)
+    reduction = reduce(read(DATA / "wiener" / "fortune-teller.json"), rule=rule)
     assert mobility(reduction.graph) == 5
 
 
@@ -272,8 +272,8 @@ def test_dyads_need_no_joint_between_their_bases():
     joints = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (0, 6), (6, 7), (7, 3)]
     sc = SCGraph(8, joints, [Loop((0, 1, 2, 8, 7, 6)), Loop((3, 4, 5, 6, 7, 8))])
     assert len(sc.centre_classes()) == 1
-    assert not reduce_addenda(sc).steps
-    dyads = reduce_addenda(sc, rule="dyad")
+    assert not reduce(sc).steps
+    dyads = reduce(sc, rule="dyad")
     assert len(dyads.steps) >= 1
     assert dyads.steps[0].joint is None
     assert mobility(dyads.graph) == mobility(sc)
@@ -284,15 +284,15 @@ def test_dyads_need_no_joint_between_their_bases():
 def test_dyad_reduction_keeps_the_count_and_can_be_undone(rng):
     sc = random_addenda(rng)
     for fully in (False, True):
-        reduction = reduce_addenda(sc, rule="dyad", fully=fully)
+        reduction = reduce(sc, rule="dyad", fully=fully)
         assert mobility(reduction.graph) == mobility(sc)
         assert reduction.undo().is_identical(sc)
-        assert len(reduction.steps) >= len(reduce_addenda(sc, fully=fully).steps) or not fully
+        assert len(reduction.steps) >= len(reduce(sc, fully=fully).steps) or not fully
 
 
 @given(scd_graphs)
 def test_random_scd_graphs_keep_their_count(scd):
     for rule in RULES:
-        reduction = reduce_addenda(scd, rule=rule)
+        reduction = reduce(scd, rule=rule)
         assert mobility(reduction.graph) == mobility(scd)
         assert reduction.undo().is_identical(scd.sc_graph())

@@ -333,6 +333,7 @@ def test_overconstraint_is_located(data):
     "command",
     [
         "mobility",
+        "id",
         "reduce",
         "edit",
         "enumerate",

@@ -1,0 +1,110 @@
+"""Which type a mechanism is: its canonical ids.
+
+Theory: docs/theory/map-codes.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import networkx as nx
+
+from graphs.convert.link_joint import sc_from_link_joint_graph
+from graphs.convert.table import Mechanism, to_sc, to_scd
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.identity.chains import chain_id
+from graphs.identity.drawings import map_id
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.sc import SCGraph
+from graphs.printing import Block, html_of, text_of
+
+__all__ = ["Identity", "identify"]
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """The canonical ids of a mechanism: equal for mechanisms of one type, and for no others.
+
+    Attributes
+    ----------
+    chain : str or None
+        ``k1:...``, of the link-joint graph; a chain without centres.
+    drawing : str or None
+        ``m1:...``, of the mechanism drawn on the sphere, with its centres and, where they are known, the sides of
+        its links; mirror images have one id.
+    notes : tuple of str
+        Why there is none.
+    """
+
+    chain: str | None
+    drawing: str | None
+    notes: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, str | None]:
+        """Return the keys that scripts rely on."""
+        return {"chain": self.chain, "drawing": self.drawing}
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        told = [f"chain    {self.chain}"] * (self.chain is not None)
+        told += [f"drawing  {self.drawing}"] * (self.drawing is not None)
+        return [*told, *(f"note: {note}" for note in self.notes)]
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+
+def identify(mechanism: Mechanism | nx.Graph) -> Identity:
+    """Return the canonical ids of a mechanism.
+
+    Parameters
+    ----------
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or networkx.Graph
+
+    Returns
+    -------
+    Identity
+
+    Examples
+    --------
+    >>> identify(nx.cycle_graph(4)).chain
+    'k1:Cr'
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> identify(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])).drawing
+    'm1:a-b.ac-.b-d.cd-'
+    """
+    chain, no_chain = _id_or_reason(lambda: chain_id(_graph_of(mechanism)))
+    drawing, no_drawing = _id_or_reason(lambda: map_id(_drawn(mechanism)))
+    notes = [f"no id of the chain: {no_chain}"] * (chain is None)
+    notes += [f"no id of the drawing: {no_drawing}"] * (drawing is None)
+    return Identity(chain, drawing, tuple(notes))
+
+
+def _id_or_reason(find: Callable[[], str]) -> tuple[str | None, str]:
+    try:
+        return find(), ""
+    except (InvariantError, UnsolvableError) as error:
+        return None, str(error)
+
+
+def _graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
+    if isinstance(mechanism, SCGraph):
+        return mechanism
+    return sc_from_link_joint_graph(mechanism) if _is_bare(mechanism) else to_sc(mechanism)
+
+
+def _is_bare(mechanism: object) -> bool:
+    return type(mechanism) in (nx.Graph, nx.MultiGraph)
+
+
+def _drawn(mechanism: Mechanism | nx.Graph) -> SCGraph:
+    """Return the mechanism with all that its drawing tells."""
+    if _is_bare(mechanism) or (isinstance(mechanism, SCGraph) and mechanism.centres_assumed):
+        raise UnsolvableError("a link-joint graph has no drawing and no centres")
+    if isinstance(mechanism, SCGraph):
+        return mechanism
+    return mechanism.chain if isinstance(mechanism, ConicalLinkage) else to_scd(mechanism)

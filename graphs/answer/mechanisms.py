@@ -1,0 +1,139 @@
+"""How does it move: one question to any mechanism.
+
+Theory: docs/theory/mobility-by-count.md, docs/theory/exact-mobility.md, docs/theory/pose.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import cos, pi, sin
+
+import networkx as nx
+
+from graphs.answer.ranks import model_with_exact, with_exact, with_pose
+from graphs.answer.report import MobilityAnswer
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.link_joint import sc_from_link_joint_graph
+from graphs.convert.table import Mechanism, to_sc
+from graphs.count.report import mobility_report
+from graphs.errors import InvariantError
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
+from graphs.rank.pose import pose_mobility_of_axes
+
+__all__ = ["mobility"]
+
+_ASSUMED = "a link-joint graph without centres: each face of a drawing was given a finite one, which decides M"
+_ANY_CONE = pi / 4
+"""Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
+
+
+def mobility(
+    mechanism: Mechanism | nx.Graph,
+    *,
+    exact: bool | None = None,
+    hinge_flat: bool = False,
+    pose: int | None = None,
+) -> MobilityAnswer:
+    """Say how many degrees of freedom a mechanism has, and which formula tells.
+
+    Parameters
+    ----------
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or networkx.Graph
+        A plain graph is a link-joint graph: each face of a drawing of it is given a finite centre.
+    exact : bool, optional
+        Find the exact generic rank; by default of what is not too large.
+    hinge_flat : bool, optional
+        Make hinges of the flat (F) edges of a crease pattern too.
+    pose : int, optional
+        Freedoms as this frame of a FOLD file lies; by default as the pattern was read, or if that has no
+        coordinates, as the first frame that has.
+
+    Returns
+    -------
+    MobilityAnswer
+
+    Raises
+    ------
+    UnsolvableError
+        If a pose is demanded of a sheet that has no coordinates there.
+    FileError, InvariantError
+        If there is no such frame, or the mechanism breaks an invariant.
+
+    Examples
+    --------
+    >>> answer = mobility(nx.cycle_graph(4))
+    >>> answer.mobility, answer.exact.mobility, answer.equations["spherical_system"].why
+    (1, 1, 'Eq. 3: every loop has a centre')
+    >>> mobility(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))).pose.dof
+    1
+    """
+    demanded, wanted = bool(exact), exact is not False
+    if isinstance(mechanism, Sheet):
+        return _of_sheet(mechanism, exact, hinge_flat, pose)
+    if isinstance(mechanism, PolyhedronModel):
+        answer = MobilityAnswer.of(mobility_report(mechanism))
+        return model_with_exact(answer, mechanism, demanded=demanded) if wanted else answer
+    sc = _graph_of(mechanism)
+    answer = MobilityAnswer.of(mobility_report(sc))
+    if sc.centres_assumed:
+        answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
+    if pose is not None:
+        answer = answer.with_notes(warnings=["no freedoms at a pose: a graph has no coordinates"])
+    if wanted:
+        answer = with_exact(answer, sc, demanded=demanded)
+    return _conformed(answer, mechanism) if isinstance(mechanism, ConicalLinkage) else answer
+
+
+def _graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
+    if isinstance(mechanism, SCGraph):
+        return mechanism
+    return sc_from_link_joint_graph(mechanism) if isinstance(mechanism, nx.Graph) else to_sc(mechanism)
+
+
+def _conformed(answer: MobilityAnswer, linkage: ConicalLinkage) -> MobilityAnswer:
+    """Add the freedoms at the conformed position, where the places of the joints are known."""
+    answer = answer.with_notes(warnings=["on a cone all joint axes pass through its apex"])
+    if linkage.steps is None:
+        return answer
+    tilt = linkage.cone_angle or _ANY_CONE
+    axes = {
+        joint: ((0.0, 0.0, 0.0), (sin(tilt) * cos(t), sin(tilt) * sin(t), cos(tilt)))
+        for joint, t in zip(linkage.chain.joints, linkage.places(), strict=True)
+    }
+    return replace(answer, pose=replace(pose_mobility_of_axes(linkage.chain, axes), flat=False))
+
+
+def _of_sheet(sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | None) -> MobilityAnswer:
+    """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
+    dual = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
+    answer = MobilityAnswer.of(mobility_report(dual.sc))
+    answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
+    notes = []
+    if flaps := answer.counts["flaps"]:
+        notes.append(f"{flaps} flap(s), panels with one hinge: a freedom each")
+    if "F" in sheet.assignments:
+        other = mechanism_of_sheet(sheet, hinge_flat=not hinge_flat).sc
+        if len(other) != len(dual.sc):
+            way = "merged" if hinge_flat else "hinged"
+            counted = mobility_report(other).mobility
+            notes.append(f"with flat edges {way}: links {len(other)}, joints {len(other.joints)}, M {counted}")
+    answer = answer.with_notes(dual.repairs, (*dual.warnings, *notes))
+    if exact is not False:
+        answer = with_exact(answer, dual.sc, demanded=bool(exact))
+    lying = _lying(sheet, pose)
+    placed = dual if lying is sheet else mechanism_of_sheet(lying, hinge_flat=hinge_flat)
+    return with_pose(answer, lying, placed, demanded=pose is not None)
+
+
+def _lying(sheet: Sheet, pose: int | None) -> Sheet:
+    """Return the sheet in the pose that is asked for."""
+    if sheet.frames is None:
+        if pose:
+            raise InvariantError("frames", "has no frames", "a .fold file")
+        return sheet
+    if pose is not None:
+        return sheet.frames.frame(pose)
+    return sheet if sheet.coordinates is not None else sheet.frames.first_placed()

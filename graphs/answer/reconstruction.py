@@ -1,0 +1,104 @@
+"""The polyhedron model of a mechanism, vertex by vertex, with its counts.
+
+Source: Wiener 2016, section 3.4.4. Theory: docs/theory/polyhedron-model.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from graphs.convert.reconstruction import VertexStep, vertex_steps
+from graphs.convert.table import Mechanism, to_polyhedron, to_scd
+from graphs.count.equations import mobility_of_model
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.scd import FeatureCounts
+from graphs.printing import Block, TableBlock, html_of, plain, text_of
+
+__all__ = ["Reconstruction", "reconstruct"]
+
+_TOLD = ("vertices", "implicit_centres", "external_edges", "internal_edges")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Reconstruction:
+    """A polyhedron model, and how it came about.
+
+    Attributes
+    ----------
+    model : PolyhedronModel
+    steps : tuple of VertexStep
+        Vertex by vertex: in what kind of face it lies, and which links meet there.
+    counts : FeatureCounts
+        V, C, E_ext, E_int of the SCD graph.
+    """
+
+    model: PolyhedronModel
+    steps: tuple[VertexStep, ...]
+    counts: FeatureCounts
+
+    @property
+    def mobility(self) -> int:
+        """M of the model by count (Wampler, Larson, Erdman 2007, Eq. 9)."""
+        return mobility_of_model(self.model)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the reconstruction as plain data, with the keys that scripts rely on (docs/files.md)."""
+        counts = asdict(self.counts)
+        return {
+            "vertices": [
+                {"vertex": step.vertex, "in": step.kind.value, "links": [str(link) for link in step.links]}
+                for step in self.steps
+            ],
+            "counts": {key: counts[key] for key in _TOLD},
+            "mobility": self.mobility,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the table and the line that are printed."""
+        rows = [
+            (
+                str(step.vertex),
+                "explicit centre" if step.kind.value == "explicit" else f"{step.kind.value} face",
+                ", ".join(plain(link) for link in step.links),
+            )
+            for step in self.steps
+        ]
+        counts = self.counts
+        return [
+            TableBlock(("vertex", "lies in", "links that meet there"), rows, ["vertex"]),
+            f"V = {counts.vertices}, C = {counts.implicit_centres}, E = {counts.external_edges} external "
+            f"+ {counts.internal_edges} internal, M = {self.mobility}",
+        ]
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<Reconstruction: {self.model!r}>"
+
+
+def reconstruct(mechanism: Mechanism) -> Reconstruction:
+    """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
+
+    Parameters
+    ----------
+    mechanism : SCDGraph, Sheet of plain panels, or PolyhedronModel that knows its links
+        The coordinates of a sheet go with it.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sides of the links are not known.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
+    <Reconstruction: <PolyhedronModel: 4 vertices, 6 rods>>
+    """
+    scd = to_scd(mechanism)
+    return Reconstruction(to_polyhedron(mechanism), tuple(vertex_steps(scd)), scd.counts)

@@ -1,0 +1,131 @@
+"""What is printed: lines and tables, the same on a terminal, in a file, as text and as HTML.
+
+An answer gives its *blocks*, lines of text and `TableBlock`; the command line prints them with rich, ``str`` and
+``_repr_html_`` of the answer make text and HTML of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from io import StringIO
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+__all__ = ["Block", "TableBlock", "html_of", "plain", "rich_table", "text_of"]
+
+WIDEST = 60
+UNWRAPPED = 10_000
+"""Columns of a page whose lines are not to be wrapped: a file, a pipe, a string."""
+
+
+def plain(value: object, widest: int = WIDEST) -> str:
+    r"""Return text that is safe to print: one line, no control characters, not too long.
+
+    Examples
+    --------
+    >>> plain("\x1b[31mred")
+    '\\x1b[31mred'
+    >>> plain(None)
+    '-'
+    """
+    text = "-" if value is None else str(value)
+    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+    return text if len(text) <= widest else text[: widest - 3] + "..."
+
+
+@dataclass(frozen=True, slots=True)
+class TableBlock:
+    """A table of texts.
+
+    Attributes
+    ----------
+    columns : tuple of str
+    rows : tuple of tuple of str
+    numbers : collection of str
+        The columns that are set flush right.
+    """
+
+    columns: tuple[str, ...]
+    rows: Sequence[Sequence[str]]
+    numbers: Collection[str] = ()
+
+    def __rich__(self) -> Table:
+        made = rich_table(*self.columns, numbers=self.numbers)
+        for row in self.rows:
+            made.add_row(*row)
+        return made
+
+
+Block = str | TableBlock
+"""A line, or a table."""
+
+
+def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) -> Table:
+    """Return an empty table; columns named in ``numbers`` are set flush right."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+    from rich.text import Text
+
+    made = Table(
+        box=SIMPLE_HEAD, title=None if title is None else Text(title), title_justify="left", pad_edge=False
+    )
+    flush = set(numbers)
+    for column in columns:
+        justify: Literal["left", "right"] = "right" if column in flush else "left"
+        made.add_column(Text(column), justify=justify, overflow="fold")
+    return made
+
+
+def console_for(stream: Any, width: int | None) -> Console:
+    """Return a console that prints names as they are: brackets in them are no markup."""
+    from rich.console import Console
+
+    return Console(file=stream, markup=False, highlight=False, emoji=False, soft_wrap=False, width=width)
+
+
+def text_of(blocks: Iterable[Block]) -> str:
+    """Return blocks as text, a line of the table a line.
+
+    Examples
+    --------
+    >>> print(text_of(["two rows", TableBlock(("n", "name"), [("1", "one"), ("2", "two")], ["n"])]))
+    two rows
+    <BLANKLINE>
+     n   name
+     ────────
+     1   one
+     2   two
+    """
+    stream = StringIO()
+    out = console_for(stream, UNWRAPPED)
+    for block in blocks:
+        out.print(block)
+    return "\n".join(line.rstrip() for line in stream.getvalue().rstrip().split("\n"))
+
+
+def html_of(blocks: Iterable[Block]) -> str:
+    """Return blocks as HTML; names are escaped.
+
+    Examples
+    --------
+    >>> html_of(["a < b"])
+    '<p>a &lt; b</p>'
+    """
+    return "\n".join(
+        _html_table(block) if isinstance(block, TableBlock) else f"<p>{escape(block)}</p>" for block in blocks
+    )
+
+
+def _html_table(table: TableBlock) -> str:
+    flush = [' style="text-align: right"' if column in table.numbers else "" for column in table.columns]
+
+    def cells(texts: Sequence[str], tag: str) -> str:
+        return "".join(f"<{tag}{style}>{escape(text)}</{tag}>" for style, text in zip(flush, texts, strict=True))
+
+    rows = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in table.rows)
+    return f"<table><thead><tr>{cells(table.columns, 'th')}</tr></thead><tbody>{rows}</tbody></table>"
