@@ -133,25 +133,15 @@ def _chain(name: str) -> SCGraph:
     from graphs.convert.link_joint import sc_from_link_joint_graph
     from graphs.convert.table import to_sc
     from graphs.errors import FileError
-    from graphs.files.formats import read
-    from graphs.files.native.conical import read_conical
-    from graphs.files.text import load_json
-    from graphs.identity.chains import chain_from_id
+    from graphs.files.formats import is_id, read
     from graphs.mechanism.sc import SCGraph
 
-    if name.lower() in chain_names():
-        return sc_from_link_joint_graph(chain_from_id(chain_named(name)))
-    if name.startswith("k1:"):
-        return sc_from_link_joint_graph(chain_from_id(name))
-    path = Path(name)
-    if not path.exists() and not path.suffix:
-        raise FileError(name, "", "no chain and no file", f"{' '.join(chain_names())}, an id k1:..., or a file")
+    known = chain_names()
+    code = chain_named(name) if name.lower() in known else name
+    if not is_id(code) and not Path(code).exists() and not Path(code).suffix:
+        raise FileError(name, "", "no chain and no file", f"{' '.join(known)}, an id k1:..., or a file")
     with about(name):
-        if path.suffix.lower() == ".json" and path.is_file():
-            document = load_json(path)
-            if isinstance(document, dict) and document.get("format") == "synthedra/conical":
-                return read_conical(path).chain
-        thing = read(path)
+        thing = read(code)
         sc = thing if isinstance(thing, SCGraph) else to_sc(thing)
         return sc if sc.loops else sc_from_link_joint_graph(sc)
 

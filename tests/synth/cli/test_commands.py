@@ -393,6 +393,7 @@ def test_shell_completion_knows_the_commands():
         "cylinder",
         "convert",
         "reconstruct",
+        "id",
         "order",
         "dyads",
         "fourbar",

@@ -1,0 +1,155 @@
+"""``import synth``: the same answers as the command line, from one call each."""
+
+import json
+import subprocess
+import sys
+
+import networkx as nx
+import pytest
+from commands import run
+
+import synth
+from graphs.errors import OpenError
+
+FOUR_BAR = synth.SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [synth.Loop((0, 1, 2, 3))])
+
+
+def told_by_command(files):
+    return [
+        {key: value for key, value in told.items() if key != "file"}
+        for told in json.loads(run("mobility", "--json", *files).stdout)
+    ]
+
+
+def test_the_answer_is_that_of_the_command(mechanisms, data):
+    files = [*mechanisms, *sorted((data / "surfaces").glob("fig11-s*.json"))]
+    assert [synth.mobility(synth.read(file)).to_json() for file in files] == told_by_command(files)
+
+
+def crease_patterns(folder, most):
+    """Readable patterns up to so many bytes."""
+    for file in sorted(folder.iterdir()):
+        if file.suffix in (".fold", ".svg", ".cp", ".obj") and file.stat().st_size < most:
+            try:
+                yield file, synth.read(file)
+            except synth.FileError:
+                continue
+
+
+@pytest.mark.parametrize("most", [8_000, pytest.param(10**9, marks=pytest.mark.slow)], ids=["small", "all"])
+def test_the_answer_for_crease_patterns_is_that_of_the_command(most, fold_folder):
+    patterns = list(crease_patterns(fold_folder, most))
+    assert len(patterns) > 10
+    assert [synth.mobility(sheet).to_json() for _, sheet in patterns] == told_by_command([f for f, _ in patterns])
+
+
+def test_an_answer_prints_as_the_command_does(data):
+    file = data / "wiener" / "watt.json"
+    answer = synth.mobility(synth.read(file))
+    printed = [line.rstrip() for line in run("mobility", file).stdout.rstrip().splitlines()]
+    assert [str(file), *str(answer).splitlines()] == printed
+    assert repr(answer) == "<MobilityAnswer: M = 1, spherical system>"
+    html = answer._repr_html_()
+    assert "<table>" in html
+    assert "mobility M = 1" in html
+
+
+def test_html_escapes_names():
+    scd = synth.SCDGraph(["<b>", "c"], [("<b>", "c")], rotation={"<b>": (0, None, None), "c": (0, None, None)})
+    assert "<b>" not in synth.reconstruct(scd)._repr_html_()
+    assert "&lt;b&gt;" in synth.reconstruct(scd)._repr_html_()
+
+
+def test_exact_and_pose_are_objects(data):
+    answer = synth.mobility(synth.read(data / "patterns" / "bird-base.fold"))
+    assert answer.exact.mobility == answer.mobility == 5
+    assert (answer.pose.dof, answer.overconstraint) == (10, 5)
+    assert synth.mobility(FOUR_BAR, exact=False).exact is None
+
+
+def test_any_mechanism_has_an_answer(data):
+    assert synth.mobility(nx.cycle_graph(5)).mobility == 2
+    assert synth.mobility(nx.cycle_graph(5)).warnings[0].startswith("a link-joint graph without centres")
+    conical = synth.mobility(synth.read(data / "surfaces" / "fig11-stephenson.json"))
+    assert (conical.mobility, conical.pose.dof, conical.pose.flat) == (1, 1, False)
+    with_angles = synth.read(data / "hyatt" / "spherical-four-bar.json")
+    assert synth.mobility(with_angles).mobility == 1
+
+
+def test_an_id_is_read_as_a_file_is(data):
+    six_bar = synth.read(data / "wiener" / "six-bar.json")
+    ids = synth.identify(six_bar)
+    again = synth.read(ids.drawing)
+    assert synth.identify(again) == ids
+    assert isinstance(again, synth.SCDGraph)
+    chain = synth.read(ids.chain)
+    assert synth.identify(chain).chain == ids.chain
+    assert synth.identify(chain).drawing is None
+    assert synth.mobility(chain).warnings[0].startswith("a link-joint graph without centres")
+    for bad in ("k1:", "k1:~~", "m1:x", "m1:"):
+        with pytest.raises(synth.FileError):
+            synth.read(bad)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mobility", "{}"],
+        ["id", "{}"],
+        ["reduce", "{}"],
+        ["edit", "{}", "--lock", "0"],
+        ["convert", "{}", "OUT.json"],
+        ["enumerate", "addenda", "--of", "{}", "--count"],
+        ["enumerate", "scd", "--of", "{}", "--max-degree", "3", "--count"],
+        ["enumerate", "conical", "--chain", "{}", "--count"],
+    ],
+    ids=lambda words: words[0] + words[1].strip("{}"),
+)
+@pytest.mark.parametrize("code", ["k1:E`hW", "m1:ab.ac.bde.cfg.dg.ef"])
+def test_every_command_takes_an_id(words, code, tmp_path):
+    run(*(word.replace("{}", code).replace("OUT", str(tmp_path / "out")) for word in words))
+
+
+def test_a_file_named_as_an_id_is_written_with_its_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert "extension" in run("id", "./k1:Cr", code=2).stderr + "extension" * (not (tmp_path / "k1:Cr").exists())
+    (tmp_path / "k1:Cr.edges").write_text("a b\nb c\nc d\nd a\n")
+    assert run("id", "./k1:Cr.edges").stdout.startswith("chain    k1:Cr\n")
+
+
+def test_id_of_what_has_none(data):
+    told = json.loads(run("id", "--json", data / "wampler" / "fig9.json").stdout)
+    assert told == {"chain": None, "drawing": None}
+    assert "does not say which vertices make up a link" in run("id", data / "wampler" / "fig9.json").stdout
+
+
+def test_errors_are_of_the_families_that_python_has():
+    with pytest.raises(OSError, match="no such file"):
+        synth.read("there is none.json")
+    with pytest.raises(ValueError, match="one of"):
+        synth.convert(FOUR_BAR, "nothing")
+    assert issubclass(OpenError, synth.FileError)
+    assert issubclass(synth.InvariantError, ValueError)
+
+
+def test_short_descriptions(data):
+    assert repr(FOUR_BAR) == "<SCGraph: 4 links, 4 joints, 1 centre>"
+    assert repr(synth.SCGraph(1)) == "<SCGraph: 1 link, 0 joints, 0 centres>"
+    assert repr(synth.read(data / "wiener" / "six-bar.json")) == (
+        "<SCDGraph: 6 links, 7 joints, 2 centres, 7 vertices>"
+    )
+    assert repr(synth.read(data / "patterns" / "bird-base.fold")) == (
+        "<Sheet: 16 faces, 20 creases, 13 vertices, flat>"
+    )
+    assert repr(synth.convert(FOUR_BAR, "vertex-edge")) == "<VertexEdgeGraph: 1 vertex, 4 creases>"
+    assert repr(synth.read(data / "wampler" / "fig9.json")) == "<PolyhedronModel: 5 vertices, 8 rods>"
+
+
+def test_importing_costs_next_to_nothing():
+    code = (
+        "import synth, sys; heavy = {'networkx', 'numpy', 'rich', 'numba', 'scipy', 'click'} & set(sys.modules);"
+        "assert not heavy, heavy; assert 'Where to begin' in synth.__doc__; synth.SCGraph; print(len(synth.__all__))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    assert 20 <= int(done.stdout) <= 35
