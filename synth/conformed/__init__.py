@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from synth.conformed.behaviours import link_arcs as link_arcs
     from synth.conformed.four_bar_poses import FourBarPoses as FourBarPoses
     from synth.conformed.four_bar_poses import poses_from_conformed as poses_from_conformed
+    from synth.conformed.linkages import LinkageBehaviour as LinkageBehaviour
+    from synth.conformed.linkages import OnCone as OnCone
+    from synth.conformed.linkages import linkage_on_cones as linkage_on_cones
+    from synth.conformed.linkages import loop_of_steps as loop_of_steps
+    from synth.conformed.linkages import loop_on_cones as loop_on_cones
     from synth.conformed.outward import OutwardRate as OutwardRate
     from synth.conformed.outward import joint_rates as joint_rates
     from synth.conformed.outward import outward_rates as outward_rates
@@ -38,6 +43,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
+            "linkages": "LinkageBehaviour OnCone linkage_on_cones loop_of_steps loop_on_cones",
             "all_angles": "Allowed OverAngles never_singular over_angles",
             "behaviours": "Behaviour Way behaviour behaviour_of_motion icrl instant_centres link_arcs",
             "four_bar_poses": "FourBarPoses poses_from_conformed",

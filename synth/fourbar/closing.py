@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import product
+from math import degrees
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -61,6 +63,11 @@ class FourBarKind:
     name: str
     input: str
     output: str
+
+    def to_json(self, *, angular: bool) -> dict[str, Any]:
+        """Return the kind as plain data; the differences of angles in degrees."""
+        told = [round(degrees(t), 12) if angular else t for t in self.differences]
+        return {"T_deg" if angular else "T": [t + 0.0 for t in told], "grashof": self.grashof, "type": self.name}
 
 
 def planar_differences(lengths: npt.ArrayLike) -> Floats:

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from synth.surfaces.linkage_cones import CommonCone as CommonCone
     from synth.surfaces.linkage_cones import CommonFamily as CommonFamily
     from synth.surfaces.linkage_cones import common_cones as common_cones
+    from synth.surfaces.linkages import LinkageMap as LinkageMap
+    from synth.surfaces.linkages import by_angles as by_angles
+    from synth.surfaces.linkages import map_linkage as map_linkage
     from synth.surfaces.loop_sums import LoopRoots as LoopRoots
     from synth.surfaces.loop_sums import loop_roots as loop_roots
     from synth.surfaces.loop_sums import loop_sum as loop_sum
@@ -39,6 +42,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
+            "linkages": "LinkageMap by_angles map_linkage",
             "circuit": "Circuits azimuths circuits closing_step table1 wrapped",
             "cone": "ConeMap link_angles map_to_cones projected_angles",
             "cylinder": "CylinderMap central_angles map_to_cylinders",

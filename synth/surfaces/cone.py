@@ -9,6 +9,8 @@ Magleby, Howell 2020; Hyatt et al. 2021, sections 3.2 and 4. Theory: docs/theory
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import degrees
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +24,7 @@ from synth.fourbar.closing import (
     minimal_supplementary,
     spherical_differences,
 )
-from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, mapped_loop
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, in_degrees, mapped_loop
 
 __all__ = [
     "ConeMap",
@@ -70,6 +72,24 @@ class ConeMap:
     solutions: str | None
     why: str
     supplementary: ConeMap | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the map as plain data, with the keys that scripts rely on (docs/files.md)."""
+        document: dict[str, Any] = {
+            "angles_deg": in_degrees(self.angles),
+            **({} if self.kind is None else self.kind.to_json(angular=True)),
+            "cones": [{"lambda_deg": degrees(cone.size), **cone.to_json()} for cone in self.cones],
+            "families": [
+                {"lambda_deg": [degrees(x) for x in family.interval], **family.to_json()}
+                for family in self.families
+            ],
+            "flat": [{"lambda_deg": 0.0, **loop.to_json()} for loop in self.flat],
+            "why": self.why or None,
+        }
+        if self.kind is not None:
+            document["class"] = self.solutions
+            document["supplementary"] = None if self.supplementary is None else self.supplementary.to_json()
+        return document
 
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:

@@ -7,6 +7,8 @@ sections 3.1 and 4. Theory: docs/theory/mapping.md.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -41,6 +43,19 @@ class CylinderMap:
     families: tuple[FamilyOfCircles, ...]
     kind: FourBarKind | None
     why: str
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the map as plain data, with the keys that scripts rely on (docs/files.md)."""
+        return {
+            "lengths": list(self.lengths),
+            **({} if self.kind is None else self.kind.to_json(angular=False)),
+            "cylinders": [{"radius": cylinder.size, **cylinder.to_json()} for cylinder in self.cylinders],
+            "families": [
+                {"radius": [None if x == inf else x for x in family.interval], **family.to_json()}
+                for family in self.families
+            ],
+            "why": self.why or None,
+        }
 
 
 def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:

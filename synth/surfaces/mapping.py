@@ -5,7 +5,10 @@ Both surfaces share this: `synth.surfaces.cone` and `synth.surfaces.cylinder` sa
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from math import degrees
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +17,7 @@ from graphs.arrays import Floats
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, half_steps, loop_roots
 
-__all__ = ["FamilyOfCircles", "MappedLoop", "mapped_loop"]
+__all__ = ["FamilyOfCircles", "MappedLoop", "in_degrees", "mapped_loop"]
 
 _SAME = 1e-12
 
@@ -54,6 +57,19 @@ class MappedLoop:
     double: bool
     half_turns: tuple[int, ...]
 
+    def to_json(self) -> dict[str, Any]:
+        """Return the loop as plain data, but for its size, which a cone and a cylinder name differently."""
+        return {
+            "circuit": self.circuit,
+            "signs": list(self.signs),
+            "k": self.turns,
+            "density": self.density,
+            "steps_deg": in_degrees(self.steps),
+            "residual_deg": degrees(self.residual),
+            "double": self.double,
+            "half_turns": list(self.half_turns),
+        }
+
 
 @dataclass(frozen=True, slots=True)
 class FamilyOfCircles:
@@ -74,6 +90,21 @@ class FamilyOfCircles:
     circuit: str
     signs: tuple[int, ...]
     turns: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the family as plain data, but for its interval."""
+        return {"circuit": self.circuit, "signs": list(self.signs), "k": self.turns}
+
+
+def in_degrees(values: Iterable[float]) -> list[float]:
+    """Return degrees without the last digits that conversion from and to radians spoils, and without -0.
+
+    Examples
+    --------
+    >>> in_degrees([np.radians(40.1), -0.0])
+    [40.1, 0.0]
+    """
+    return [round(degrees(value), 12) + 0.0 for value in values]
 
 
 def mapped_loop(reach: Floats, base: Base) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, inf
+from math import degrees
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "NumberList",
-    "cone_json",
-    "cylinder_json",
     "kind_line",
     "print_cones",
     "print_cylinders",
@@ -51,67 +49,6 @@ def signs_text(signs: Sequence[int]) -> str:
     '+-+'
     """
     return "".join("+" if sign > 0 else "-" for sign in signs)
-
-
-def cone_json(found: ConeMap) -> dict[str, Any]:
-    """Return what scripts rely on: ``cones``, ``families``; and more."""
-    document: dict[str, Any] = {
-        "angles_deg": _degrees(found.angles),
-        **_kind_json(found.kind, angular=True),
-        "cones": [_loop_json(one, "lambda_deg", degrees(one.size)) for one in found.cones],
-        "families": [
-            _family_json(one, "lambda_deg", [degrees(x) for x in one.interval]) for one in found.families
-        ],
-        "flat": [_loop_json(one, "lambda_deg", 0.0) for one in found.flat],
-        "why": found.why or None,
-    }
-    if found.kind is not None:
-        document["class"] = found.solutions
-        document["supplementary"] = None if found.supplementary is None else cone_json(found.supplementary)
-    return document
-
-
-def cylinder_json(found: CylinderMap) -> dict[str, Any]:
-    """Return what scripts rely on: ``cylinders``, ``families``; and more."""
-    return {
-        "lengths": list(found.lengths),
-        **_kind_json(found.kind, angular=False),
-        "cylinders": [_loop_json(one, "radius", one.size) for one in found.cylinders],
-        "families": [
-            _family_json(one, "radius", [None if x == inf else x for x in one.interval]) for one in found.families
-        ],
-        "why": found.why or None,
-    }
-
-
-def _kind_json(kind: FourBarKind | None, *, angular: bool) -> dict[str, Any]:
-    if kind is None:
-        return {}
-    differences = _degrees(kind.differences) if angular else [t + 0.0 for t in kind.differences]
-    return {"T_deg" if angular else "T": differences, "grashof": kind.grashof, "type": kind.name}
-
-
-def _loop_json(one: MappedLoop, key: str, size: float) -> dict[str, Any]:
-    return {
-        key: size,
-        "circuit": one.circuit,
-        "signs": list(one.signs),
-        "k": one.turns,
-        "density": one.density,
-        "steps_deg": _degrees(one.steps),
-        "residual_deg": degrees(one.residual),
-        "double": one.double,
-        "half_turns": list(one.half_turns),
-    }
-
-
-def _family_json(one: FamilyOfCircles, key: str, interval: list[float | None] | list[float]) -> dict[str, Any]:
-    return {key: interval, "circuit": one.circuit, "signs": list(one.signs), "k": one.turns}
-
-
-def _degrees(values: Sequence[float]) -> list[float]:
-    """Return degrees without the last digits that conversion from and to radians spoils, and without -0."""
-    return [round(degrees(value), 12) + 0.0 for value in values]
 
 
 def kind_line(kind: FourBarKind, *, angular: bool) -> str:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from math import radians
+from typing import TYPE_CHECKING
 
 import click
 
 from synth.cli.output import about, print_json
-from synth.cli.surfaces.circles import NumberList, cone_json, print_cones
+from synth.cli.surfaces.circles import NumberList, print_cones
+
+if TYPE_CHECKING:
+    from synth.conformed.linkages import LinkageBehaviour, OnCone
 
 __all__ = ["cone_group"]
 
@@ -74,20 +78,21 @@ def map_command(
 
         save_figure(draw_cone_sums(found), output)
     if as_json:
-        print_json(cone_json(found))
+        print_json(found.to_json())
     else:
         print_cones(found)
 
 
 def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
     from graphs.files.native.conical import read_conical
-    from synth.cli.surfaces.conical import by_angles, linkage_json, mapped, print_linkage
+    from synth.cli.surfaces.conical import print_linkage
+    from synth.surfaces.linkages import by_angles, map_linkage
 
     linkage = read_conical(file)
     with about(file):
         if angles_only:
             linkage = by_angles(linkage)
-        found = mapped(linkage, tolerance)
+        found = map_linkage(linkage, tolerance)
     if output is not None:
         if not found.cones:
             raise click.UsageError("there is no cone to draw")
@@ -99,9 +104,9 @@ def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None
         places = [first.places[joint] for joint in linkage.chain.joints]
         save_figure(draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output)
     if as_json:
-        print_json(linkage_json(linkage, found))
+        print_json(found.to_json())
     else:
-        print_linkage(linkage, found)
+        print_linkage(found)
 
 
 @cone_group.command("behaviour", short_help="Which links leave the cone inward, outward, or both ways.")
@@ -138,14 +143,8 @@ def behaviour_command(
       synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
     """
     from graphs.files.native.conical import read_conical
-    from synth.cli.surfaces.conical import (
-        behaviours_json,
-        behaviours_of,
-        loop_of_steps,
-        loop_on_cones,
-        on_cones,
-        print_behaviours,
-    )
+    from synth.cli.surfaces.conical import print_behaviours
+    from synth.conformed.linkages import linkage_on_cones, loop_of_steps, loop_on_cones
     from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:
@@ -155,12 +154,12 @@ def behaviour_command(
         raise click.UsageError("--angles tell the cone themselves")
     if file is not None:
         with about(file):
-            found = behaviours_of(on_cones(read_conical(file), tilt), ground)
+            found = _behaviours(linkage_on_cones(read_conical(file), tilt), ground)
     elif angles is not None:
-        found = behaviours_of(loop_on_cones(_radians(angles)), ground)
+        found = _behaviours(loop_on_cones(_radians(angles)), ground)
     else:
         assert steps is not None
-        found = behaviours_of([loop_of_steps(_radians(steps), tilt)], ground)
+        found = _behaviours([loop_of_steps(_radians(steps), tilt)], ground)
     if output is not None:
         if not found:
             raise click.UsageError("there is no cone to draw")
@@ -170,6 +169,14 @@ def behaviour_command(
         first = found[0]
         save_figure(draw_conformed(first.chain, first.places, first.cone_angle), output)
     if as_json:
-        print_json(behaviours_json(found))
+        print_json({"linkages": [linkage.to_json() for linkage in found]})
     else:
         print_behaviours(found)
+
+
+def _behaviours(linkages: list[OnCone], ground: str | None) -> list[LinkageBehaviour]:
+    from synth.cli.graphs.reduce import link_named
+
+    return [
+        linkage.behaviour(None if ground is None else link_named(linkage.chain, ground)) for linkage in linkages
+    ]

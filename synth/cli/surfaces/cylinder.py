@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from synth.cli.output import print_json
-from synth.cli.surfaces.circles import NumberList, cylinder_json, print_cylinders
+from synth.cli.surfaces.circles import NumberList, print_cylinders
 
 __all__ = ["cylinder_group"]
 
@@ -45,6 +45,6 @@ def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -
 
         save_figure(draw_cylinder_sums(found), output)
     if as_json:
-        print_json(cylinder_json(found))
+        print_json(found.to_json())
     else:
         print_cylinders(found)

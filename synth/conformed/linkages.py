@@ -1,0 +1,200 @@
+"""What linkages do in the conformed position, as the command line asks: of angles, of steps, or of a file.
+
+Theory: docs/theory/behaviour.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import degrees, pi
+from typing import Any
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.ids import LinkId
+from graphs.loops.loop import Loop
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.sc import SCGraph
+from synth.conformed.behaviours import Behaviour, Way, behaviour, icrl, instant_centres
+from synth.conformed.rates import ConformedChain
+from synth.conformed.twelve_cases import TableRow, table_row
+from synth.surfaces.circuit import azimuths, closing_step
+from synth.surfaces.cone import map_to_cones
+from synth.surfaces.linkages import map_linkage
+from synth.surfaces.mapping import in_degrees
+
+__all__ = ["LinkageBehaviour", "OnCone", "linkage_on_cones", "loop_of_steps", "loop_on_cones"]
+
+_FAR = 1e12
+
+
+@dataclass(frozen=True, slots=True)
+class OnCone:
+    """A linkage at its conformed position; without a cone angle, on any cone."""
+
+    chain: SCGraph
+    places: Sequence[float]
+    cone_angle: float | None
+
+    def behaviour(self, ground: LinkId | None = None) -> LinkageBehaviour:
+        """Return what the linkage does, one link fixed: its own ground link, or the first, if none is named."""
+        chain = ConformedChain.of(self.chain, ground)
+        places = np.array(self.places)
+        return LinkageBehaviour(chain, places, self.cone_angle, behaviour(chain, places))
+
+
+@dataclass(frozen=True, slots=True)
+class LinkageBehaviour:
+    """What a linkage does in the conformed position, one link fixed.
+
+    Attributes
+    ----------
+    chain : ConformedChain
+        Its first link is fixed.
+    places : float[J]
+        Azimuths of the joints, radians.
+    cone_angle : float or None
+        lambda, radians; None for any cone.
+    behaviour : Behaviour
+    """
+
+    chain: ConformedChain
+    places: Floats
+    cone_angle: float | None
+    behaviour: Behaviour
+
+    def table_row(self) -> TableRow | None:
+        """Return the row of Table 4 (Hyatt et al. 2021) of a four-bar that has one."""
+        around = self._around()
+        if around is None:
+            return None
+        try:
+            return table_row(self.places[around])
+        except InvariantError:  # two joints on one ruling line have no row
+            return None
+
+    def mobile(self) -> tuple[bool, bool]:
+        """Return whether the linkage can be intramobile, and extramobile."""
+        row = self.table_row()
+        both = bool(self.behaviour.one_way)
+        return (both, both) if row is None else (row.intramobile, row.extramobile)
+
+    def _around(self) -> list[int] | None:
+        """Return the joints O, A, B, C of a four-bar whose ground link is C O."""
+        chain = self.chain
+        if len(chain.links) != 4 or len(chain.joints) != 4 or any(len(joints) != 2 for joints in chain.joints_of):
+            return None
+        c, o = chain.joints_of[0]
+        a = next(sum(joints) - o for joints in chain.joints_of[1:] if o in joints)
+        return [o, a, 6 - o - a - c, c]
+
+    def way_of(self, link: int) -> str:
+        """Return which way a link, by its number, can go: ``inward``, ``outward``, ..."""
+        return Way(int(self.behaviour.ways[link])).name.lower()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the behaviour as plain data, with the keys that scripts rely on (docs/files.md)."""
+        motion, chain = self.behaviour.motion, self.chain
+        lines, row = icrl(motion.motions), self.table_row()
+        intra, extra = self.mobile()
+        return {
+            "lambda_deg": None if self.cone_angle is None else degrees(self.cone_angle),
+            "azimuths_deg": dict(zip(map(str, chain.joints), in_degrees(self.places.tolist()), strict=True)),
+            "ground": str(chain.links[0]),
+            "freedoms": int(motion.freedoms),
+            "rank": int(motion.rank()),
+            "singular_values": motion.singular_values.tolist(),
+            "intramobile": intra,
+            "extramobile": extra,
+            "links": [
+                {
+                    "link": str(link),
+                    "joints": [str(chain.joints[joint]) for joint in joints],
+                    "way": self.way_of(number),
+                    "icrl_deg": _finite(degrees(lines[number])),
+                    "instant_centre": _centre(motion.motions[number]),
+                }
+                for number, (link, joints) in enumerate(zip(chain.links, chain.joints_of, strict=True))
+            ],
+            "tangent": [
+                str(joint) for joint, is_so in zip(chain.joints, self.behaviour.tangent, strict=True) if is_so
+            ],
+            "table4": None
+            if row is None
+            else {
+                "case": row.case,
+                "configuration": row.configuration,
+                "column": row.column,
+                "diameter": row.special,
+            },
+        }
+
+
+def _finite(value: float) -> float | None:
+    return value if abs(value) < float("inf") else None
+
+
+def _centre(motion: Floats) -> list[float] | None:
+    x, y = instant_centres(motion).tolist()
+    return [x, y] if abs(x) < _FAR and abs(y) < _FAR else None
+
+
+def linkage_on_cones(linkage: ConicalLinkage, cone_angle: float | None = None) -> list[OnCone]:
+    """Return a linkage on each of its cones, from link angles or from steps.
+
+    Raises
+    ------
+    UnsolvableError
+        If a cone angle is named for link angles, which tell it themselves.
+    """
+    if linkage.steps is not None:
+        return [OnCone(linkage.chain, linkage.places(), cone_angle or linkage.cone_angle)]
+    if cone_angle is not None:
+        raise UnsolvableError("link angles tell the cone themselves: leave --lambda out")
+    return [
+        OnCone(linkage.chain, [cone.places[joint] for joint in linkage.chain.joints], cone.cone_angle)
+        for cone in map_linkage(linkage).cones
+    ]
+
+
+def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
+    """Return a loop of link angles (radians) on each of its cones.
+
+    Examples
+    --------
+    >>> [loop.behaviour().way_of(2) for loop in loop_on_cones(np.radians([120, 95, 45, 85]))]
+    ['both', 'both']
+    """
+    return [
+        OnCone(_ring(len(angles)), azimuths(cone.steps).tolist(), cone.size) for cone in map_to_cones(angles).cones
+    ]
+
+
+def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> OnCone:
+    """Return a loop from its steps round the cone (radians); the last is added if the rest do not close.
+
+    Raises
+    ------
+    InvariantError
+        If a step is none, or there are too few.
+    """
+    given = list(steps)
+    for place, step in enumerate(given):
+        if not 0.0 < abs(step) <= pi + 1e-12:
+            told = f"step {place + 1} is {degrees(step):.12g} degrees"
+            raise InvariantError("step", told, "between -180 and 180, and not 0")
+    last = float(closing_step(given))
+    if abs(last) > 1e-9:
+        given.append(last)
+    if len(given) < 3:
+        raise InvariantError("step", f"{len(given)} steps", "three or more")
+    return OnCone(_ring(len(given)), azimuths(given).tolist(), cone_angle)
+
+
+def _ring(links: int) -> SCGraph:
+    """Return a loop whose link i lies between joints i and i + 1, counted from 1."""
+    joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}
+    return SCGraph(range(1, links + 1), joints, [Loop(tuple(joints))])
