@@ -1,6 +1,7 @@
 import os
 import random
 import signal
+import socket
 import sqlite3
 import subprocess
 import sys
@@ -292,7 +293,8 @@ def test_killed_runs_lose_nothing_at_sixteen_links(tmp_path):
 
 def test_a_cluster_that_loses_a_worker_gives_the_same_rows(tmp_path):
     pytest.importorskip("distributed", reason="needs Dask: pip install 'synthedra[dask]'")
-    address = "tcp://127.0.0.1:18786"
+    port = free_port()
+    address = f"tcp://127.0.0.1:{port}"
 
     def start(*words):
         command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
@@ -301,7 +303,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_rows(tmp_path):
 
     processes = []
     try:
-        start("dask_scheduler", "--host", "127.0.0.1", "--port", "18786", "--no-dashboard")
+        start("dask_scheduler", "--host", "127.0.0.1", "--port", port, "--no-dashboard")
         for _ in range(2):
             start("dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
         store = tmp_path / "chains.sqlite"
@@ -322,6 +324,13 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_rows(tmp_path):
         for process in reversed(processes):
             process.kill()
             process.wait()
+
+
+def free_port():
+    """A port that nobody listens at, so that runs of the tests beside this one have their own."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return str(free.getsockname()[1])
 
 
 def units_in(store):
