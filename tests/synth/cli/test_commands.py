@@ -365,7 +365,7 @@ def test_help_needs_neither_networkx_nor_rich():
 
 def test_a_closed_pipe_leaves_no_traceback(data):
     """As with `synth mobility ... | head -1`."""
-    files = sorted(map(str, data.glob("w*/*.json"))) * 20
+    files = sorted(map(str, data.glob("w*/*.json"))) * 4
     with subprocess.Popen(
         [sys.executable, "-m", "synth.cli", "mobility", "--json", *files],
         stdout=subprocess.PIPE,
