@@ -3,6 +3,9 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
+# One process per core. Each takes tests from its own part of the list first, so that what one test compiled or
+# listed serves its neighbours; who is done takes from the others. PARALLEL= runs them in one process.
+PARALLEL ?= -n logical --dist worksteal
 
 .PHONY: demo test test-slow check data clean help
 
@@ -36,10 +39,10 @@ demo: $(STAMP)
 	@BIN=$(BIN) sh data/demo.sh
 
 test: $(STAMP)
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest $(PARALLEL)
 
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers

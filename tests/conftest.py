@@ -6,6 +6,10 @@ import json
 import os
 from pathlib import Path
 
+# Many small matrices: more threads of BLAS than one wait for each other three times as long as they work, and
+# every core has a process of tests already. numpy reads this when it is imported.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings

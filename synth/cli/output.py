@@ -53,10 +53,10 @@ def console() -> Console:
     return console_for(None, None if sys.stdout.isatty() else UNWRAPPED)
 
 
-def entries(files: Sequence[str], failures: list[str]) -> Iterator[Entry]:
+def entries(files: Sequence[str], failures: list[str], patience: float = _PATIENCE) -> Iterator[Entry]:
     """Yield the mechanisms of files; what is wrong with a file that cannot be read is added to the failures.
 
-    Where it takes long, a terminal shows how far it has come.
+    Where it takes longer than some seconds, the patience, a terminal shows how far it has come.
     """
     from graphs.errors import FileError
     from graphs.files.formats import read_all
@@ -67,7 +67,7 @@ def entries(files: Sequence[str], failures: list[str]) -> Iterator[Entry]:
             yield from read_all(file)
         except FileError as error:
             failures.append(str(error))
-        if sys.stderr.isatty() and monotonic() - start > _PATIENCE:
+        if sys.stderr.isatty() and monotonic() - start > patience:
             click.echo(f"\r{number} of {len(files)} files", nl=False, err=True)
             shown = True
     if shown:

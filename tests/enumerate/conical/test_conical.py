@@ -195,11 +195,11 @@ def test_too_many_symmetries():
 
 
 def layers_by_brute_force(options):
-    """Fewest layers: all choices of arcs, all assignments."""
+    """Fewest layers: all choices of arcs, all assignments; layers have no names, so the first link's is 0."""
     links = len(options)
     best = links
     for arcs in product(*[[mask for mask in one if mask] for one in options]):
-        for layers in product(range(links), repeat=links):
+        for layers in product([0], *[range(links)] * (links - 1)):
             fits = all(layers[i] != layers[j] or not arcs[i] & arcs[j] for i in range(links) for j in range(i))
             if fits:
                 best = min(best, len(set(layers)))

@@ -115,7 +115,7 @@ def renamed(sc, rng):
         (8, 1, {}, 1),
         (9, 2, {}, 1),
         (10, 1, {}, 5),
-        (12, 1, {}, 400),
+        pytest.param(12, 1, {}, 400, marks=pytest.mark.slow),
         (6, 1, {"infinite": True}, 1),
         (8, 1, {"infinite": True}, 1),
         (9, 1, {"spatial": 1}, 1),

@@ -1,6 +1,7 @@
 """Crease patterns by other people, against the reference figures of their index."""
 
 import csv
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -44,13 +45,17 @@ COLLINEAR = {
 }
 
 
+sheet_of = cache(read)
+"""The sheet of a file, read once: sheets do not change."""
+
+
 def rows(folder: Path) -> list[dict[str, str]]:
     with (folder / "INDEX.tsv").open(encoding="utf-8") as stream:
         return list(csv.DictReader(stream, delimiter="\t"))
 
 
 def figures(path: Path) -> tuple[dict[str, int], int]:
-    mechanism = mechanism_of_sheet(read(path))
+    mechanism = mechanism_of_sheet(sheet_of(path))
     report = mobility_report(mechanism.sc)
     found = {
         "N": report.links,
@@ -93,7 +98,7 @@ def test_counts_equal_the_reference_or_it_is_said_why(fold_folder):
 def test_every_sheet_survives_write_and_read_as_fold(fold_folder, tmp_path):
     for row in rows(fold_folder):
         try:
-            sheet = read(fold_folder / row["name"])
+            sheet = sheet_of(fold_folder / row["name"])
         except FileError:
             assert row["name"] in REFUSED
             continue
@@ -107,7 +112,7 @@ def test_every_sheet_survives_write_and_read_as_fold(fold_folder, tmp_path):
 
 def test_the_eight_bends_of_the_hexagon_pattern_are_drawn(fold_folder):
     """Each is a vertex of one mountain and one valley, far from straight, so no welding made it."""
-    sheet = read(fold_folder / "ossvg_HexTriFlatFoldableTess.svg")
+    sheet = sheet_of(fold_folder / "ossvg_HexTriFlatFoldableTess.svg")
     at: dict[int, list[tuple[int, str]]] = {}
     for (a, b), letter in zip(sheet.edges, sheet.assignments, strict=True):
         at.setdefault(a, []).append((b, letter))

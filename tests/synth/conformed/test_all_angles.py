@@ -37,9 +37,10 @@ def measured_rates(chain, places):
     return np.stack(found, axis=-1), motion
 
 
-def test_outward_rates_are_those_of_velocities(rng):
+@pytest.mark.parametrize("every", [7, pytest.param(1, marks=pytest.mark.slow)])
+def test_outward_rates_are_those_of_velocities(every, rng):
     """Every formula, of every choice of loops and path, with one common scale for all joints."""
-    for sc in [*CHAINS.values(), *eight_bars()[::3]]:
+    for sc in [*CHAINS.values(), *eight_bars()[::every]]:
         chain = ConformedChain.of(sc, rng.choice(list(sc)))
         places = rng.uniform(0, 2 * np.pi, (50, len(chain.joints)))
         wanted, motion = measured_rates(chain, places)

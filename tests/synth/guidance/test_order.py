@@ -33,8 +33,8 @@ def check(case, seed):
 
 
 def test_three_checks_agree_with_the_truth():
-    truths = [check(case, 1) for case in range(1500)]
-    assert all(truths.count(kept) > 200 for kept in ("ccw", "cw", None))
+    truths = [check(case, 1) for case in range(600)]
+    assert all(truths.count(kept) > 80 for kept in ("ccw", "cw", None))
 
 
 @pytest.mark.slow
