@@ -38,7 +38,7 @@ def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Any:
     """
     linkage = job.linkage(row)
     chain = ConformedChain.of(linkage.chain, linkage.chain.ground)
-    told = f"{row['order']}   {row['circuits']}   layers {row['layers']}"
+    told = f"{' '.join(row['order'])}   {' '.join(row['circuits'])}   layers {row['layers']}"
     cone_angle = _LAMBDA if job.cone_angle is None else job.cone_angle
     return draw_conformed(chain, job.places(row), cone_angle, told, grounded=bool(row["ground"]))
 

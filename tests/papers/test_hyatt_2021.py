@@ -349,7 +349,7 @@ def test_the_twelve_cases_come_out_of_the_enumeration_of_candidates():
         one = table_row(job.places(row))  # O, A, B, C; the ground link is C O
         assert (row["linkage"] == "one way") == one.intramobile == one.extramobile
         assert row["linkage"] in ("one way", "both ways")
-        assert (row["circuits"] == "open") == (one.configuration == "open")
+        assert (row["circuits"] == ["open"]) == (one.configuration == "open")
         found.setdefault((one.case, one.configuration, one.column), []).append(row["linkage"])
     assert found.keys() == ROWS.keys()
     assert len(rows) == 16
