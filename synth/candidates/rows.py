@@ -16,7 +16,7 @@ import numpy.typing as npt
 from enumerate.runner.columns import Column, ListColumn, RangeColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Floats, Ints
-from synth.candidates.values import four_bar_classes, half_turns, layers, loop_circuits
+from synth.candidates.values import four_bar_classes, half_turns, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
@@ -26,6 +26,7 @@ from synth.conformed.all_angles import (
     over_angles,
 )
 from synth.conformed.behaviours import Way, behaviour_of_motion, link_arcs
+from synth.conformed.layers import layers
 from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.cone import link_angles
