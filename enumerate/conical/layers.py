@@ -14,13 +14,18 @@ from graphs.arrays import Ints
 
 __all__ = ["fewest_layers", "layers_of_links"]
 
+_WITHOUT_END = 1 << 62
+_STEPS = 20_000_000
+"""Steps of the search for one linkage: a fraction of a second. Twenty links, at random, need a tenth of them."""
+
 
 @compiled
-def _fewest(arcs: Ints, chosen: Ints, layer_of: Ints) -> int:
+def _fewest(arcs: Ints, chosen: Ints, layer_of: Ints, steps: int) -> int:
     """Return the fewest layers of links with masks arcs[n, o]; 0 is no choice. Sets choice and layer of each link.
 
     Links are put into layers one after the other, each into a layer that has room or the next new one; a branch
-    ends where it has as many layers as the best solution, and the search where no fewer are possible.
+    ends where it has as many layers as the best solution, the search where no fewer are possible or after so many
+    steps.
     """
     links, choices = arcs.shape
     best: int = links
@@ -34,7 +39,8 @@ def _fewest(arcs: Ints, chosen: Ints, layer_of: Ints) -> int:
     used = np.zeros(links + 1, np.int64)
     tried = np.zeros(links, np.int64)  # next (choice, layer) of each link
     link = 0
-    while link >= 0 and best > least:
+    while link >= 0 and best > least and steps > 0:
+        steps -= 1
         if tried[link] == choices * links:
             tried[link] = 0
             link -= 1
@@ -89,7 +95,7 @@ def _fewest_of_all(arcs: Ints) -> Ints:
     found = np.empty(len(arcs), np.int64)
     chosen, layer_of = np.zeros(arcs.shape[1], np.int64), np.zeros(arcs.shape[1], np.int64)
     for i in range(len(arcs)):
-        found[i] = _fewest(arcs[i], chosen, layer_of)
+        found[i] = _fewest(arcs[i], chosen, layer_of, _WITHOUT_END)
     return found
 
 
@@ -119,6 +125,8 @@ def fewest_layers(arcs: Ints) -> Ints:
 def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:
     """Return the arc and the layer of each link, in the fewest layers (`fewest_layers`).
 
+    Of many more than twenty links they may be more than the fewest: the search ends after a fraction of a second.
+
     Parameters
     ----------
     arcs : int64[N, o]
@@ -140,5 +148,5 @@ def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:
     """
     masks = np.ascontiguousarray(arcs, dtype=np.int64)
     chosen, layer_of = np.zeros(len(masks), np.int64), np.zeros(len(masks), np.int64)
-    _fewest(masks, chosen, layer_of)
+    _fewest(masks, chosen, layer_of, _STEPS)
     return chosen, layer_of
