@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
+from memberships import memberships
 
 from enumerate.conical.query import Portion
 from enumerate.conical.rounds import canonical_row
@@ -23,7 +24,6 @@ from synth.surfaces.circuit import azimuths, circuits, table1
 from synth.surfaces.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles
 from synth.surfaces.cyclic import circumradii, cone_angles
 from synth.surfaces.loop_sums import loop_roots
-from synth.surfaces.memberships import memberships
 from synth.surfaces.several_loops import link_pairs, loop_steps
 
 DATA = Path(__file__).resolve().parents[2] / "data"
