@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import radians
 from pathlib import Path
 
+from memberships import memberships
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
 from graphs.files.atomic import write_text
@@ -12,7 +13,6 @@ from graphs.files.native.conical import write_conical
 from graphs.files.text import json_text
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
-from synth.surfaces.memberships import memberships
 
 FIG_11 = {"OA": -40, "AB": -20, "BC": -45, "CD": -68, "DE": 28, "EF": 30}
 """The six printed steps, degrees: an open run through the seven axes."""

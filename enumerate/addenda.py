@@ -23,6 +23,7 @@ from typing import Any
 
 import networkx as nx
 
+from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Counting, Row, Unit
 from graphs.edit.sc import Edit, add_loop
 from graphs.errors import InvariantError
@@ -38,11 +39,11 @@ from graphs.rank.generic import exact_mobility
 
 __all__ = ["ADDENDUM_COLUMNS", "Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
 
-ADDENDUM_COLUMNS: dict[str, type] = {
+ADDENDUM_COLUMNS: dict[str, Column] = {
     "kind": str,
     "a": str,
     "b": str,
-    "through": str,
+    "through": ListColumn(" ", kind=str),
     "new_links": int,
     "links": int,
     "joints": int,
@@ -135,7 +136,7 @@ class AddendumJob:
             object.__setattr__(self, "mechanism", self.mechanism.sc_graph())
 
     @property
-    def columns(self) -> dict[str, type]:
+    def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         return ADDENDUM_COLUMNS
 
@@ -228,7 +229,7 @@ def _row(one: Addendum) -> Row:
     return (
         one.kind,
         *map(str, one.ends),
-        " ".join(map(str, one.through)),
+        tuple(map(str, one.through)),
         len(after) - len(one.edit.before),
         len(after),
         len(after.joints),

@@ -16,6 +16,7 @@ from enumerate.chains.fractionated import Block, block_choices, glued, shapes
 from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.graphs import contracted_graphs
+from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
@@ -95,7 +96,7 @@ class ChainJob:
     bare: bool = False
 
     @cached_property
-    def columns(self) -> dict[str, type]:
+    def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         return columns_of(self.query, self.bare)
 

@@ -18,6 +18,7 @@ import networkx as nx
 
 from enumerate.chains.jobs import ChainJob, count_job
 from enumerate.chains.query import ChainQuery
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink
 from graphs.identity.chains import chain_from_id
@@ -49,7 +50,7 @@ def chains(links: int, dof: int, **options: Any) -> Iterator[nx.Graph]:
     Examples
     --------
     >>> [graph.graph["assortment"] for graph in chains(6, 1)]
-    ['4,2', '4,2']
+    [[4, 2], [4, 2]]
     >>> next(chains(6, 1)).graph["code"]
     'k1:E`hW'
     """
@@ -65,7 +66,7 @@ def chain_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]
     Keys are ``code`` (the id), ``links``, ``joints``, ``dof``, ``loops``, ``assortment`` (numbers of binary,
     ternary, ... links), ``longest_string``, ``symmetry`` (number of automorphisms), ``inversions`` (how many there
     are), ``planar``, ``fractionated``; with ``inversions`` or ``inputs``, ``ground`` (a link); with ``inputs``,
-    ``inputs`` (joints).
+    ``inputs`` (joints, each as its two links).
 
     Parameters
     ----------
@@ -80,7 +81,7 @@ def chain_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]
     job = ChainJob(ChainQuery(links, dof, **options))
     for unit in job.units():
         for row in job.work(unit.payload):
-            yield dict(zip(job.columns, row, strict=True))
+            yield row_as_dict(job.columns, row)
 
 
 def count_chains(links: int, dof: int, method: str = "orbits", *, workers: int = 1, **options: Any) -> int:

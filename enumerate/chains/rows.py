@@ -25,6 +25,7 @@ from enumerate.contracted.listing import (
     placements_of,
     symmetries_of,
 )
+from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of, canonical_order
@@ -34,31 +35,31 @@ __all__ = [
     "GROUND_COLUMNS",
     "INPUT_COLUMNS",
     "GraphChains",
-    "assortment_text",
+    "assortment_of",
     "chain_ids",
     "columns_of",
     "rows_of_graph",
     "rows_of_joints",
 ]
 
-COLUMNS: dict[str, type] = {
+COLUMNS: dict[str, Column] = {
     "code": str,
     "links": int,
     "joints": int,
     "dof": int,
     "loops": int,
-    "assortment": str,
+    "assortment": ListColumn(","),
     "longest_string": int,
     "symmetry": int,
     "inversions": int,
     "planar": bool,
     "fractionated": bool,
 }
-GROUND_COLUMNS: dict[str, type] = {"ground": int}
-INPUT_COLUMNS: dict[str, type] = {"inputs": str}
+GROUND_COLUMNS: dict[str, Column] = {"ground": int}
+INPUT_COLUMNS: dict[str, Column] = {"inputs": ListColumn(" ", "-")}
 
 
-def columns_of(query: ChainQuery, bare: bool) -> dict[str, type]:
+def columns_of(query: ChainQuery, bare: bool) -> dict[str, Column]:
     """Return names and types of the values of a row; ``bare`` rows have the id alone."""
     if bare:
         return {"code": str}
@@ -112,7 +113,7 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         return [(code,) for code in codes]
     orbits = chains.inversions(query.links)
     degrees = Counter(decode(chains.code, chains.n).sum(axis=1).tolist())
-    assortment = assortment_text({**degrees, 2: query.links - chains.n})
+    assortment = assortment_of({**degrees, 2: query.links - chains.n})
     planar = is_planar(decode(chains.code, chains.n))
     counts = (orbits == np.arange(query.links)).sum(axis=1).tolist()
     common = query.links, query.joints, query.dof, query.loops, assortment
@@ -168,7 +169,7 @@ def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints)
     """
     if query.inputs:
         for ground, inputs in input_choices(query.links, joints, generators.tolist(), query.dof):
-            yield ground, " ".join(f"{a}-{b}" for a, b in inputs)
+            yield ground, tuple(inputs)
     else:
         yield from ((int(link),) for link in np.flatnonzero(orbits_of(generators) == np.arange(query.links)))
 
@@ -202,7 +203,7 @@ def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: b
         query.joints,
         query.dof,
         query.loops,
-        assortment_text(degrees),
+        assortment_of(degrees),
         longest,
         symmetry,
         int((orbits_of(renamed) == np.arange(query.links)).sum()),
@@ -214,9 +215,9 @@ def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: b
     return [(*row, *choice) for choice in _choices(query, pairs, renamed)]
 
 
-def assortment_text(degrees: Mapping[int, int]) -> str:
+def assortment_of(degrees: Mapping[int, int]) -> tuple[int, ...]:
     """Return the numbers of binary, ternary, ... links."""
-    return ",".join(str(degrees.get(degree, 0)) for degree in range(2, max(degrees) + 1))
+    return tuple(degrees.get(degree, 0) for degree in range(2, max(degrees) + 1))
 
 
 def _longest_string(graph: nx.Graph) -> int:

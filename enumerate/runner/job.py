@@ -6,9 +6,11 @@ thousands of rows; a *sink* takes the rows of unit after unit.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
+
+from enumerate.runner.columns import Column
 
 __all__ = ["Counting", "Job", "Progress", "Row", "Sink", "Unit"]
 
@@ -35,8 +37,8 @@ class Job(Protocol):
     """What an enumerator hands to the runner. A job is pickled to the workers: keep it small."""
 
     @property
-    def columns(self) -> dict[str, type]:
-        """Names of the values of a row, and their types: int, str, bool or float."""
+    def columns(self) -> Mapping[str, Column]:
+        """Names of the values of a row, and their types: int, str, bool, float, or a column of lists."""
 
     @property
     def key(self) -> dict[str, Any]:

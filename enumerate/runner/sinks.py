@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from enumerate.runner.columns import Column, ListColumn, row_as_dict, stored
 from enumerate.runner.job import Job, Row, Sink
 from enumerate.runner.store import SqliteSink
 from graphs.convert.link_joint import sc_from_link_joint_graph
@@ -170,11 +171,12 @@ class JsonLinesSink(_FileSink):
 
 
 class ParquetSink(_FileSink):
-    """Parquet, one row group a unit; needs pyarrow."""
+    """Parquet, one row group a unit; needs pyarrow. A list of values of several types is JSON text."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
         self._writer: Any = None
+        self._mixed: set[int] = set()
 
     def start(self, job: Job) -> int:
         """Open the file.
@@ -191,8 +193,8 @@ class ParquetSink(_FileSink):
             raise StoreError(f"{self._path}: Parquet needs pyarrow: pip install 'synthedra[parquet]'") from None
         super().start(job)
         assert self._file is not None
-        types = {int: arrow.int64(), str: arrow.string(), bool: arrow.bool_(), float: arrow.float64()}
-        self._schema = arrow.schema([(column, types[kind]) for column, kind in job.columns.items()])
+        self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
+        self._mixed = {i for i, kind in enumerate(job.columns.values()) if _is_mixed(kind)}
         self._writer = parquet.ParquetWriter(self._file.stream, self._schema)
         return 0
 
@@ -202,7 +204,10 @@ class ParquetSink(_FileSink):
 
         if not rows:
             return
-        values = [list(column) for column in zip(*rows, strict=True)]
+        values = [
+            [stored(value) for value in column] if i in self._mixed else list(column)
+            for i, column in enumerate(zip(*rows, strict=True))
+        ]
         table = arrow.Table.from_arrays(
             [arrow.array(v, field.type) for v, field in zip(values, self._schema, strict=True)],
             schema=self._schema,
@@ -216,6 +221,21 @@ class ParquetSink(_FileSink):
         """Write the footer, and move the file to its place."""
         self._writer.close()
         super().finish()
+
+
+def _is_mixed(kind: Column) -> bool:
+    return isinstance(kind, ListColumn) and kind.kind is None
+
+
+def _arrow_type(kind: Column) -> Any:
+    import pyarrow as arrow
+
+    if not isinstance(kind, ListColumn):
+        return {int: arrow.int64(), str: arrow.string(), bool: arrow.bool_(), float: arrow.float64()}[kind]
+    if kind.kind is None:
+        return arrow.string()
+    items = _arrow_type(kind.kind)
+    return arrow.list_(arrow.list_(items) if kind.within else items)
 
 
 def mechanism_text(row: Mapping[str, Any]) -> str:
@@ -265,7 +285,7 @@ class FolderSink:
         assert self._folder is not None
         for row in rows:
             self._number += 1
-            text = self._text(dict(zip(self._columns, row, strict=True)))
+            text = self._text(row_as_dict(self._columns, row))
             try:
                 (self._folder.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
             except OSError as error:

@@ -1,8 +1,8 @@
 """The store of an enumeration: one SQLite file, every unit with its rows in one transaction.
 
 Tables: ``meta(key, value)`` says what was enumerated; ``unit(id, state, rows, seconds)`` which units are there;
-``type`` holds the rows, each with the unit it came from. During a run the file is in WAL mode: it can be read
-meanwhile, and survives the death of the run at any moment. A complete store is one plain file.
+``type`` holds the rows, each with the unit it came from, lists as JSON text. During a run the file is in WAL mode:
+it can be read meanwhile, and survives the death of the run at any moment. A complete store is one plain file.
 """
 
 from __future__ import annotations
@@ -10,19 +10,23 @@ from __future__ import annotations
 import json
 import re
 import sqlite3
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from enumerate.runner.columns import Column, ListColumn, stored, unstored
 from enumerate.runner.job import Job, Row
 from graphs.errors import StoreError
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]
 
 _FORMAT = "synthedra/store"
-_VERSION = 1
+_VERSION = 2
+_REMEMBERED = 4096
+"""Lists of a column whose JSON text is kept: many rows share theirs."""
 
 
 class SqliteSink:
@@ -39,6 +43,7 @@ class SqliteSink:
         self.path, self._resume = Path(path), resume
         self._connection: sqlite3.Connection | None = None
         self._insert = ""
+        self._lists: list[tuple[int, Callable[[Any], str]]] = []
 
     def start(self, job: Job) -> int:
         """Make the file, or look into it; return how many units it holds.
@@ -63,6 +68,7 @@ class SqliteSink:
             self._connection.execute("PRAGMA journal_mode=WAL")
             self._connection.execute("PRAGMA synchronous=NORMAL")
             self._make_tables(job)
+            self._lists = _texts_of_lists(job.columns)
             marks = ", ".join("?" * (len(job.columns) + 1))
             self._insert = f"INSERT INTO type (unit, {_quoted(job.columns)}) VALUES ({marks})"
             return int(self._connection.execute("SELECT count(*) FROM unit").fetchone()[0])
@@ -80,6 +86,7 @@ class SqliteSink:
             "version": _VERSION,
             "synthedra": version("synthedra"),
             "columns": list(job.columns),
+            "lists": [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)],
             "job": job.key,
             "complete": False,
         }
@@ -116,8 +123,17 @@ class SqliteSink:
             If they cannot be written; the file is as it was before.
         """
         with _named(self.path), self._transaction() as cursor:
-            cursor.executemany(self._insert, [(number, *row) for row in rows])
+            cursor.executemany(self._insert, ((number, *self._told(row)) for row in rows))
             cursor.execute("INSERT INTO unit VALUES (?, 'done', ?, ?)", (number, len(rows), round(seconds, 6)))
+
+    def _told(self, row: Row) -> Sequence[Any]:
+        """Return the values of a row with lists as JSON text."""
+        if not self._lists:
+            return row
+        values = list(row)
+        for place, text in self._lists:
+            values[place] = text(values[place])
+        return values
 
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
@@ -147,7 +163,7 @@ class SqliteSink:
 
 
 def read_meta(path: str | Path) -> dict[str, Any]:
-    """Return what a store says of itself: ``job``, ``columns``, ``complete``, versions.
+    """Return what a store says of itself: ``job``, ``columns``, ``lists``, ``complete``, versions.
 
     Raises
     ------
@@ -162,16 +178,19 @@ def read_meta(path: str | Path) -> dict[str, Any]:
 
 
 def read_rows(path: str | Path) -> Iterator[Row]:
-    """Yield the rows of a store, in order, as its columns say.
+    """Yield the rows of a store, in order, as its columns say; a list is a tuple, as in the rows of a job.
 
     Raises
     ------
     StoreError
         If the file is not a store.
     """
-    columns = read_meta(path)["columns"]
+    meta = read_meta(path)
+    columns, lists = meta["columns"], set(meta["lists"])
+    read = lru_cache(_REMEMBERED)(unstored)
     with _reading(Path(path)) as connection:
-        yield from connection.execute(f"SELECT {_quoted(columns)} FROM type ORDER BY rowid")
+        for row in connection.execute(f"SELECT {_quoted(columns)} FROM type ORDER BY rowid"):
+            yield tuple(read(value) if name in lists else value for name, value in zip(columns, row, strict=True))
 
 
 @contextmanager
@@ -199,6 +218,18 @@ def _named(path: Path) -> Iterator[None]:
     except sqlite3.Error as error:
         hint = "; what was stored stays: make room and --resume" if re.search("full|I/O", str(error)) else ""
         raise StoreError(f"{path}: {error}{hint}") from None
+
+
+def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[Any], str]]]:
+    """Return the place of each column of lists, and what makes text of them.
+
+    Each column remembers its own: lists that are equal, of numbers of different types, are not one text.
+    """
+    return [
+        (place, lru_cache(_REMEMBERED)(stored))
+        for place, kind in enumerate(columns.values())
+        if isinstance(kind, ListColumn)
+    ]
 
 
 def _quoted(columns: Iterable[str]) -> str:

@@ -13,6 +13,7 @@ from typing import Any
 from enumerate.chains.names import name_of
 from enumerate.contracted.embedded import joint_matrix, outer_faces
 from enumerate.contracted.graphs import graph_key
+from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row, Unit
 from enumerate.sc.jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units, maps_for, number_in
 from enumerate.sc.query import SCQuery
@@ -20,7 +21,7 @@ from enumerate.sc.rows import SC_COLUMNS, sc_rows_of
 
 __all__ = ["FORM_COLUMNS", "FormJob"]
 
-FORM_COLUMNS: dict[str, type] = {
+FORM_COLUMNS: dict[str, Column] = {
     "code": str,
     "chain": str,
     "name": str,
@@ -28,7 +29,7 @@ FORM_COLUMNS: dict[str, type] = {
     "joints": int,
     "dof": int,
     "loops": int,
-    "assortment": str,
+    "assortment": ListColumn(","),
     "sc_graphs": int,
     "centres": int,
     "forms": int,
@@ -49,7 +50,7 @@ class FormJob:
     query: SCQuery
 
     @property
-    def columns(self) -> dict[str, type]:
+    def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         return FORM_COLUMNS
 

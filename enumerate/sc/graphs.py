@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink
 from enumerate.sc.forms import FormJob
@@ -72,13 +73,13 @@ def sc_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
 
     Examples
     --------
-    >>> sorted(row["loop_sizes"] + "/" + str(row["outer_size"]) for row in sc_rows(6, 1))
-    ['4,4/6', '4,5/5', '4,6/4', '5,5/4']
+    >>> sorted((row["loop_sizes"], row["outer_size"]) for row in sc_rows(6, 1))
+    [([4, 4], 6), ([4, 5], 5), ([4, 6], 4), ([5, 5], 4)]
     """
     job = SCJob(SCQuery(links, dof, **options))
     for unit in job.units():
         for row in job.work(unit.payload):
-            yield dict(zip(job.columns, row, strict=True))
+            yield row_as_dict(job.columns, row)
 
 
 def chain_forms(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
@@ -97,7 +98,7 @@ def chain_forms(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]
     job = FormJob(SCQuery(links, dof, **options))
     for unit in job.units():
         for row in job.work(unit.payload):
-            yield dict(zip(job.columns, row, strict=True))
+            yield row_as_dict(job.columns, row)
 
 
 def count_sc_graphs(

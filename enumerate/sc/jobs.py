@@ -12,6 +12,7 @@ import numpy as np
 from enumerate.contracted.embedded import outer_faces
 from enumerate.contracted.maps import contracted_maps
 from enumerate.kernel.maps import decode_map
+from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.sc.listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc.query import SCQuery
@@ -130,7 +131,7 @@ class SCJob:
     query: SCQuery
 
     @property
-    def columns(self) -> dict[str, type]:
+    def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         return SC_COLUMNS
 

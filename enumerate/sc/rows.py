@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from enumerate.chains.rows import assortment_text, chain_ids
+from enumerate.chains.rows import assortment_of, chain_ids
 from enumerate.kernel.map_texts import map_ids
+from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
 from enumerate.sc.listing import centres_of_all, describe, list_drawn
 from enumerate.sc.query import SCQuery
@@ -16,7 +17,7 @@ from graphs.arrays import Bytes, Flags, Ints
 
 __all__ = ["SC_COLUMNS", "DrawnChains", "sc_rows_of", "within_limits"]
 
-SC_COLUMNS: dict[str, type] = {
+SC_COLUMNS: dict[str, Column] = {
     "code": str,
     "chain": str,
     "links": int,
@@ -26,8 +27,8 @@ SC_COLUMNS: dict[str, type] = {
     "spatial": int,
     "centres": int,
     "infinite": int,
-    "assortment": str,
-    "loop_sizes": str,
+    "assortment": ListColumn(","),
+    "loop_sizes": ListColumn(","),
     "outer_size": int,
     "symmetry": int,
     "reduced": str,
@@ -92,7 +93,7 @@ def sc_rows_of(query: SCQuery, drawn: DrawnChains) -> list[Row]:
     chains, _ = chain_ids(query.links, joints)
     degrees = Counter(np.bincount(joints[0].ravel()).tolist())
     common = query.links, query.chains.joints, query.dof, query.loops, query.spatial
-    assortment = assortment_text(degrees)
+    assortment = assortment_of(degrees)
     whole = (1 << query.chains.joints) - 1
     inner = np.sort(sizes[:, 1:], axis=1).tolist()
     return [
@@ -103,7 +104,7 @@ def sc_rows_of(query: SCQuery, drawn: DrawnChains) -> list[Row]:
             centres,
             infinite,
             assortment,
-            ",".join(map(str, loops)),
+            tuple(loops),
             outer,
             symmetry,
             chain if kept == whole else _reduced(joints[i], kept),

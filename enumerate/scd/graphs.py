@@ -14,6 +14,7 @@ import numpy as np
 
 from enumerate.kernel.centre_labels import FINITE, MOST_JOINTS, OUTER
 from enumerate.kernel.map_texts import LABEL_LETTERS
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink
 from enumerate.scd.jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
@@ -102,7 +103,7 @@ def _rows(mechanisms: Mechanisms) -> Iterator[dict[str, Any]]:
     job = SCDJob(mechanisms)
     for unit in job.units():
         for row in job.work(unit.payload):
-            yield dict(zip(job.columns, row, strict=True))
+            yield row_as_dict(job.columns, row)
 
 
 def count_scd_graphs(

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.sc.jobs import MapPart, drawn_of, map_units
 from enumerate.sc.listing import codes_of_all
@@ -174,7 +175,7 @@ class SCDJob:
     mechanisms: Mechanisms
 
     @property
-    def columns(self) -> dict[str, type]:
+    def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         return SCD_COLUMNS
 

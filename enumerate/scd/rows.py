@@ -7,6 +7,7 @@ import numpy as np
 from enumerate.chains.rows import chain_ids
 from enumerate.kernel.centre_labels import SPATIAL
 from enumerate.kernel.map_texts import map_ids
+from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
 from enumerate.sc.rows import within_limits
 from enumerate.scd.choices import outline
@@ -16,7 +17,7 @@ from graphs.arrays import Bytes, Ints
 
 __all__ = ["SCD_COLUMNS", "placements_on", "scd_rows_of"]
 
-SCD_COLUMNS: dict[str, type] = {
+SCD_COLUMNS: dict[str, Column] = {
     "code": str,
     "sc": str,
     "chain": str,
@@ -27,7 +28,7 @@ SCD_COLUMNS: dict[str, type] = {
     "spatial": int,
     "centres": int,
     "infinite": int,
-    "sides": str,
+    "sides": ListColumn(","),
     "open_edges": int,
     "vertices": int,
     "explicit": int,
@@ -77,12 +78,11 @@ def scd_rows_of(query: PlacementQuery, code: Bytes, labels: Ints, dof: int, firs
     common = sc, chain, links, len(joints), dof, faces - 1, spatial, centres, infinite
     sides = sides_of_all(codes, lengths, faces, query.max_degree)[:, 3:].tolist()
     return [
-        (code_text, *common, _numbers(degrees), *values)
+        (code_text, *common, _without_last_zeros(degrees), *values)
         for code_text, degrees, values in zip(map_ids(codes, lengths, faces), sides, facts.tolist(), strict=True)
     ]
 
 
-def _numbers(counts: list[int]) -> str:
-    """Return numbers as text, without zeros at the end."""
+def _without_last_zeros(counts: list[int]) -> tuple[int, ...]:
     last = max(i for i, count in enumerate(counts) if count)
-    return ",".join(map(str, counts[: last + 1]))
+    return tuple(counts[: last + 1])

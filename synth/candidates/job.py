@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from enumerate.conical.query import ConicalQuery, Portion
+from enumerate.runner.columns import Column, row_as_dict
 from enumerate.runner.job import Counting, Row, Unit
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
@@ -97,9 +98,9 @@ class CandidateJob:
     >>> job = CandidateJob(chain, (0,))
     >>> for row in job.rows():
     ...     print(row["order"], row["circuits"], row["linkage"], row["one_way"])
-    O A B C open by angles 2
-    O A C B crossed by angles 2
-    O B A C crossed by angles 4
+    ['O', 'A', 'B', 'C'] ['open'] by angles 2
+    ['O', 'A', 'C', 'B'] ['crossed'] by angles 2
+    ['O', 'B', 'A', 'C'] ['crossed'] by angles 4
     """
 
     chain: SCGraph
@@ -152,7 +153,7 @@ class CandidateJob:
         )
 
     @cached_property
-    def columns(self) -> dict[str, type]:
+    def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         shape = self._shapes[self.grounds[0]]
         return shape.columns(self.placed, self.opposites, self.cone_angle is not None, self.slots is not None)
@@ -219,9 +220,7 @@ class CandidateJob:
 
     def rows(self) -> list[dict[str, Any]]:
         """Return all rows as dictionaries, worked out in this process."""
-        return [
-            dict(zip(self.columns, row, strict=True)) for unit in self.units() for row in self.work(unit.payload)
-        ]
+        return [row_as_dict(self.columns, row) for unit in self.units() for row in self.work(unit.payload)]
 
     def places(self, row: Mapping[str, Any]) -> Floats:
         """Return the azimuths of the joints of a row, radians; of an order, evenly spaced, opposites too.
@@ -232,8 +231,8 @@ class CandidateJob:
             Column to value.
         """
         if "azimuths_deg" in row:
-            return np.radians([float(one) for one in str(row["azimuths_deg"]).split()])
-        return np.array([int(one) for one in str(row["slots"]).split()]) * (2 * np.pi / self.query.rounds.slots)
+            return np.asarray(np.radians(row["azimuths_deg"]))
+        return np.array(row["slots"]) * (2 * np.pi / self.query.rounds.slots)
 
     def linkage(self, row: Mapping[str, Any]) -> ConicalLinkage:
         """Return the linkage of a row; of an order, one whose joints, with the opposites, are evenly spaced.

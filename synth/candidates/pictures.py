@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import FolderBeside
 from synth.candidates.job import CandidateJob
+from synth.conformed.layers import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
 from synth.drawing.figure import save_figure
 
-__all__ = ["PictureSink", "picture_of_row"]
+__all__ = ["PictureSink", "picture_of_row", "title_of_picture"]
 
 _MOST = 10_000
 _LAMBDA = np.radians(30.0)
@@ -38,9 +41,25 @@ def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Any:
     """
     linkage = job.linkage(row)
     chain = ConformedChain.of(linkage.chain, linkage.chain.ground)
-    told = f"{row['order']}   {row['circuits']}   layers {row['layers']}"
+    told = title_of_picture(row, int(links_in_layers(chain, job.places(row)).layers.max()) + 1)
     cone_angle = _LAMBDA if job.cone_angle is None else job.cone_angle
     return draw_conformed(chain, job.places(row), cone_angle, told, grounded=bool(row["ground"]))
+
+
+def title_of_picture(row: Mapping[str, Any], layers: int) -> str:
+    """Return the title of a picture of a candidate: order, circuits, and in how many layers it is drawn.
+
+    A cyclic order is drawn at one choice of angles; its row, and the title, tell those of all choices.
+
+    Examples
+    --------
+    >>> row = {"order": ["O", "A", "B"], "circuits": ["open"], "layers": 1, "most_layers": 2}
+    >>> title_of_picture(row, 1)
+    'O A B   open   layers 1 (1 to 2 over all angles)'
+    """
+    low, high = row["layers"], row.get("most_layers", row["layers"])
+    every = "" if low == high else f" ({low} to {high} over all angles)"
+    return f"{' '.join(row['order'])}   {' '.join(row['circuits'])}   layers {layers}{every}"
 
 
 class PictureSink:
@@ -82,7 +101,7 @@ class PictureSink:
             self._number += 1
             if self._number > _MOST:
                 raise UnsolvableError(f"more than {_MOST} pictures: ask for fewer candidates")
-            figure = picture_of_row(self._job, dict(zip(self._job.columns, row, strict=True)))
+            figure = picture_of_row(self._job, row_as_dict(self._job.columns, row))
             save_figure(figure, self._folder.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)
 

@@ -1,21 +1,22 @@
-"""Rows of conical candidates: names of columns, and values as text and numbers.
+"""Rows of conical candidates: names of columns, and values.
 
 Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from enumerate.runner.columns import Column, ListColumn, RangeColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Floats, Ints
-from synth.candidates.values import four_bar_classes, half_turns, layers, loop_circuits
+from synth.candidates.values import four_bar_classes, half_turns, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
@@ -25,6 +26,7 @@ from synth.conformed.all_angles import (
     over_angles,
 )
 from synth.conformed.behaviours import Way, behaviour_of_motion, link_arcs
+from synth.conformed.layers import layers
 from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.cone import link_angles
@@ -37,6 +39,21 @@ _ALLOWED = {
     Allowed.ANGLES: "by angles",
     Allowed.UNKNOWN: "not known",
 }
+
+
+_WORDS = ListColumn(" ", kind=str)
+_NUMBERS = ListColumn(" ")
+_JOINTS = ListColumn(" ", "-", kind=str)
+
+
+class LoopCircuits(NamedTuple):
+    """Loops, circuits, how many are open, densities, and |k| of each loop."""
+
+    loops: tuple[tuple[str, ...], ...]
+    circuits: tuple[str, ...]
+    open_loops: int
+    density: tuple[int, ...]
+    turns: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -83,65 +100,68 @@ class Shape:
         own = [str(link) for link in self.chain.links]
         return [own.index(name) for name in self.links]
 
-    def ways_text(self, words: Sequence[str]) -> str:
-        """Return a word for each link, in the order of rows."""
+    def ways_of_links(self, words: Sequence[str]) -> tuple[tuple[str, str], ...]:
+        """Return (link, word) for each link, in the order of rows."""
         told = ["fixed", *words[1:]]
-        return " ".join(f"{name}:{told[k]}" for name, k in zip(self.links, self._turned, strict=True))
+        return tuple((name, told[k]) for name, k in zip(self.links, self._turned, strict=True))
 
-    def columns(self, placed: bool, opposites: bool, cone: bool, slots: bool) -> dict[str, type]:
+    def columns(self, placed: bool, opposites: bool, cone: bool, slots: bool) -> dict[str, Column]:
         """Return names and types of columns."""
-        common = {"chain": str, "ground": str, "order": str}
-        where = {"slots": str} if slots or not placed else {}
-        circuits = {
+        common: dict[str, Column] = {"chain": str, "ground": str, "order": _WORDS}
+        where: dict[str, Column] = {"slots": _NUMBERS} if slots or not placed else {}
+        circuits: dict[str, Column] = {
             "symmetry": int,
-            "loops": str,
-            "circuits": str,
+            "loops": _JOINTS,
+            "circuits": _WORDS,
             "open_loops": int,
-            "density": str,
-            "turns": str,
+            "density": _NUMBERS,
+            "turns": _NUMBERS if placed else RangeColumn(" ", ".."),
         }
-        ways = {"ways": str, "linkage": str} if self.grounded and (placed or self.single) else {}
+        ways: dict[str, Column] = {}
+        if self.grounded and (placed or self.single):
+            ways = {"ways": ListColumn(" ", ":", kind=str), "linkage": str}
         if not placed:
-            rank = {"full_rank": bool} if self.single else {}
+            rank: dict[str, Column] = {"full_rank": bool} if self.single else {}
             if opposites:
                 return {**common, **where, **circuits, "layers": int, **rank, **ways}
-            many = {"one_way": int, "both_ways": int, "by_angles": int, "not_known": int} if ways else {}
+            many: dict[str, Column] = (
+                {"one_way": int, "both_ways": int, "by_angles": int, "not_known": int} if ways else {}
+            )
             return {**common, **where, **circuits, "layers": int, "most_layers": int, **rank, **ways, **many}
-        evaluated = {
-            "azimuths_deg": str, "half_turns": str, "half_turn_steps": int, "layers": int, "rank": int,
-            "freedoms": int, "singular": bool, "least_singular_value": float, "grashof": str, "grashof_loops": int,
+        evaluated: dict[str, Column] = {
+            "azimuths_deg": ListColumn(" ", kind=float), "half_turns": _JOINTS, "half_turn_steps": int,
+            "layers": int, "rank": int, "freedoms": int, "singular": bool, "least_singular_value": float,
+            "grashof": _WORDS, "grashof_loops": int,
         }  # fmt: skip
-        angles = {"lambda_deg": float, "link_angles_deg": str} if cone else {}
+        angles: dict[str, Column] = {}
+        if cone:
+            angles = {"lambda_deg": float, "link_angles_deg": ListColumn(" ", "-", ":", None)}
         return {**common, **where, **circuits, **evaluated, **angles, **ways}
 
     def common(self, slots: Ints, opposites: bool) -> Iterator[tuple[Any, ...]]:
         """Yield chain, ground and order, slots of rows."""
         ground = str(self.chain.links[0]) if self.grounded else ""
         for row in slots.tolist():
-            yield self.code, ground, self._order(row, opposites), " ".join(map(str, row))
+            yield self.code, ground, self._order(row, opposites), tuple(row)
 
-    def _order(self, row: list[int], opposites: bool) -> str:
+    def _order(self, row: list[int], opposites: bool) -> tuple[str, ...]:
         if not opposites:
-            return " ".join(self.names[i] for i in sorted(range(len(row)), key=row.__getitem__))
+            return tuple(self.names[i] for i in sorted(range(len(row)), key=row.__getitem__))
         half = len(row)
         told = sorted((slot % half, self.names[i] + "'" * (slot >= half)) for i, slot in enumerate(row))
-        return " ".join(name for _, name in told)
+        return tuple(name for _, name in told)
 
-    def circuit_texts(self, places: Floats) -> list[tuple[str, str, int, str, list[int]]]:
-        """Return loops, circuits, how many are open, densities, and |k| of each loop, of each row."""
+    def circuits_of_loops(self, places: Floats) -> list[LoopCircuits]:
+        """Return the circuits of all loops, of each row."""
         found = loop_circuits(self.loops, places)
         open_ = np.stack([one.open for one in found], axis=-1)
         density = np.stack([one.density for one in found], axis=-1)
         turns = np.abs(np.stack([one.turns for one in found], axis=-1))
-        loops = " ".join("-".join(self.names[i] for i in loop) for loop in self.loops)
+        loops = tuple(tuple(self.names[i] for i in loop) for loop in self.loops)
         return [
-            (loops, " ".join("open" if one else "crossed" for one in o), sum(o), _text(d), k)
+            LoopCircuits(loops, tuple("open" if one else "crossed" for one in o), sum(o), tuple(d), tuple(k))
             for o, d, k in zip(open_.tolist(), density.tolist(), turns.tolist(), strict=True)
         ]
-
-
-def _text(values: Iterable[object]) -> str:
-    return " ".join(map(str, values))
 
 
 def order_rows(shape: Shape, slots: Ints, symmetry: Ints, opposites: bool) -> list[Row]:
@@ -160,16 +180,15 @@ def order_rows(shape: Shape, slots: Ints, symmetry: Ints, opposites: bool) -> li
     flat = sets.reshape(-1, joints)
     places = flat * (np.pi / joints)
     per_row = sets.shape[1]
-    circuits = shape.circuit_texts(places)
+    circuits = shape.circuits_of_loops(places)
     deep = layers(shape.chain, places).reshape(-1, per_row)
     full = never_singular(shape.prepared, places[::per_row]).tolist() if shape.single else []
     allowed = over_angles(shape.prepared, flat) if shape.grounded and shape.single else None
     made: list[Row] = []
     for i, start in enumerate(shape.common(slots, opposites)):
         mine = slice(i * per_row, (i + 1) * per_row)
-        loops, names, count, density, _ = circuits[i * per_row]
-        turns = np.array([one[-1] for one in circuits[mine]])
-        row: list[Any] = [*start, int(symmetry[i]), loops, names, count, density, _ranges(turns)]
+        turns = np.array([one.turns for one in circuits[mine]])
+        row: list[Any] = [*start, int(symmetry[i]), *circuits[i * per_row][:-1], _ranges(turns)]
         row += [int(deep[i].min())] if opposites else [int(deep[i].min()), int(deep[i].max())]
         row += full[i : i + 1]
         if allowed is not None:
@@ -178,10 +197,9 @@ def order_rows(shape: Shape, slots: Ints, symmetry: Ints, opposites: bool) -> li
     return made
 
 
-def _ranges(turns: Ints) -> str:
+def _ranges(turns: Ints) -> tuple[tuple[int, int], ...]:
     """Return least and greatest number of turns of each loop."""
-    low, high = turns.min(axis=0).tolist(), turns.max(axis=0).tolist()
-    return _text(f"{a}" if a == b else f"{a}..{b}" for a, b in zip(low, high, strict=True))
+    return tuple(zip(turns.min(axis=0).tolist(), turns.max(axis=0).tolist(), strict=True))
 
 
 def _ways(shape: Shape, found: OverAngles, mine: slice, opposites: bool) -> list[Any]:
@@ -195,10 +213,10 @@ def _ways(shape: Shape, found: OverAngles, mine: slice, opposites: bool) -> list
             {1: "outward", -1: "inward"}[s * sense] if s and one == Allowed.ONE else word
             for s, one, word in zip(signs, links, words, strict=True)
         ]
-        return [shape.ways_text(words), _ALLOWED[linkage]]
+        return [shape.ways_of_links(words), _ALLOWED[linkage]]
     counts = np.bincount(found.linkage[mine], minlength=4)
     return [
-        shape.ways_text(words),
+        shape.ways_of_links(words),
         _ALLOWED[linkage],
         *(int(counts[one]) for one in (Allowed.ONE, Allowed.BOTH, Allowed.ANGLES, Allowed.UNKNOWN)),
     ]
@@ -243,24 +261,23 @@ def placed_rows(
     singular = rank < motion.singular_values.shape[-1]
     pairs, half = half_turns(chain, places)
     classes = four_bar_classes(shape.loops, places, cone_angle)
-    circuits = shape.circuit_texts(places)
+    circuits = shape.circuits_of_loops(places)
     deep = layers(chain, places).tolist()
-    azimuths = np.degrees(places).round(12).tolist()
+    azimuths = [tuple(float(f"{x:.12g}") for x in row) for row in np.degrees(places).round(12).tolist()]
     angles = _link_angles(chain, places, pairs, cone_angle)
     ways = _placed_ways(shape, places) if shape.grounded else None
-    joined = [f"{shape.names[a]}-{shape.names[b]}" for a, b in pairs]
+    joined = [(shape.names[a], shape.names[b]) for a, b in pairs]
     made: list[Row] = []
     for i, start in enumerate(shape.common(slots, False)):
-        loops, names, count, density, turns = circuits[i]
-        here = [joined[k] for k in np.flatnonzero(half[i]).tolist()]
-        of_loops = [str(one[i]) for one in classes]
-        row: list[Any] = [*(start if on_slots else start[:-1]), int(symmetry[i]), loops, names, count, density]
-        row += [_text(turns), _text(f"{x:.12g}" for x in azimuths[i]), _text(here), len(here), deep[i]]
+        here = tuple(joined[k] for k in np.flatnonzero(half[i]).tolist())
+        of_loops = tuple(str(one[i]) for one in classes)
+        row: list[Any] = [*(start if on_slots else start[:-1]), int(symmetry[i]), *circuits[i]]
+        row += [azimuths[i], here, len(here), deep[i]]
         row += [int(rank[i]), int(motion.freedoms[i]), bool(singular[i]), float(f"{least[i]:.9g}")]
-        row += [_text(of_loops), of_loops.count("Grashof")]
+        row += [of_loops, of_loops.count("Grashof")]
         if angles is not None and cone_angle is not None:
             row += [round(float(np.degrees(cone_angle)), 10)]
-            row += [_text(f"{name}:{x:.10g}" for name, x in zip(joined, angles[i], strict=True))]
+            row += [tuple((*pair, float(f"{x:.10g}")) for pair, x in zip(joined, angles[i], strict=True))]
         if ways is not None:
             row += ways[i]
         made.append(tuple(row))
@@ -279,14 +296,14 @@ def _link_angles(
     return found
 
 
-def _placed_ways(shape: Shape, places: Floats) -> list[list[str]]:
+def _placed_ways(shape: Shape, places: Floats) -> list[list[Any]]:
     chain = shape.chain
     found = behaviour_of_motion(chain, places, first_order(chain, places), link_arcs(chain, places))
     word = {int(way): way.name.lower() for way in Way}
     known = (found.ways != Way.UNKNOWN).all(axis=-1).tolist()
     return [
         [
-            shape.ways_text([word[one] for one in ways]),
+            shape.ways_of_links([word[one] for one in ways]),
             _ALLOWED[(Allowed.ONE if one_way else Allowed.BOTH) if told else Allowed.UNKNOWN],
         ]
         for ways, one_way, told in zip(found.ways.tolist(), found.one_way.tolist(), known, strict=True)

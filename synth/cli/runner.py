@@ -14,6 +14,7 @@ import click
 from synth.cli.output import console, plain, print_json, table
 
 if TYPE_CHECKING:
+    from enumerate.runner.columns import Column
     from enumerate.runner.job import Job, Progress, Row, Sink
 
 __all__ = ["Limits", "RunOptions", "run_count", "run_rows", "runner_options"]
@@ -196,9 +197,9 @@ def _time(seconds: float) -> str:
 class _Printer:
     """Prints a table, or lines parted by tabs where there are too many rows for one; whole files are left out."""
 
-    def __init__(self, columns: Mapping[str, type]) -> None:
-        self._shown = [i for i, column in enumerate(columns) if column != "mechanism"]
-        self._columns = [list(columns)[i] for i in self._shown]
+    def __init__(self, columns: Mapping[str, Column]) -> None:
+        self._shown = [(i, _text_of(columns[column])) for i, column in enumerate(columns) if column != "mechanism"]
+        self._columns = [list(columns)[i] for i, _ in self._shown]
         self._numbers = [column for column in self._columns if columns[column] in (int, float)]
         self._kept: list[list[str]] = []
         self._streaming = False
@@ -206,7 +207,7 @@ class _Printer:
     def take(self, columns: tuple[str, ...], rows: list[Row]) -> None:
         """Keep rows for the table, or print them."""
         del columns
-        self._kept += [[_cell(row[i]) for i in self._shown] for row in rows]
+        self._kept += [[text(row[i]) for i, text in self._shown] for row in rows]
         if len(self._kept) > _MOST_IN_TABLE or self._streaming:
             if not self._streaming:
                 click.echo("\t".join(self._columns))
@@ -237,6 +238,11 @@ class _Printer:
 
     def _title(self, column: int) -> str:
         return self._columns[column].replace("_", " ")
+
+
+def _text_of(column: Column) -> Callable[[Any], str]:
+    """Return what makes the text of a value of a column."""
+    return _cell if isinstance(column, type) else column.text
 
 
 def _cell(value: object) -> str:

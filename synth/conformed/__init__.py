@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from synth.conformed.behaviours import link_arcs as link_arcs
     from synth.conformed.four_bar_poses import FourBarPoses as FourBarPoses
     from synth.conformed.four_bar_poses import poses_from_conformed as poses_from_conformed
+    from synth.conformed.layers import LinksInLayers as LinksInLayers
+    from synth.conformed.layers import links_in_layers as links_in_layers
     from synth.conformed.linkages import LinkageBehaviour as LinkageBehaviour
     from synth.conformed.linkages import OnCone as OnCone
     from synth.conformed.linkages import linkage_on_cones as linkage_on_cones
@@ -47,6 +49,7 @@ else:
             "all_angles": "Allowed OverAngles never_singular over_angles",
             "behaviours": "Behaviour Way behaviour behaviour_of_motion icrl instant_centres link_arcs",
             "four_bar_poses": "FourBarPoses poses_from_conformed",
+            "layers": "LinksInLayers links_in_layers",
             "outward": "OutwardRate joint_rates outward_rates",
             "pose": "PoseCheck check_pose dihedral_angles joint_axes measured_dihedral_angles",
             "rates": "ConformedChain FirstOrder first_order",

@@ -18,7 +18,6 @@ from synth.surfaces.circuit import azimuths
 from synth.surfaces.cone import checked_cone_angle
 
 __all__ = [
-    "CONE_AXIS",
     "PoseCheck",
     "angles_between",
     "check_pose",
@@ -27,9 +26,6 @@ __all__ = [
     "measured_dihedral_angles",
     "strip",
 ]
-
-CONE_AXIS = (0.0, 1.0, 0.0)
-"""Direction of the axis, from the cone to the apex and beyond."""
 
 
 @dataclass(frozen=True, slots=True)

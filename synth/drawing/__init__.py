@@ -12,8 +12,7 @@ if TYPE_CHECKING:
     from synth.drawing.figure import save_figure as save_figure
     from synth.drawing.sphere import draw_hoop as draw_hoop
     from synth.drawing.sphere import draw_map as draw_map
-    from synth.drawing.sums import draw_cone_sums as draw_cone_sums
-    from synth.drawing.sums import draw_cylinder_sums as draw_cylinder_sums
+    from synth.drawing.sums import draw_loop_sums as draw_loop_sums
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -21,6 +20,6 @@ else:
             "conformed": "draw_conformed",
             "figure": "new_figure save_figure",
             "sphere": "draw_hoop draw_map",
-            "sums": "draw_cone_sums draw_cylinder_sums",
+            "sums": "draw_loop_sums",
         },
     )

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from synth.conformed.behaviours import Way, behaviour_of_motion, icrl, link_arcs
+from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
+from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.pose import joint_axes, strip
 from synth.conformed.rates import ConformedChain, first_order
 from synth.drawing.figure import COLOURS, new_figure
@@ -35,7 +36,7 @@ def draw_conformed(
     *,
     grounded: bool = True,
 ) -> Any:
-    """Return a picture of a linkage on its circle and, with a cone angle, on its cone.
+    """Return a picture of a linkage on its circle and, with a cone angle, on its cone, in the fewest layers.
 
     Parameters
     ----------
@@ -55,7 +56,7 @@ def draw_conformed(
     Raises
     ------
     UnsolvableError
-        If matplotlib is not installed.
+        If matplotlib is not installed, or there are more than 62 joints.
 
     Examples
     --------
@@ -65,57 +66,33 @@ def draw_conformed(
     2
     """
     t = np.asarray(places, dtype=float)
+    laid = links_in_layers(chain, t)
     figure = new_figure(11.0 if cone_angle is not None else 6.4, 5.6)
-    _circle(figure.add_subplot(1, 1 if cone_angle is None else 2, 1), chain, t, grounded)
+    _circle(figure.add_subplot(1, 1 if cone_angle is None else 2, 1), chain, t, laid, grounded)
     if cone_angle is not None:
-        _cone(figure.add_subplot(1, 2, 2, projection="3d"), chain, t, cone_angle)
+        _cone(figure.add_subplot(1, 2, 2, projection="3d"), chain, t, laid, cone_angle)
     if title:
         figure.suptitle(title)
     return figure
 
 
-def _layers(arcs: Floats) -> list[int]:
-    """Put each link's arc on the lowest layer where it overlaps none."""
-    taken: list[list[tuple[float, float]]] = []
-    layers = []
-    for start, length in arcs:
-        free = (
-            number
-            for number in range(len(arcs))
-            if number == len(taken)
-            or all(not _overlap(start, length, other, more) for other, more in taken[number])
-        )
-        layer = next(free)
-        if layer == len(taken):
-            taken.append([])
-        taken[layer].append((start, length))
-        layers.append(layer)
-    return layers
-
-
-def _overlap(start: float, length: float, other: float, more: float) -> bool:
-    apart = (other - start) % (2 * np.pi)
-    return bool(apart < length - 1e-9 or 2 * np.pi - apart < more - 1e-9)
-
-
-def _circle(axes: Any, chain: ConformedChain, t: Floats, grounded: bool) -> None:
+def _circle(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, grounded: bool) -> None:
     """Draw circle, links as arcs and chords, ICRL of each moving link, and the shadow of a four-bar."""
-    arcs = link_arcs(chain, t)
     motion = first_order(chain, t)
-    found = behaviour_of_motion(chain, t, motion, arcs)
+    behaviour = behaviour_of_motion(chain, t, motion, laid.arcs)
     lines = icrl(motion.motions) if grounded else np.full(len(chain.links), np.nan)
     round_ = np.linspace(0, 2 * np.pi, 361)
     axes.plot(np.sin(round_), np.cos(round_), color="0.55", linewidth=1.0, zorder=1)
     four_bar = grounded and len(chain.links) == 4 and len(t) == 4
     if four_bar:
         _shadow(axes, chain, t)
-    for number, (joints, layer) in enumerate(zip(chain.joints_of, _layers(arcs), strict=True)):
+    for number, (joints, layer) in enumerate(zip(chain.joints_of, laid.layers.tolist(), strict=True)):
         colour = "0.25" if number == 0 else COLOURS[(number - 1) % len(COLOURS)]
-        start, length = arcs[number]
+        start, length = laid.arcs[number]
         along = start + length * np.linspace(0, 1, 90)
         radius = 1.06 + 0.06 * layer
         name = _link_name(chain, number)
-        told = "ground" if number == 0 else _WAYS[Way(int(found.ways[number]))]
+        told = "ground" if number == 0 else _WAYS[Way(int(behaviour.ways[number]))]
         axes.plot(
             radius * np.sin(along), radius * np.cos(along), color=colour, linewidth=4.5, solid_capstyle="butt",
             label=f"{name}: {told}" if grounded else name, zorder=3,
@@ -166,18 +143,16 @@ def _shadow(axes: Any, chain: ConformedChain, t: Floats) -> None:
     axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=["0.91"], zorder=0)
 
 
-def _cone(axes: Any, chain: ConformedChain, t: Floats, cone_angle: float) -> None:
+def _cone(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, cone_angle: float) -> None:
     """Draw links as strips of the cone, in bands so that they do not hide each other, and joint axes."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    arcs = link_arcs(chain, t)
-    layers = _layers(arcs)
-    width = 0.62 / (max(layers) + 1)
+    width = 0.62 / (int(laid.layers.max()) + 1)
     round_ = np.linspace(0, 2 * np.pi, 181)
     for radius in (0.35, 1.05):
         axes.plot(*_upright(radius * joint_axes(round_, cone_angle)), color="0.7", linewidth=0.7)
-    for number, layer in enumerate(layers):
-        start, length = arcs[number]
+    for number, layer in enumerate(laid.layers.tolist()):
+        start, length = laid.arcs[number]
         inner = 0.38 + width * layer
         edge_in, edge_out = strip(start, start + length, cone_angle, (inner, inner + 0.9 * width), 40)
         panels = [

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from synth.guidance.four import AxisCurve as AxisCurve
     from synth.guidance.four import centre_axes as centre_axes
     from synth.guidance.four import dyads_of_four as dyads_of_four
+    from synth.guidance.fourbars import BodyMotion as BodyMotion
     from synth.guidance.fourbars import GuidedFourBar as GuidedFourBar
-    from synth.guidance.fourbars import Motion as Motion
     from synth.guidance.fourbars import four_bar_of as four_bar_of
     from synth.guidance.fourbars import four_bars as four_bars
     from synth.guidance.fourbars import motion_of as motion_of
@@ -44,7 +44,7 @@ else:
             "dyads": "Dyad dyad_of dyads_of_three",
             "five": "DyadsOfFive dyads_of_five",
             "four": "AxisCurve centre_axes dyads_of_four",
-            "fourbars": "GuidedFourBar Motion four_bar_of four_bars motion_of",
+            "fourbars": "BodyMotion GuidedFourBar four_bar_of four_bars motion_of",
             "hoop_method": "Crossing Hoop hoop",
             "many": "dyads_by_least_squares",
             "on_cones": "ConicalForm conical_forms",

@@ -2,8 +2,8 @@
 
 One dyad is driven (link alpha, fixed axis G_1, moving axis W_1), the other follows (beta, G_2, W_2); the ground is
 gamma, the body is the coupler eta. The angle theta of the driver is counted about G_1 from the plane of G_1 and
-G_2. The linkage closes where the angle d between G_2 and W_1 is from |beta - eta| to beta + eta (or 2 pi less it),
-and cos d is linear in cos theta: circuits and branches follow in closed form. Theory: docs/theory/guidance.md.
+G_2. Where the driver ends and where the follower is, `synth.fourbar.position` says; circuits and branches follow.
+Theory: docs/theory/guidance.md.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise, permutations
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,12 +19,13 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from synth.fourbar.closing import FourBarKind, kind_of_spherical
+from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
 from synth.guidance.dyads import Dyad
 from synth.guidance.hoop_method import DIRECTIONS, Direction
 from synth.guidance.order import order_by_crank_angles
 from synth.guidance.orientations import Orientations
 
-__all__ = ["GuidedFourBar", "Motion", "four_bar_of", "four_bars", "motion_of"]
+__all__ = ["BodyMotion", "GuidedFourBar", "four_bar_of", "four_bars", "motion_of"]
 
 _TURN = 2.0 * np.pi
 _NO_LINK = 1e-6
@@ -91,7 +93,7 @@ class GuidedFourBar:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Motion:
+class BodyMotion:
     """How the body turns as the driver takes it through the orientations.
 
     Attributes
@@ -107,6 +109,17 @@ class Motion:
     angles: Floats
     quaternions: Floats
     keys: tuple[int, ...]
+
+
+class _Reach(NamedTuple):
+    """Whether a driver passes 0, and whether pi; else it swings to where the linkage ends."""
+
+    passes_zero: bool
+    passes_pi: bool
+
+    @property
+    def full_turn(self) -> bool:
+        return self.passes_zero and self.passes_pi
 
 
 def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[GuidedFourBar, ...]:
@@ -150,9 +163,9 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
     m = orientations.matrices
     angles = _azimuths(driver.fixed, follower.fixed, m @ driver.moving)
     sides = _sides(follower.fixed, m @ driver.moving, m @ follower.moving)
-    low, high = _limits(links)
-    circuits, branches = _places(angles, sides, low, high)
-    direction = _direction(angles, low, high)
+    reach = _reach(links)
+    circuits, branches = _places(angles, sides, reach)
+    direction = _direction(angles, reach)
     usable = direction is not None and len(set(branches)) == 1
     passed = _passed(angles, direction) if usable and direction is not None else angles
     return GuidedFourBar(
@@ -164,12 +177,12 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
         circuits,
         branches,
         direction,
-        len(set(circuits)) == 1 and order_by_crank_angles(_along_circuit(angles, sides, low, high)) is not None,
+        len(set(circuits)) == 1 and order_by_crank_angles(_along_circuit(angles, sides, reach)) is not None,
         _least_transmission(links, passed),
     )
 
 
-def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 20) -> Motion:
+def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 20) -> BodyMotion:
     """Return the motion of the body through its orientations.
 
     Parameters
@@ -182,7 +195,7 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
     Raises
     ------
     UnsolvableError
-        If the four-bar has a defect.
+        If the four-bar has a defect, or does not close all the way.
     """
     if four_bar.defects or four_bar.direction is None:
         raise UnsolvableError(
@@ -195,7 +208,7 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
     quaternions = Orientations.from_matrices(matrices).quaternions.copy()
     turned_back = np.einsum("ij,ij->i", quaternions[1:], quaternions[:-1]) < 0.0
     quaternions[1:] *= np.cumprod(np.where(turned_back, -1.0, 1.0))[:, None]
-    return Motion(angles, quaternions, tuple(range(0, len(angles), steps)))
+    return BodyMotion(angles, quaternions, tuple(range(0, len(angles), steps)))
 
 
 def _link_angles(driver: Dyad, follower: Dyad) -> Floats:
@@ -221,16 +234,13 @@ def _sides(fixed: Floats, driven: Floats, following: Floats) -> npt.NDArray[np.i
     return np.asarray(np.einsum("ni,ni->n", np.cross(fixed, driven), following) > 0.0, dtype=np.int64)
 
 
-def _limits(links: Floats) -> tuple[float, float]:
-    """Return the least and the largest cos theta that close; what is beyond -1 or 1 is no limit."""
-    gamma, alpha, eta, beta = links
-    scale = np.sin(alpha) * np.sin(gamma)
-    aligned = np.cos(alpha) * np.cos(gamma)
-    return float((np.cos(beta + eta) - aligned) / scale), float((np.cos(beta - eta) - aligned) / scale)
+def _reach(links: Floats) -> _Reach:
+    """Return which ends of its swing the driver passes."""
+    return _Reach(*np.isnan(input_limits_spherical(links)).tolist())
 
 
 def _places(
-    angles: Floats, sides: npt.NDArray[np.int64], low: float, high: float
+    angles: Floats, sides: npt.NDArray[np.int64], reach: _Reach
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Return circuit and branch of each orientation.
 
@@ -238,31 +248,35 @@ def _places(
     over one arc changes sides at its ends: one circuit of two branches. One that swings over either of two arcs,
     theta and -theta, has a circuit on each, of two branches.
     """
-    if low <= -1.0 and high >= 1.0:
+    if reach.full_turn:
         places = tuple(sides.tolist())
         return places, places
-    if low <= -1.0 or high >= 1.0:
+    if reach.passes_zero or reach.passes_pi:
         return (0,) * len(angles), tuple(sides.tolist())
     arcs = (angles > np.pi).astype(np.int64)
     return tuple(arcs.tolist()), tuple((2 * arcs + sides).tolist())
 
 
-def _direction(angles: Floats, low: float, high: float) -> Direction | None:
+def _direction(angles: Floats, reach: _Reach) -> Direction | None:
     """Return how a driver turns to take angles in their order without leaving its arc."""
-    if low <= -1.0 and high >= 1.0:
+    if reach.full_turn:
         return order_by_crank_angles(angles)
-    passes_zero = high >= 1.0  # then the driver does not pass pi: angles are counted from there
-    steps = np.diff(np.mod(angles + np.pi, _TURN) if passes_zero else angles)
+    steps = np.diff(_counted(angles, reach))
     if np.all(steps > 0.0):
         return DIRECTIONS[0]
     return DIRECTIONS[1] if np.all(steps < 0.0) else None
 
 
-def _along_circuit(angles: Floats, sides: npt.NDArray[np.int64], low: float, high: float) -> Floats:
+def _counted(angles: Floats, reach: _Reach) -> Floats:
+    """Return angles counted from pi where the driver passes 0: then it does not pass pi."""
+    return np.asarray(np.mod(angles + np.pi, _TURN)) if reach.passes_zero else angles
+
+
+def _along_circuit(angles: Floats, sides: npt.NDArray[np.int64], reach: _Reach) -> Floats:
     """Return how far round its circuit each orientation is, 0 to 2 pi: along the arc on one side, and back."""
-    if low <= -1.0 and high >= 1.0:
+    if reach.full_turn:
         return angles
-    counted = np.mod(angles + np.pi, _TURN) if high >= 1.0 else angles
+    counted = _counted(angles, reach)
     return np.where(sides == 1, counted / 2.0, _TURN - counted / 2.0)
 
 
@@ -279,11 +293,9 @@ def _passed(angles: Floats, direction: Direction) -> Floats:
 
 
 def _least_transmission(links: Floats, angles: Floats) -> float:
-    """Return the transmission angle furthest from a right angle; its cosine is linear in cos theta."""
-    gamma, alpha, eta, beta = links
-    reach = np.cos(alpha) * np.cos(gamma) + np.sin(alpha) * np.sin(gamma) * np.cos(angles)
-    cosines = (reach - np.cos(eta) * np.cos(beta)) / (np.sin(eta) * np.sin(beta))
-    return float(np.arccos(min(1.0, np.abs(cosines).max())))
+    """Return the transmission angle furthest from a right angle, or its supplement; 0 where it does not close."""
+    found = transmission_spherical(links, angles)
+    return float(np.where(np.isnan(found), 0.0, np.minimum(found, np.pi - found)).min())
 
 
 def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats) -> Floats:
@@ -295,19 +307,22 @@ def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats
     turns = (angles - four_bar.angles[0])[:, None] * driver.fixed
     driven = Rotation.from_rotvec(turns).apply(first @ driver.moving)
     side = int(_sides(follower.fixed, driven[:1], (first @ follower.moving)[None])[0])
-    following = _third_vertex(follower.fixed, driven, four_bar.link_angles, 1.0 if side else -1.0)
+    links = four_bar.link_angles.copy()
+    links[1] = _angle(driver.fixed, driven[0])  # a dyad that does not fit quite has another angle on the average
+    psi = output_spherical(links, angles, 1 if side else -1)
+    if np.isnan(psi).any():
+        raise UnsolvableError("this four-bar does not close all the way: its dyads do not fit well enough")
+    following = _at_output(driver.fixed, follower, psi)
     return np.asarray(_frame(driven, following) @ _frame(driver.moving[None], follower.moving[None])[0].T)
 
 
-def _third_vertex(fixed: Floats, driven: Floats, links: Floats, side: float) -> Floats:
-    """Return W_2, at the angle beta from G_2 and eta from W_1, on a side of the arc between them: float[m, 3]."""
-    _, _, eta, beta = links
-    k = driven @ fixed
-    square = 1.0 - k * k
-    x = (np.cos(beta) - k * np.cos(eta)) / square
-    y = (np.cos(eta) - k * np.cos(beta)) / square
-    height = np.sqrt(np.maximum(1.0 - x * x - y * y - 2.0 * k * x * y, 0.0) / square)
-    return np.asarray(x[:, None] * fixed + y[:, None] * driven + side * height[:, None] * np.cross(fixed, driven))
+def _at_output(zero: Floats, follower: Dyad, psi: Floats) -> Floats:
+    """Return W_2 at output angles, which are counted about G_2 from the ground link prolonged: float[m, 3]."""
+    fixed, beta = follower.fixed, follower.link_angle
+    prolonged = (fixed @ zero) * fixed - zero
+    prolonged /= np.linalg.norm(prolonged)
+    out = np.cos(psi)[:, None] * prolonged + np.sin(psi)[:, None] * np.cross(fixed, prolonged)
+    return np.asarray(np.cos(beta) * fixed + np.sin(beta) * out)
 
 
 def _frame(a: Floats, b: Floats) -> Floats:

@@ -1,7 +1,7 @@
 """Linkages mapped to right cones and cylinders, all joint axes being ruling lines.
 
 A loop is told by its steps: projected angles round the axis (`circuit`). Which cones there are, `cone` says for
-one loop, `linkage_cones` for several.
+one loop, `linkage_cones` for several, and `cyclic` in closed form for a million four-bars at a time.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from synth.surfaces.cone import link_angles as link_angles
     from synth.surfaces.cone import map_to_cones as map_to_cones
     from synth.surfaces.cone import projected_angles as projected_angles
+    from synth.surfaces.cyclic import circumradii as circumradii
+    from synth.surfaces.cyclic import cone_angles as cone_angles
     from synth.surfaces.cylinder import CylinderMap as CylinderMap
     from synth.surfaces.cylinder import central_angles as central_angles
     from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
@@ -45,6 +47,7 @@ else:
             "linkages": "LinkageMap by_angles map_linkage",
             "circuit": "Circuits azimuths circuits closing_step table1 wrapped",
             "cone": "ConeMap link_angles map_to_cones projected_angles",
+            "cyclic": "circumradii cone_angles",
             "cylinder": "CylinderMap central_angles map_to_cylinders",
             "linkage_cones": "CommonCone CommonFamily common_cones",
             "loop_sums": "LoopRoots loop_roots loop_sum",

@@ -74,9 +74,9 @@ def map_command(
     found = map_to_cones(_radians(angles))
     if output is not None:
         from synth.drawing.figure import save_figure
-        from synth.drawing.sums import draw_cone_sums
+        from synth.drawing.sums import draw_loop_sums
 
-        save_figure(draw_cone_sums(found), output)
+        save_figure(draw_loop_sums(found), output)
     if as_json:
         print_json(found.to_json())
     else:

@@ -41,9 +41,9 @@ def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -
     found = map_to_cylinders(lengths)
     if output is not None:
         from synth.drawing.figure import save_figure
-        from synth.drawing.sums import draw_cylinder_sums
+        from synth.drawing.sums import draw_loop_sums
 
-        save_figure(draw_cylinder_sums(found), output)
+        save_figure(draw_loop_sums(found), output)
     if as_json:
         print_json(found.to_json())
     else:

@@ -132,7 +132,7 @@ def test_stores_that_are_refused(tmp_path):
     with sqlite3.connect(other) as connection:
         connection.execute("CREATE TABLE meta (key TEXT, value TEXT)")
     connection.close()
-    with pytest.raises(StoreError, match="is not a store of version 1"):
+    with pytest.raises(StoreError, match="is not a store of version 2"):
         run(Squares(), SqliteSink(other, resume=True))
     with pytest.raises(StoreError, match="there is no folder"):
         run(Squares(), SqliteSink(tmp_path / "no" / "store.sqlite"))

@@ -9,12 +9,9 @@ import shlex
 import pytest
 from commands import run
 
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.store import read_rows
 from graphs.files.native.conical import read_conical
-
-
-def named(row, key):
-    return dict(part.rsplit(":", 1) for part in row[key].split())
 
 
 def test_enumerate_conical(tmp_path, data):
@@ -37,8 +34,10 @@ def test_enumerate_conical(tmp_path, data):
         assert run(*placed, "-o", one).output == ""
     found = json.loads(run(*placed, "--json").stdout)
     assert [json.loads(line) for line in files["c.jsonl"].read_text().splitlines()] == found
-    assert [tuple(row.values()) for row in found] == list(read_rows(files["c.sqlite"]))
-    assert pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist() == found
+    assert [row_as_dict(found[0], row) for row in read_rows(files["c.sqlite"])] == found
+    table = pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist()
+    assert [{**row, "link_angles_deg": json.loads(row["link_angles_deg"])} for row in table] == found
+    assert found[0]["link_angles_deg"][0][:2] == ["0", "1"]
     for path, row in zip(sorted(files["folder"].iterdir()), found, strict=True):
         linkage = read_conical(path)
         assert str(linkage.chain.ground) == row["ground"]
@@ -61,7 +60,7 @@ def test_a_file_of_a_candidate_behaves_as_its_row_says(tmp_path):
         [report] = json.loads(run("cone", "behaviour", path, "--json").stdout)["linkages"]
         assert report["rank"] == row["rank"]
         told = {one["link"]: one["way"] for one in report["links"]}
-        assert {link: way for link, way in named(row, "ways").items() if way != "fixed"} == {
+        assert {link: way for link, way in row["ways"] if way != "fixed"} == {
             link: way for link, way in told.items() if link != report["ground"]
         }
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from by_coordinates import (
+    cone_angles_by_coordinates,
+    polygons_by_coordinates,
+    quadrilaterals_by_coordinates,
+)
 from conical import random_lengths, random_link_angles, random_linkages
 from scipy.optimize import brentq, minimize_scalar
 
 from graphs.errors import InvariantError, UnsolvableError
 from synth.conformed.pose import check_pose
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
-from synth.surfaces.by_coordinates import (
-    cone_angles_by_coordinates,
-    polygons_by_coordinates,
-    quadrilaterals_by_coordinates,
-)
 from synth.surfaces.circuit import circuits
 from synth.surfaces.cone import cone_reach, link_angles, map_to_cones, projected_angles, solution_class
 from synth.surfaces.cyclic import circumradii, cone_angles

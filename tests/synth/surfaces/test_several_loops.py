@@ -9,6 +9,7 @@ import jsonschema
 import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, wrap
+from memberships import memberships
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.native.conical import read_conical, write_conical
@@ -18,7 +19,6 @@ from graphs.mechanism.sc import SCGraph
 from synth.conformed.pose import angles_between, joint_axes
 from synth.surfaces.cone import link_angles, map_to_cones
 from synth.surfaces.linkage_cones import common_cones
-from synth.surfaces.memberships import memberships
 from synth.surfaces.several_loops import link_pairs, loop_steps
 
 ROOT = Path(__file__).resolve().parents[3]

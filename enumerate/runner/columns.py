@@ -1,0 +1,118 @@
+"""What the columns of rows hold: a number or text, or a list of them.
+
+A list is a tuple in a row, of numbers or text, or of tuples of them. JSON and Parquet get it as a list, a store as
+JSON text, and a table as the text that its column makes of it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["Column", "ListColumn", "RangeColumn", "row_as_dict", "stored", "unstored"]
+
+
+@dataclass(frozen=True, slots=True)
+class ListColumn:
+    """A column of lists.
+
+    Attributes
+    ----------
+    between : str
+        What parts the items in a table.
+    within : str
+        Where the items are lists themselves: what parts their values. Else empty.
+    before_last : str
+        What stands before the last of these values, if it is something else: the name before a number.
+    kind : type, optional
+        Type of all values; None where they differ.
+
+    Examples
+    --------
+    >>> ListColumn(",").text((4, 2))
+    '4,2'
+    >>> ListColumn(" ", "-", ":", None).text((("a", "b", 28.15), ("b", "c", 30.0)))
+    'a-b:28.15 b-c:30'
+    """
+
+    between: str
+    within: str = ""
+    before_last: str = ""
+    kind: type | None = int
+
+    def text(self, values: tuple[Any, ...]) -> str:
+        """Return how a table shows a list."""
+        return self.between.join(map(self.item_text, values))
+
+    def item_text(self, item: Any) -> str:
+        """Return how a table shows an item."""
+        if not isinstance(item, tuple):
+            return f"{item:.12g}" if isinstance(item, float) else str(item)
+        *first, last = map(self.item_text, item)
+        return self.within.join(first) + (self.before_last or self.within) + last
+
+
+@dataclass(frozen=True, slots=True)
+class RangeColumn(ListColumn):
+    """A column of lists of (least, greatest); a table shows those that are equal once.
+
+    Examples
+    --------
+    >>> RangeColumn(" ", "..").text(((0, 1), (1, 1)))
+    '0..1 1'
+    """
+
+    def item_text(self, item: Any) -> str:
+        """Return how a table shows least and greatest."""
+        least, greatest = item
+        return str(least) if least == greatest else f"{least}{self.within}{greatest}"
+
+
+Column = type | ListColumn
+"""int, str, bool or float; or a column of lists."""
+
+
+def row_as_dict(columns: Iterable[str], row: tuple[Any, ...]) -> dict[str, Any]:
+    """Return a row as a dictionary of its columns, with lists for tuples.
+
+    Examples
+    --------
+    >>> row_as_dict(("links", "assortment"), (6, (4, 2)))
+    {'links': 6, 'assortment': [4, 2]}
+    """
+    return {
+        name: _as_list(value) if isinstance(value, tuple) else value
+        for name, value in zip(columns, row, strict=True)
+    }
+
+
+def _as_list(value: Any) -> Any:
+    return [_as_list(item) for item in value] if isinstance(value, tuple) else value
+
+
+def stored(values: tuple[Any, ...]) -> str:
+    """Return a list as compact JSON text.
+
+    Examples
+    --------
+    >>> stored(((0, 1), (2, 3)))
+    '[[0,1],[2,3]]'
+    """
+    return json.dumps(values, separators=(",", ":"))
+
+
+def unstored(text: str) -> tuple[Any, ...]:
+    """Return the list of a JSON text, as it stands in a row.
+
+    Examples
+    --------
+    >>> unstored("[[0,1],[2,3]]")
+    ((0, 1), (2, 3))
+    """
+    return tuple(_as_tuple(item) for item in json.loads(text))
+
+
+def _as_tuple(value: Any) -> Any:
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value

@@ -1,0 +1,94 @@
+"""Lists in rows: in stores, in files and in tables."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import pytest
+
+from enumerate.runner.columns import Column, ListColumn, RangeColumn, row_as_dict, stored, unstored
+from enumerate.runner.job import Row, Unit
+from enumerate.runner.running import run
+from enumerate.runner.sinks import JsonLinesSink, ParquetSink, SortedSink
+from enumerate.runner.store import SqliteSink, read_meta, read_rows
+
+ROWS: list[Row] = [
+    ("a", (4, 2), (4.0, 2.0), ((0, 1), (2, 3)), (("a", "b", 28.15),)),
+    ("b", (4, 2), (30.5,), (), ()),
+    ("c", (10,), (0.0,), ((5, 6),), (("a", "c", 1e-05), ("b", "c", 90.0))),
+]
+AS_JSON = [
+    {"code": "a", "counts": [4, 2], "degrees": [4.0, 2.0], "pairs": [[0, 1], [2, 3]], "angles": [["a", "b", 28.15]]},
+    {"code": "b", "counts": [4, 2], "degrees": [30.5], "pairs": [], "angles": []},
+    {"code": "c", "counts": [10], "degrees": [0.0], "pairs": [[5, 6]], "angles": [["a", "c", 1e-05], ["b", "c", 90.0]]},
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A job whose rows hold lists."""
+
+    columns: ClassVar[dict[str, Column]] = {
+        "code": str,
+        "counts": ListColumn(","),
+        "degrees": ListColumn(" ", kind=float),
+        "pairs": ListColumn(" ", "-"),
+        "angles": ListColumn(" ", "-", ":", None),
+    }
+    key: ClassVar[dict[str, Any]] = {"enumerate": "lists"}
+
+    def units(self):
+        return [Unit(0)]
+
+    def work(self, payload):
+        return ROWS
+
+
+def test_a_store_holds_compact_json_text_and_gives_the_rows_back(tmp_path):
+    path = tmp_path / "lists.sqlite"
+    run(Listed(), SqliteSink(path))
+    assert list(read_rows(path)) == ROWS
+    assert [type(row[2][0]) for row in read_rows(path)] == [float] * 3  # not the text of an equal list of integers
+    assert read_meta(path)["lists"] == ["counts", "degrees", "pairs", "angles"]
+    with sqlite3.connect(path) as connection:
+        assert connection.execute("SELECT counts, degrees, pairs, angles FROM type LIMIT 1").fetchone() == (
+            "[4,2]", "[4.0,2.0]", "[[0,1],[2,3]]", '[["a","b",28.15]]',
+        )  # fmt: skip
+        assert connection.execute("SELECT sum(json_extract(counts, '$[0]')) FROM type").fetchone() == (18,)
+    connection.close()
+
+
+def test_files_and_dictionaries_hold_lists(tmp_path):
+    run(Listed(), JsonLinesSink(tmp_path / "lists.jsonl"))
+    assert [json.loads(line) for line in (tmp_path / "lists.jsonl").read_text().splitlines()] == AS_JSON
+    assert [row_as_dict(Listed.columns, row) for row in ROWS] == AS_JSON
+    parquet = pytest.importorskip("pyarrow.parquet")
+    run(Listed(), ParquetSink(tmp_path / "lists.parquet"))
+    table = parquet.read_table(tmp_path / "lists.parquet").to_pylist()
+    assert [{**row, "angles": json.loads(row["angles"])} for row in table] == AS_JSON
+
+
+def test_lists_are_sorted_as_lists(tmp_path):
+    run(Listed(), SortedSink(JsonLinesSink(tmp_path / "sorted.jsonl"), "-counts"))
+    lines = (tmp_path / "sorted.jsonl").read_text().splitlines()
+    assert [json.loads(line)["code"] for line in lines] == ["c", "a", "b"]
+
+
+def test_tables_show_text():
+    shown = [
+        [
+            str(value) if isinstance(kind, type) else kind.text(value)
+            for kind, value in zip(Listed.columns.values(), row, strict=True)
+        ]
+        for row in ROWS
+    ]
+    assert shown == [
+        ["a", "4,2", "4 2", "0-1 2-3", "a-b:28.15"],
+        ["b", "4,2", "30.5", "", ""],
+        ["c", "10", "0", "5-6", "a-c:1e-05 b-c:90"],
+    ]
+    assert RangeColumn(" ", "..").text(((1, 1), (0, 2))) == "1 0..2"
+    assert unstored(stored(((0, 1), (1, 1)))) == ((0, 1), (1, 1))
