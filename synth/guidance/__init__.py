@@ -37,10 +37,13 @@ if TYPE_CHECKING:
     from synth.guidance.orientations import read_orientations as read_orientations
     from synth.guidance.orientations import unit_vector as unit_vector
     from synth.guidance.orientations import write_orientations as write_orientations
+    from synth.guidance.synthesis import GuidingDyads as GuidingDyads
+    from synth.guidance.synthesis import guiding_dyads as guiding_dyads
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
+            "synthesis": "GuidingDyads guiding_dyads",
             "dyads": "Dyad dyad_of dyads_of_three",
             "five": "DyadsOfFive dyads_of_five",
             "four": "AxisCurve centre_axes dyads_of_four",

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import degrees
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -61,6 +63,19 @@ class Dyad:
     def in_order(self) -> bool:
         """Whether the crank takes the orientations in their order, turning one way."""
         return self.direction is not None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys of a dyad that scripts rely on (docs/files.md)."""
+        return {
+            "G": self.fixed.tolist(),
+            "W": self.moving.tolist(),
+            "residual": self.residual,
+            "in_order": self.in_order,
+            "direction": self.direction,
+            "link_angle_deg": degrees(self.link_angle),
+            "misfit_deg": degrees(self.misfit),
+            "crank_angles_deg": [degrees(angle) for angle in self.crank_angles],
+        }
 
 
 def dyad_of(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayLike) -> Dyad:

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise, permutations
-from typing import NamedTuple
+from math import degrees
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -90,6 +91,23 @@ class GuidedFourBar:
         """Names of its defects: ``circuit``, ``branch``, ``order``."""
         found = {"circuit": self.circuit_defect, "branch": self.branch_defect, "order": self.order_defect}
         return tuple(name for name, here in found.items() if here)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the four-bar as plain data, with the keys that scripts rely on (docs/files.md)."""
+        return {
+            "driver": self.driver.to_json(),
+            "follower": self.follower.to_json(),
+            "link_angles_deg": [degrees(angle) for angle in self.link_angles],
+            "grashof": self.kind.grashof,
+            "type": self.kind.name,
+            "angles_deg": [degrees(angle) for angle in self.angles],
+            "circuits": list(self.circuits),
+            "branches": list(self.branches),
+            "direction": self.direction,
+            "in_order_on_circuit": self.in_order_on_circuit,
+            "defects": list(self.defects),
+            "transmission_deg": degrees(self.transmission),
+        }
 
 
 @dataclass(frozen=True, slots=True, eq=False)

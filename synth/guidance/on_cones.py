@@ -9,6 +9,8 @@ Theory: docs/theory/guidance.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import degrees
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +39,33 @@ class ConicalForm:
     link_angles: tuple[float, ...]
     cones: tuple[MappedLoop, ...]
     families: tuple[FamilyOfCircles, ...]
+
+    def cones_json(self) -> list[dict[str, Any]]:
+        """Return the cones as plain data."""
+        links = [degrees(angle) for angle in self.link_angles]
+        return [
+            {
+                "link_angles_deg": links,
+                "lambda_deg": degrees(cone.size),
+                "circuit": cone.circuit,
+                "signs": list(cone.signs),
+                "k": cone.turns,
+            }
+            for cone in self.cones
+        ]
+
+    def families_json(self) -> list[dict[str, Any]]:
+        """Return the intervals of cones as plain data."""
+        links = [degrees(angle) for angle in self.link_angles]
+        return [
+            {
+                "link_angles_deg": links,
+                "interval_deg": [degrees(end) for end in family.interval],
+                "circuit": family.circuit,
+                "signs": list(family.signs),
+            }
+            for family in self.families
+        ]
 
 
 def conical_forms(four_bar: GuidedFourBar) -> tuple[ConicalForm, ...]:

@@ -8,6 +8,8 @@ Theory: docs/theory/order.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import degrees
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -71,6 +73,30 @@ class OrderAnalysis:
     def agree(self) -> bool:
         """Whether the three checks agree; they must where there is no misfit."""
         return self.kept == self.by_inequalities == self.by_crank_angles
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the analysis as plain data, with the keys that scripts rely on (docs/files.md)."""
+        turned, breaks = self.hoop, self.hoop.breaks_at
+        return {
+            "direction": turned.direction,
+            "crossings": [{"pair": list(c.pair), "angle_deg": degrees(c.angle)} for c in turned.crossings],
+            "required": [list(pair) for pair in turned.required],
+            "in_order": self.in_order,
+            "breaks_at": None if breaks is None else {"due": list(breaks[0]), "crossed": list(breaks[1])},
+            "margin_deg": degrees(turned.margin),
+            "kept": self.kept,
+            "checks": {
+                "hoop": self.kept,
+                "inequalities": self.by_inequalities,
+                "crank_angles": self.by_crank_angles,
+            },
+            "agree": self.agree,
+            "dyad": {
+                "W": self.moving_axis.tolist(),
+                "crank_angles_deg": [degrees(angle) for angle in self.crank_angles],
+                "misfit_deg": degrees(self.misfit),
+            },
+        }
 
 
 def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> OrderAnalysis:

@@ -13,8 +13,9 @@ from synth.cli.output import about, console, plain, print_json, table
 if TYPE_CHECKING:
     from synth.guidance.dyads import Dyad
     from synth.guidance.orientations import Orientations
+    from synth.guidance.synthesis import GuidingDyads
 
-__all__ = ["AXES", "dyads", "samples_option", "synthesised", "told"]
+__all__ = ["AXES", "asked_for", "dyads", "samples_option"]
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -65,66 +66,33 @@ def dyads(
 
     orientations = read_orientations(file)
     with about(file):
-        found, evidence = synthesised(orientations, axes, samples)
+        guiding = asked_for(orientations, axes, samples)
         if picture is not None:
-            _draw(orientations, found, picture)
+            _draw(orientations, guiding.dyads, picture)
     if as_json:
-        print_json({"file": file, "orientations": len(orientations), "dyads": list(map(told, found)), **evidence})
+        print_json({"file": file, **guiding.to_json()})
         return
     out = console()
-    out.print(f"{len(orientations)} orientations: {len(found)} dyad(s)")
-    out.print(_table(found))
-    if "complex" in evidence:
-        largest = f"largest residual {evidence['residual']:.0e}"
-        out.print(f"all six solutions found, {evidence['complex']} of them complex; {largest}")
+    out.print(f"{len(orientations)} orientations: {len(guiding.dyads)} dyad(s)")
+    out.print(_table(guiding.dyads))
+    if guiding.all_found is not None:
+        largest = f"largest residual {guiding.all_found.residual:.0e}"
+        out.print(f"all six solutions found, {guiding.all_found.complex_solutions} of them complex; {largest}")
     if picture is not None:
         out.print(f"drawn: {plain(picture, 4096)}")
 
 
-def synthesised(
+def asked_for(
     orientations: Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
-) -> tuple[tuple[Dyad, ...], dict[str, Any]]:
-    """Return the dyads of orientations by the method that their number asks for, and its evidence."""
+) -> GuidingDyads:
+    """Return the dyads of orientations; what is missing for them is a matter of usage."""
+    from synth.guidance.synthesis import guiding_dyads
+
     if axes and len(orientations) != 3:
         raise click.UsageError(f"--axis is for three orientations; here are {len(orientations)}")
-    if len(orientations) == 3:
-        from synth.guidance.dyads import dyads_of_three
-
-        if not axes:
-            raise click.UsageError("three orientations leave the fixed axis to be chosen: add --axis x,y,z")
-        return dyads_of_three(orientations, axes), {}
-    if len(orientations) == 4:
-        from synth.guidance.four import dyads_of_four
-
-        return dyads_of_four(orientations, samples), {}
-    if len(orientations) == 5:
-        from synth.guidance.five import dyads_of_five
-
-        found = dyads_of_five(orientations)
-        return found.dyads, {
-            "complex": found.complex_solutions,
-            "residual": found.residual,
-            "smallest_singular_value": found.smallest_singular_value,
-        }
-    from synth.guidance.many import dyads_by_least_squares
-
-    return dyads_by_least_squares(orientations), {}
-
-
-def told(dyad: Dyad) -> dict[str, Any]:
-    """Return the keys of a dyad that scripts rely on."""
-    from math import degrees
-
-    return {
-        "G": dyad.fixed.tolist(),
-        "W": dyad.moving.tolist(),
-        "residual": dyad.residual,
-        "in_order": dyad.in_order,
-        "direction": dyad.direction,
-        "link_angle_deg": degrees(dyad.link_angle),
-        "misfit_deg": degrees(dyad.misfit),
-        "crank_angles_deg": [degrees(angle) for angle in dyad.crank_angles],
-    }
+    if not axes and len(orientations) == 3:
+        raise click.UsageError("three orientations leave the fixed axis to be chosen: add --axis x,y,z")
+    return guiding_dyads(orientations, axes, samples)
 
 
 def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.guidance.dyads import AXES, samples_option, synthesised, told
+from synth.cli.guidance.dyads import AXES, asked_for, samples_option
 from synth.cli.guidance.order import ORIENTATIONS
 from synth.cli.output import about, console, plain, print_json, table
 
@@ -61,7 +61,7 @@ def fourbar(
 
     orientations = read_orientations(file)
     with about(file):
-        found = four_bars(orientations, synthesised(orientations, axes, samples)[0])
+        found = four_bars(orientations, asked_for(orientations, axes, samples).dyads)
     good = [one for one in found if not one.defects]
     frames = None
     if motion is not None:
@@ -101,55 +101,18 @@ def _write_motion(orientations: Orientations, good: list[GuidedFourBar], motion:
     return len(made.quaternions)
 
 
-def _told(one: GuidedFourBar, cones: bool) -> dict[str, Any]:
-    from math import degrees
-
-    return {
-        "driver": told(one.driver),
-        "follower": told(one.follower),
-        "link_angles_deg": [degrees(angle) for angle in one.link_angles],
-        "grashof": one.kind.grashof,
-        "type": one.kind.name,
-        "angles_deg": [degrees(angle) for angle in one.angles],
-        "circuits": list(one.circuits),
-        "branches": list(one.branches),
-        "direction": one.direction,
-        "in_order_on_circuit": one.in_order_on_circuit,
-        "defects": list(one.defects),
-        "transmission_deg": degrees(one.transmission),
-        **(_told_cones(one) if cones else {}),
-    }
+def _told(four_bar: GuidedFourBar, cones: bool) -> dict[str, Any]:
+    return {**four_bar.to_json(), **(_told_cones(four_bar) if cones else {})}
 
 
-def _told_cones(one: GuidedFourBar) -> dict[str, Any]:
+def _told_cones(four_bar: GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
-    from math import degrees
-
     from synth.guidance.on_cones import conical_forms
 
-    forms = conical_forms(one)
+    forms = conical_forms(four_bar)
     return {
-        "cones": [
-            {
-                "link_angles_deg": [degrees(angle) for angle in form.link_angles],
-                "lambda_deg": degrees(cone.size),
-                "circuit": cone.circuit,
-                "signs": list(cone.signs),
-                "k": cone.turns,
-            }
-            for form in forms
-            for cone in form.cones
-        ],
-        "families": [
-            {
-                "link_angles_deg": [degrees(angle) for angle in form.link_angles],
-                "interval_deg": [degrees(end) for end in family.interval],
-                "circuit": family.circuit,
-                "signs": list(family.signs),
-            }
-            for form in forms
-            for family in form.families
-        ],
+        "cones": [cone for form in forms for cone in form.cones_json()],
+        "families": [family for form in forms for family in form.families_json()],
     }
 
 

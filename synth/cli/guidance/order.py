@@ -78,39 +78,11 @@ def order(
 
         save_figure(draw_hoop(orientations, axis, found.hoop), picture)
     if as_json:
-        print_json(_told(file, axis, found))
+        print_json({"file": file, "axis": list(axis), **found.to_json()})
     else:
         _print(orientations, found, axis, picture)
     if not found.in_order:
         sys.exit(1)
-
-
-def _told(file: str, axis: tuple[float, float, float], found: OrderAnalysis) -> dict[str, Any]:
-    from math import degrees
-
-    hoop, breaks = found.hoop, found.hoop.breaks_at
-    return {
-        "file": file,
-        "axis": list(axis),
-        "direction": hoop.direction,
-        "crossings": [{"pair": list(c.pair), "angle_deg": degrees(c.angle)} for c in hoop.crossings],
-        "required": [list(pair) for pair in hoop.required],
-        "in_order": found.in_order,
-        "breaks_at": None if breaks is None else {"due": list(breaks[0]), "crossed": list(breaks[1])},
-        "margin_deg": degrees(hoop.margin),
-        "kept": found.kept,
-        "checks": {
-            "hoop": found.kept,
-            "inequalities": found.by_inequalities,
-            "crank_angles": found.by_crank_angles,
-        },
-        "agree": found.agree,
-        "dyad": {
-            "W": found.moving_axis.tolist(),
-            "crank_angles_deg": [degrees(angle) for angle in found.crank_angles],
-            "misfit_deg": degrees(found.misfit),
-        },
-    }
 
 
 _FITS = 1e-4
