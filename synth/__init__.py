@@ -13,7 +13,8 @@ Where to begin::
 Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `reconstruct`. New mechanisms of old ones:
 `reduce`, `convert`; edits are in `graphs.edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
-`map_to_cylinders`. Guidance of a body: `Orientations`, `four_bars`.
+`map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
+`four_bars`.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
@@ -53,9 +54,12 @@ if TYPE_CHECKING:
     from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
     from graphs.reduce.ride_alongs import reduce as reduce
     from synth.guidance.fourbars import four_bars as four_bars
+    from synth.guidance.order import analyse_order as analyse_order
     from synth.guidance.orientations import Orientations as Orientations
+    from synth.guidance.synthesis import guiding_dyads as guiding_dyads
     from synth.surfaces.cone import map_to_cones as map_to_cones
     from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
+    from synth.surfaces.linkages import map_linkage as map_linkage
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -79,8 +83,11 @@ else:
             "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
             "graphs.reduce.ride_alongs": "reduce",
             "synth.guidance.fourbars": "four_bars",
+            "synth.guidance.order": "analyse_order",
             "synth.guidance.orientations": "Orientations",
+            "synth.guidance.synthesis": "guiding_dyads",
             "synth.surfaces.cone": "map_to_cones",
             "synth.surfaces.cylinder": "map_to_cylinders",
+            "synth.surfaces.linkages": "map_linkage",
         },
     )
