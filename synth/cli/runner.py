@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping
-from threading import Timer
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,7 +21,6 @@ _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
 _INTERRUPTED = 130
-_PREPARING = "preparing; the first run of a kind compiles its code, which takes up to a minute"
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -158,16 +156,11 @@ class _Meter:
 
     def __init__(self, silent: bool) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
-        self._timer = Timer(2 * _PATIENCE, self._write, [_PREPARING])
-        self._timer.daemon = True
-        if not silent:
-            self._timer.start()
 
     def show(self, progress: Progress) -> None:
         """Show how far it has come, how fast it goes and how long it takes."""
         if self._silent or monotonic() < self._next:
             return
-        self._timer.cancel()
         self._next = monotonic() + _PATIENCE
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
         left = _time(progress.seconds_left)
@@ -179,7 +172,6 @@ class _Meter:
 
     def clear(self) -> None:
         """Wipe the line."""
-        self._timer.cancel()
         if self._width:
             click.echo("\r" + " " * self._width + "\r", nl=False, err=True)
             self._width = 0
