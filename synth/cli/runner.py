@@ -15,7 +15,7 @@ from synth.cli.output import console, plain, print_json, table
 if TYPE_CHECKING:
     from enumerate.runner.job import Job, Progress, Row, Sink
 
-__all__ = ["Limits", "RunOptions", "run_count", "run_rows", "runner_options"]
+__all__ = ["Limits", "RunOptions", "cores", "run_count", "run_rows", "runner_options"]
 
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
@@ -60,7 +60,7 @@ class RunOptions:
         if output is not None and as_json:
             raise click.UsageError("give -o or --json, not both")
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
-        self.workers = workers or _cores()
+        self.workers = workers or cores()
         self.scheduler = scheduler
 
     @classmethod
@@ -70,7 +70,7 @@ class RunOptions:
         return cls(*(options.pop(name) for name in names))
 
 
-def _cores() -> int:
+def cores() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
