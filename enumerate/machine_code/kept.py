@@ -27,7 +27,7 @@ from enumerate.machine_code.folders import bases, is_ours, made, prune, safe, to
 from enumerate.machine_code.notice import compiling
 from enumerate.machine_code.sources import fingerprint
 
-__all__ = ["KeptCode", "read_whole", "write_whole"]
+__all__ = ["CodeFiles", "KeptCode", "read_whole", "write_whole"]
 
 _numba: Any = caching
 _dumps: Callable[[object], bytes] = serialize.dumps
@@ -78,7 +78,7 @@ class KeptCode(_numba.FunctionCache):
 
     def __init__(self, function: Callable[..., object]) -> None:
         super().__init__(function)
-        self._cache_file = _Files(self.cache_path, self._impl.filename_base)
+        self._cache_file = CodeFiles(self.cache_path, self._impl.filename_base)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return the kept code of a signature, or None and say that it will be compiled."""
@@ -94,7 +94,7 @@ def _folder(module: str) -> str:
     return f"{module}-{sha256(repr(made_of).encode()).hexdigest()[:32]}"
 
 
-class _Files:
+class CodeFiles:
     """What numba calls the file of a cache: it loads, saves and forgets by key, here one file a key."""
 
     def __init__(self, folder: str, stem: str) -> None:

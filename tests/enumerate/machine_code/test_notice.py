@@ -16,7 +16,7 @@ def tell(folder):
 on_compiling(tell)
 with ProcessPoolExecutor(2, initializer=heard_by, initargs=(to_workers(),)) as pool:
     values = list(pool.map(outer, [4, 4.5]))
-print(json.dumps([*values, outer(4), outer(4 + 1j).real]))
+print(json.dumps([*values, outer(4)]))
 """
 
 
@@ -54,5 +54,5 @@ def test_a_worker_tells_if_nobody_has():
 def test_one_process_of_several_tells(tmp_path):
     make_toy(tmp_path)
     values, told = run(WORKERS, tmp_path, tmp_path / "cache")
-    assert values == [50, 55, 50, 50]
+    assert values == [50, 55, 50]
     assert told == "compiling True\n"
