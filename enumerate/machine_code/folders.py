@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["bases", "is_ours", "made", "prune", "safe", "touch", "writable_base"]
+__all__ = ["bases", "is_ours", "made", "prune", "safe", "touch", "usable_bases", "writable_base"]
 
 _DAY = 86_400
 _OLD = 30 * _DAY
@@ -86,9 +86,21 @@ def made(base: Path, name: str = "") -> Path | None:
     return base / name
 
 
+def usable_bases() -> Iterator[Path]:
+    """Yield the bases to look into, and to write to if they allow it: all to the first that can be written.
+
+    One that is ours and read-only, as in an image, is read before that.
+    """
+    for base in bases():
+        if made(base) is not None:
+            yield base
+            if os.access(base, os.W_OK):
+                return
+
+
 def writable_base() -> Path | None:
-    """Return the first base that can be written, or None."""
-    return next((base for base in bases() if made(base) is not None and os.access(base, os.W_OK)), None)
+    """Return the base that new code goes to, or None."""
+    return next((base for base in usable_bases() if os.access(base, os.W_OK)), None)
 
 
 def touch(folder: Path) -> None:

@@ -23,7 +23,7 @@ import numba
 import numpy as np
 from numba.core import caching, serialize
 
-from enumerate.machine_code.folders import bases, is_ours, made, prune, safe, touch
+from enumerate.machine_code.folders import is_ours, made, prune, safe, touch, usable_bases
 from enumerate.machine_code.notice import compiling
 from enumerate.machine_code.sources import fingerprint
 
@@ -106,7 +106,7 @@ class CodeFiles:
 
     def load(self, key: object) -> object:
         """Return what is kept for a key, from the first folder that has it, or None."""
-        for base in bases():
+        for base in usable_bases():
             folder = safe(base, self._folder)
             if folder is not None:
                 held = read_whole(folder / self._name(key))
@@ -119,7 +119,7 @@ class CodeFiles:
     def save(self, key: object, data: object) -> None:
         """Keep something in the first folder that takes it; if there is none, it is compiled again next time."""
         text = _dumps((key, data))
-        for base in bases():
+        for base in usable_bases():
             folder = made(base, self._folder)
             if folder is not None and write_whole(folder / self._name(key), text):
                 _prune_once(base)
@@ -127,7 +127,7 @@ class CodeFiles:
 
     def flush(self) -> None:
         """Forget all signatures of the function."""
-        for base in bases():
+        for base in usable_bases():
             for file in (base / self._folder).glob(f"{self._stem}-*.nbc"):
                 with suppress(OSError):
                     file.unlink()

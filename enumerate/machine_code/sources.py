@@ -59,11 +59,11 @@ def fingerprint(module: str) -> str:
 def _file(name: str) -> Path | None:
     """Return the file of a module of the project, or of another package that is imported, or None."""
     package = name.partition(".")[0]
-    top = __name__ if package in _OWN else package
-    root = getattr(sys.modules.get(top), "__file__", None)
-    if root is None:
+    own = __file__ if package in _OWN else getattr(sys.modules.get(package), "__file__", None)
+    if own is None:
         return None
-    here = Path(root).parents[top.count(".") or 1].joinpath(*name.split("."))
+    root = Path(own).parents[2 if package in _OWN else 1 if own.endswith("__init__.py") else 0]
+    here = root.joinpath(*name.split("."))
     return next((file for file in (here.with_suffix(".py"), here / "__init__.py") if file.is_file()), None)
 
 

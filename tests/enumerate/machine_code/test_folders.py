@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from enumerate.machine_code.folders import bases, made, prune, safe, touch, writable_base
+from enumerate.machine_code.folders import bases, made, prune, safe, touch, usable_bases, writable_base
 
 unix = pytest.mark.skipif(os.name == "nt", reason="folders have no modes")
 as_root = pytest.mark.skipif(getattr(os, "geteuid", lambda: 1)() != 0, reason="only root can give folders away")
@@ -40,6 +40,11 @@ def test_the_best_folder_that_can_be_made_is_used(places):
     found[2].rmdir()
     found[2].write_text("and here")
     assert writable_base() is None
+
+
+def test_no_folder_is_looked_into_beyond_the_one_that_is_written(places):
+    assert list(usable_bases()) == [places / "named"]
+    assert not (places / "home" / ".cache").exists()
 
 
 @unix
