@@ -345,4 +345,4 @@ def test_no_scheduler_there():
     result = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert result.returncode == 2
     assert "no Dask scheduler at 'nonsense'" in result.stderr
-    assert len(result.stderr.splitlines()) == 1
+    assert len(complaints(result.stderr)) == 1
