@@ -10,11 +10,12 @@ PARALLEL ?= -n logical --dist worksteal
 .PHONY: demo test test-slow check data clean help
 
 help:
-	@echo "make demo       install into $(VENV) and ask some mechanisms for their mobility"
+	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
+	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
 
 $(STAMP): pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -36,6 +37,7 @@ install-venv:
 	fi
 
 demo: $(STAMP)
+	@$(BIN)/python -m synth.cli.ahead || true
 	@BIN=$(BIN) sh data/demo.sh
 
 test: $(STAMP)

@@ -61,7 +61,7 @@ def our_jobs(folder: str) -> dict[str, list[str]]:
 def cold() -> float:
     """Return the time of a first run that compiles everything and writes 14-link chains."""
     with tempfile.TemporaryDirectory() as folder:
-        return round(seconds(synth(14, "-o", f"{folder}/14.g6"), NUMBA_CACHE_DIR=folder), 3)
+        return round(seconds(synth(14, "-o", f"{folder}/14.g6"), SYNTHEDRA_CACHE=folder), 3)
 
 
 def geng(links: int) -> list[str] | None:

@@ -17,17 +17,6 @@ from hypothesis import HealthCheck, settings
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def _renew_compiled_code() -> None:
-    """Remove machine code kept by numba that is older than a source file: it may call an old function in another."""
-    folders = [ROOT / package for package in ("graphs", "enumerate", "synth")]
-    newest = max(source.stat().st_mtime for folder in folders for source in folder.rglob("*.py"))
-    for folder in folders:
-        for kept in folder.rglob("__pycache__/*.nbi"):
-            if kept.stat().st_mtime < newest:
-                kept.unlink(missing_ok=True)
-
-
-_renew_compiled_code()
 settings.register_profile(
     "synthedra", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )

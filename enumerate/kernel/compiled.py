@@ -3,27 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["compiled", "doubled"]
+from enumerate.machine_code.kept import KeptCode
+from enumerate.machine_code.sources import fingerprint
+
+__all__ = ["compiled", "doubled", "kernels"]
 
 
 T = TypeVar("T", bound=np.generic)
 F = TypeVar("F", bound=Callable[..., object])
 
 
+kernels: list[Callable[..., object]] = []
+"""All functions compiled or to be compiled, of the modules imported so far."""
+
+
 def compiled(function: F) -> F:
     """Compile a function of numbers and arrays when it is first called, and keep the machine code on disk.
 
-    The code goes to ``__pycache__`` beside the module, or to ``NUMBA_CACHE_DIR``; other threads run meanwhile.
-    What is kept is renewed when the function's own file changes, not when a function it calls changes in another
-    file: after an edit, ``make clean`` or the tests remove what may be old.
+    The code is kept for this user in ``~/.cache/synthedra``, or where ``SYNTHEDRA_CACHE`` says, and is renewed
+    when the function's module changes or any own module that it imports. Other threads run meanwhile.
     """
-    return cast(F, numba.njit(cache=True, nogil=True)(function))
+    made: Any = numba.njit(nogil=True)(function)
+    if fingerprint(function.__module__) and hasattr(made, "enable_caching"):  # without, numba compiles nothing
+        made._cache = KeptCode(function)
+    kernels.append(made)
+    return cast(F, made)
 
 
 @compiled

@@ -19,6 +19,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
 from typing import Any
 
+from enumerate.machine_code.notice import heard_by, to_workers
 from enumerate.runner.job import Job, Progress, Row, Sink, Unit
 from graphs.errors import StoreError
 
@@ -184,7 +185,7 @@ class _Pool:
         self._executor = self._make()
 
     def _make(self) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(self.workers, initializer=_become_worker, initargs=(os.getpid(),))
+        return ProcessPoolExecutor(self.workers, initializer=_become_worker, initargs=(os.getpid(), to_workers()))
 
     def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
         return self._executor.submit(_timed, job, payload)
@@ -227,9 +228,10 @@ class _Cluster:
         self._client.close()
 
 
-def _become_worker(parent: int) -> None:
-    """Leave Ctrl-C to the parent, and do not outlive it."""
+def _become_worker(parent: int, shared: Any) -> None:
+    """Leave Ctrl-C to the parent, and do not outlive it; tell the user what only one process should."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    heard_by(shared)
 
     def watch() -> None:
         while os.getppid() == parent:

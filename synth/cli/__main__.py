@@ -1,6 +1,29 @@
-"""``python -m synth.cli``: the ``synth`` command."""
+"""``python -m synth.cli``: the ``synth`` command, as a process of its own."""
 
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from enumerate.machine_code.notice import on_compiling
 from synth.cli.main import main
 
-if __name__ == "__main__":
+__all__ = ["run"]
+
+
+def run() -> None:
+    """Run the command; say so once if code has to be compiled, which takes longer than most answers."""
+    on_compiling(_say_compiling)
     main(prog_name="synth")
+
+
+def _say_compiling(folder: Path | None) -> None:
+    from synth.cli.output import plain
+
+    kept = f"kept in {plain(folder, 200)}" if folder else "kept nowhere: name a folder of yours in SYNTHEDRA_CACHE"
+    click.echo(f"synth: compiling code for the first use, up to a minute ({kept})", err=True)
+
+
+if __name__ == "__main__":
+    run()

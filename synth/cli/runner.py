@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping
-from threading import Timer
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -17,13 +16,12 @@ if TYPE_CHECKING:
     from enumerate.runner.columns import Column
     from enumerate.runner.job import Job, Progress, Row, Sink
 
-__all__ = ["Limits", "RunOptions", "run_count", "run_rows", "runner_options"]
+__all__ = ["Limits", "RunOptions", "cores", "run_count", "run_rows", "runner_options"]
 
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
 _INTERRUPTED = 130
-_PREPARING = "preparing; the first run of a kind compiles its code, which takes up to a minute"
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -63,7 +61,7 @@ class RunOptions:
         if output is not None and as_json:
             raise click.UsageError("give -o or --json, not both")
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
-        self.workers = workers or _cores()
+        self.workers = workers or cores()
         self.scheduler = scheduler
 
     @classmethod
@@ -73,7 +71,7 @@ class RunOptions:
         return cls(*(options.pop(name) for name in names))
 
 
-def _cores() -> int:
+def cores() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
@@ -159,16 +157,11 @@ class _Meter:
 
     def __init__(self, silent: bool) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
-        self._timer = Timer(2 * _PATIENCE, self._write, [_PREPARING])
-        self._timer.daemon = True
-        if not silent:
-            self._timer.start()
 
     def show(self, progress: Progress) -> None:
         """Show how far it has come, how fast it goes and how long it takes."""
         if self._silent or monotonic() < self._next:
             return
-        self._timer.cancel()
         self._next = monotonic() + _PATIENCE
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
         left = _time(progress.seconds_left)
@@ -180,7 +173,6 @@ class _Meter:
 
     def clear(self) -> None:
         """Wipe the line."""
-        self._timer.cancel()
         if self._width:
             click.echo("\r" + " " * self._width + "\r", nl=False, err=True)
             self._width = 0

@@ -1,0 +1,128 @@
+"""Folders that machine code is kept in: which may be used, and which are old.
+
+What is kept are pickles, which do what they like when they are loaded. So a folder counts only if it belongs to
+this user and nobody else may write there. There may be several: what one cannot take goes to the next.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import stat
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+__all__ = ["bases", "is_ours", "made", "prune", "safe", "touch", "usable_bases", "writable_base"]
+
+_DAY = 86_400
+_OLD = 30 * _DAY
+_MOST = 8
+"""Folders kept of one module: each edit of what it is made of begins another."""
+_FOLDER = re.compile(r"([\w.]+)-[0-9a-f]{32}")
+"""Name of a folder of one module. Nothing else is ever removed: a base may be anybody's folder."""
+
+
+def bases() -> Iterator[Path]:
+    """Yield the folders that may hold machine code, best first; none has to exist.
+
+    ``$SYNTHEDRA_CACHE``; ``~/.cache/synthedra``, where the home is this user's own; one in the temporary folder.
+    """
+    named = os.environ.get("SYNTHEDRA_CACHE")
+    if named:
+        yield Path(named).absolute()
+    with suppress(RuntimeError, OSError):  # no home, or one that is not there
+        home = Path.home()
+        if _by_us(home.stat()):
+            yield home / ".cache" / "synthedra"
+    with suppress(OSError):  # no temporary folder
+        yield Path(tempfile.gettempdir()) / f"synthedra-{_user()}"
+
+
+def _user() -> int:
+    """Return the number of this user; 0 where users have no numbers, and temporary folders are their own."""
+    return os.geteuid() if hasattr(os, "geteuid") else 0
+
+
+def _by_us(entry: os.stat_result) -> bool:
+    return not hasattr(os, "geteuid") or entry.st_uid == os.geteuid()
+
+
+def is_ours(entry: os.stat_result) -> bool:
+    """Say whether a file or folder belongs to this user and no other may write it.
+
+    Examples
+    --------
+    >>> with tempfile.NamedTemporaryFile() as file:
+    ...     is_ours(os.fstat(file.fileno()))
+    True
+    """
+    return _by_us(entry) and (os.name == "nt" or not entry.st_mode & (stat.S_IWGRP | stat.S_IWOTH))
+
+
+def _is_safe(folder: Path) -> bool:
+    """Say whether there is such a folder and it is ours; so must be a link to it."""
+    try:
+        return _by_us(folder.lstat()) and is_ours(folder.stat()) and folder.is_dir()
+    except OSError:
+        return False
+
+
+def safe(base: Path, name: str) -> Path | None:
+    """Return a folder in a base if there is one and both are ours, else None."""
+    return base / name if _is_safe(base) and _is_safe(base / name) else None
+
+
+def made(base: Path, name: str = "") -> Path | None:
+    """Return a folder in a base, made with the base if need be; None if it cannot be made or is not ours."""
+    for folder in (base, base / name):
+        with suppress(OSError):
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not _is_safe(folder):
+            return None
+    return base / name
+
+
+def usable_bases() -> Iterator[Path]:
+    """Yield the bases to look into, and to write to if they allow it: all to the first that can be written.
+
+    One that is ours and read-only, as in an image, is read before that.
+    """
+    for base in bases():
+        if made(base) is not None:
+            yield base
+            if os.access(base, os.W_OK):
+                return
+
+
+def writable_base() -> Path | None:
+    """Return the base that new code goes to, or None."""
+    return next((base for base in usable_bases() if os.access(base, os.W_OK)), None)
+
+
+def touch(folder: Path) -> None:
+    """Note that a folder is used; once a day will do."""
+    with suppress(OSError):
+        if time.time() - folder.stat().st_mtime > _DAY:
+            os.utime(folder)
+
+
+def prune(base: Path) -> None:
+    """Remove the folders of modules that were not used for a month, and all but the newest few of each module.
+
+    Another process may do the same, or still use one: it compiles again what it does not find.
+    """
+    used: dict[str, list[tuple[float, Path]]] = {}
+    with suppress(OSError):
+        for folder in base.iterdir():
+            named = _FOLDER.fullmatch(folder.name)
+            if named and not folder.is_symlink():
+                with suppress(OSError):
+                    used.setdefault(named[1], []).append((folder.stat().st_mtime, folder))
+    for folders in used.values():
+        for number, (last, folder) in enumerate(sorted(folders, reverse=True)):
+            if number >= _MOST or time.time() - last > _OLD:
+                shutil.rmtree(folder, ignore_errors=True)

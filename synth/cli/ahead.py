@@ -1,0 +1,90 @@
+"""``python -m synth.cli.ahead``: compile on all cores what the first commands need, before anybody waits."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from enumerate.machine_code.folders import writable_base
+from synth.cli.main import main
+from synth.cli.runner import cores
+
+__all__ = ["compile_ahead"]
+
+_SMALL = (
+    "enumerate sc --links 8 --dof 1",
+    "enumerate chains --links 8 --dof 1",
+    "enumerate scd --links 4 --dof 3 --max-degree 3",
+    "enumerate chains --links 6 --dof 1 --count",
+    "enumerate conical --chain watt --ground 0 --slots 8",
+    "enumerate sc --links 6 --dof 1 --count",
+    "enumerate scd --links 4 --dof 1 --max-degree 4",
+    "enumerate scd --links 4 --dof 1 --max-degree 4 --count",
+    "cone behaviour --angles 120,95,45,85",
+)
+"""Commands that are soon done once they are compiled, and call what larger ones call.
+
+The first three take longest and have little in common: the SCD graphs of open chains need no list of SC graphs.
+With eight links there are three loops, made of two.
+"""
+
+
+def compile_ahead() -> int:
+    """Run small commands, as many at once as there are cores, so that their code is kept; return how much was new.
+
+    Returns
+    -------
+    int
+        Functions compiled, one counted for each type of arguments.
+    """
+    with ProcessPoolExecutor(cores()) as pool:
+        return sum(pool.map(_run, _SMALL))
+
+
+def _run(command: str) -> int:
+    before = _compiled()
+    with _silent():
+        main(
+            [*command.split(), *(["--workers", "1"] if command.startswith("enumerate") else [])],
+            standalone_mode=False,
+        )
+    return _compiled() - before
+
+
+def _compiled() -> int:
+    from enumerate.kernel.compiled import kernels
+
+    dispatchers: list[Any] = list(kernels)
+    return sum(sum(one.stats.cache_misses.values()) for one in dispatchers)
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    with Path(os.devnull).open("w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
+        yield
+
+
+def _main() -> None:
+    kept = writable_base()
+    if kept is None:
+        sys.exit(
+            "nothing is compiled ahead: there is no folder to keep it in; name one of yours in SYNTHEDRA_CACHE"
+        )
+    number = cores()
+    print(
+        f"Compiling the code of the first commands, on {number} core{'s' * (number > 1)}: about a minute",
+        flush=True,
+    )
+    begin = monotonic()
+    new = compile_ahead()
+    print(f"{new or 'no'} functions were new; {monotonic() - begin:.0f} s; kept in {kept}")
+
+
+if __name__ == "__main__":
+    _main()

@@ -1,0 +1,58 @@
+"""The word to the user: once in a run."""
+
+from toy_kernels import make_toy, run
+
+from enumerate.machine_code.notice import compiling, heard_by, on_compiling, to_workers
+
+WORKERS = """
+import json, sys
+from concurrent.futures import ProcessPoolExecutor
+from enumerate.machine_code.notice import heard_by, on_compiling, to_workers
+from toy.outer import outer
+
+def tell(folder):
+    print("compiling", folder is not None, file=sys.stderr, flush=True)
+
+on_compiling(tell)
+with ProcessPoolExecutor(2, initializer=heard_by, initargs=(to_workers(),)) as pool:
+    values = list(pool.map(outer, [4, 4.5]))
+print(json.dumps([*values, outer(4)]))
+"""
+
+
+def test_the_user_is_told_once():
+    told = []
+    on_compiling(told.append)
+    try:
+        compiling()
+        compiling()
+    finally:
+        on_compiling(None)
+    compiling()
+    assert len(told) == 1
+
+
+def test_a_worker_tells_if_nobody_has():
+    told = []
+    on_compiling(told.append)
+    try:
+        shared = to_workers()
+        for _ in range(3):  # as if in three workers
+            heard_by(shared)
+            compiling()
+        assert len(told) == 1
+        on_compiling(told.append)
+        compiling()
+        heard_by(to_workers())
+        compiling()
+        assert len(told) == 2
+    finally:
+        on_compiling(None)
+    assert to_workers() is None
+
+
+def test_one_process_of_several_tells(tmp_path):
+    make_toy(tmp_path)
+    values, told = run(WORKERS, tmp_path, tmp_path / "cache")
+    assert values == [50, 55, 50]
+    assert told == "compiling True\n"

@@ -1,0 +1,63 @@
+"""Compiling ahead, and the word that is said where it was not done."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from enumerate.machine_code import notice
+from synth.cli.__main__ import run
+
+FIRST = [
+    "enumerate chains --links 10 --dof 1 --json",
+    "enumerate sc --links 8 --dof 1 --json",
+    "enumerate scd --links 4 --dof 1 --max-degree 4 --json",
+    "enumerate conical --chain watt --slots 12 --json",
+    "cone map --angles 120,95,45,85 --json",
+]
+
+
+def synth(*words, cache):
+    """Run ``synth`` as a process, with a place for its machine code."""
+    environment = {**os.environ, "SYNTHEDRA_CACHE": str(cache)}
+    line = [sys.executable, "-m", *words]
+    return subprocess.run(line, env=environment, capture_output=True, text=True, check=True)
+
+
+def said(folder):
+    return f"synth: compiling code for the first use, up to a minute (kept in {folder})\n"
+
+
+def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys):
+    def compile_twice(prog_name):
+        for _ in range(2):
+            notice.compiling()
+
+    monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path))
+    monkeypatch.setattr("synth.cli.__main__.main", compile_twice)
+    try:
+        run()
+    finally:
+        notice.on_compiling(None)
+    assert capsys.readouterr() == ("", said(tmp_path))
+
+
+@pytest.mark.slow
+def test_an_answer_is_clean_where_something_is_compiled(tmp_path):
+    line = ["synth.cli", "enumerate", "conical", "--chain", "four-bar", "--ground", "0", "--json", "--quiet"]
+    first, second = synth(*line, cache=tmp_path), synth(*line, cache=tmp_path)
+    assert (first.stderr, second.stderr) == (said(tmp_path), "")
+    assert json.loads(first.stdout) == json.loads(second.stdout)
+
+
+@pytest.mark.slow
+def test_what_was_compiled_ahead_is_what_first_commands_need(tmp_path):
+    told = synth("synth.cli.ahead", cache=tmp_path).stdout
+    assert f"kept in {tmp_path}" in told
+    for command in FIRST:
+        done = synth("synth.cli", *command.split(), cache=tmp_path)
+        assert done.stderr == "", command
+        assert json.loads(done.stdout)
+    assert "no functions were new" in synth("synth.cli.ahead", cache=tmp_path).stdout
