@@ -26,7 +26,7 @@ from graphs.identity.chains import chain_id
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
-from synth.candidates.rows import Shape, order_rows, placed_rows
+from synth.candidates.rows import CandidateChain, order_rows, placed_rows
 from synth.conformed.cycles import loops_of_chain
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import wrapped
@@ -122,9 +122,10 @@ class CandidateJob:
         if not self.chain.independent_loops:
             raise UnsolvableError("the chain has no loops: every placement of its joints is as good as another")
         _ = self.query
-        for one in self.filters:
-            if one.column not in self.columns:
-                raise InvariantError("filter", f"no column {one.column!r} here", " ".join(self.columns))
+        for condition in self.filters:
+            if condition.column not in self.columns:
+                told = f"no column {condition.column!r} here"
+                raise InvariantError("filter", told, " ".join(self.columns))
 
     @property
     def placed(self) -> bool:
@@ -137,14 +138,14 @@ class CandidateJob:
         return ConicalQuery(tuple(self.chain.joints.items()), self.grounds, self.slots, self.opposites)
 
     @cached_property
-    def _shapes(self) -> dict[LinkId | None, Shape]:
+    def _candidate_chains(self) -> dict[LinkId | None, CandidateChain]:
         loops = loops_of_chain(self.chain)
-        return {ground: self._shape(ground, loops) for ground in self.grounds}
+        return {ground: self._candidate_chain(ground, loops) for ground in self.grounds}
 
-    def _shape(self, ground: LinkId | None, loops: Sequence[Sequence[JointId]]) -> Shape:
+    def _candidate_chain(self, ground: LinkId | None, loops: Sequence[Sequence[JointId]]) -> CandidateChain:
         number = {joint: i for i, joint in enumerate(self.chain.joints)}
         code = chain_id(self.chain)
-        return Shape(
+        return CandidateChain(
             ConformedChain.of(self.chain, ground),
             code,
             ground is not None,
@@ -155,8 +156,8 @@ class CandidateJob:
     @cached_property
     def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
-        shape = self._shapes[self.grounds[0]]
-        return shape.columns(self.placed, self.opposites, self.cone_angle is not None, self.slots is not None)
+        candidate = self._candidate_chains[self.grounds[0]]
+        return candidate.columns(self.placed, self.opposites, self.cone_angle is not None, self.slots is not None)
 
     @property
     def key(self) -> dict[str, Any]:
@@ -167,7 +168,7 @@ class CandidateJob:
             "samples": self.samples,
             "seed": self.seed if self.samples is not None else None,
             "lambda_deg": None if self.cone_angle is None else round(degrees(self.cone_angle), 12),
-            "filters": [[one.column, one.value, one.least, one.most] for one in self.filters],
+            "filters": [[kept.column, kept.value, kept.least, kept.most] for kept in self.filters],
         }
 
     def units(self) -> list[Unit]:
@@ -186,25 +187,25 @@ class CandidateJob:
         slots, symmetry = self.query.placements(payload)
         if not len(slots):
             return []
-        shape = self._shapes[payload.ground]
+        candidate = self._candidate_chains[payload.ground]
         if not self.placed:
             size = max(_SETS >> (0 if self.opposites else slots.shape[1] - 1), 1)
             rows = [
                 row
                 for i in range(0, len(slots), size)
-                for row in order_rows(shape, slots[i : i + size], symmetry[i : i + size], self.opposites)
+                for row in order_rows(candidate, slots[i : i + size], symmetry[i : i + size], self.opposites)
             ]
         elif self.samples is not None:
             places = self._sampled(slots, payload)
-            slots, symmetry = (np.repeat(one, self.samples, axis=0) for one in (slots, symmetry))
-            rows = placed_rows(shape, places, slots, symmetry, False, self.cone_angle)
+            slots, symmetry = (np.repeat(rows, self.samples, axis=0) for rows in (slots, symmetry))
+            rows = placed_rows(candidate, places, slots, symmetry, False, self.cone_angle)
         else:
             places = np.asarray(slots * (2 * np.pi / self.query.rounds.slots), dtype=float)
-            rows = placed_rows(shape, places, slots, symmetry, True, self.cone_angle)
+            rows = placed_rows(candidate, places, slots, symmetry, True, self.cone_angle)
         if self.filters:
             names = list(self.columns)
-            conditions = [(names.index(one.column), one) for one in self.filters]
-            rows = [row for row in rows if all(one.admits(row[place]) for place, one in conditions)]
+            conditions = [(names.index(kept.column), kept) for kept in self.filters]
+            rows = [row for row in rows if all(kept.admits(row[place]) for place, kept in conditions)]
         return rows
 
     def _sampled(self, slots: Ints, payload: Portion) -> Floats:

@@ -20,7 +20,7 @@ from synth.candidates.values import four_bar_classes, half_turns, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
-    Prepared,
+    RateFormulas,
     never_singular,
     orders_with_opposites,
     over_angles,
@@ -31,7 +31,7 @@ from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.cone import link_angles
 
-__all__ = ["Shape", "order_rows", "placed_rows"]
+__all__ = ["CandidateChain", "order_rows", "placed_rows"]
 
 _ALLOWED = {
     Allowed.BOTH: "both ways",
@@ -39,7 +39,7 @@ _ALLOWED = {
     Allowed.ANGLES: "by angles",
     Allowed.UNKNOWN: "not known",
 }
-
+_WORD_OF_A_LINK = {Allowed.BOTH: "both", Allowed.ONE: "one", Allowed.ANGLES: "angles", Allowed.UNKNOWN: "known"}
 
 _WORDS = ListColumn(" ", kind=str)
 _NUMBERS = ListColumn(" ")
@@ -57,7 +57,7 @@ class LoopCircuits(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Shape:
+class CandidateChain:
     """A chain with one ground link, and what all its rows have in common.
 
     Attributes
@@ -90,9 +90,9 @@ class Shape:
         return len(self.chain.joints) == 3 * len(self.chain.loops) + 1
 
     @cached_property
-    def prepared(self) -> Prepared:
+    def rate_formulas(self) -> RateFormulas:
         """What the analysis over all angles needs."""
-        return Prepared.of(self.chain)
+        return RateFormulas.of(self.chain)
 
     @cached_property
     def _turned(self) -> list[int]:
@@ -153,23 +153,25 @@ class Shape:
 
     def circuits_of_loops(self, places: Floats) -> list[LoopCircuits]:
         """Return the circuits of all loops, of each row."""
-        found = loop_circuits(self.loops, places)
-        open_ = np.stack([one.open for one in found], axis=-1)
-        density = np.stack([one.density for one in found], axis=-1)
-        turns = np.abs(np.stack([one.turns for one in found], axis=-1))
+        of_loops = loop_circuits(self.loops, places)
+        open_ = np.stack([circuits.open for circuits in of_loops], axis=-1)
+        density = np.stack([circuits.density for circuits in of_loops], axis=-1)
+        turns = np.abs(np.stack([circuits.turns for circuits in of_loops], axis=-1))
         loops = tuple(tuple(self.names[i] for i in loop) for loop in self.loops)
         return [
-            LoopCircuits(loops, tuple("open" if one else "crossed" for one in o), sum(o), tuple(d), tuple(k))
+            LoopCircuits(
+                loops, tuple("open" if is_open else "crossed" for is_open in o), sum(o), tuple(d), tuple(k)
+            )
             for o, d, k in zip(open_.tolist(), density.tolist(), turns.tolist(), strict=True)
         ]
 
 
-def order_rows(shape: Shape, slots: Ints, symmetry: Ints, opposites: bool) -> list[Row]:
+def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites: bool) -> list[Row]:
     """Return rows of cyclic orders, or of orders with opposites.
 
     Parameters
     ----------
-    shape : Shape
+    candidate : CandidateChain
     slots : int64[r, J]
         On J slots, or 2 J.
     symmetry : int64[r]
@@ -180,19 +182,19 @@ def order_rows(shape: Shape, slots: Ints, symmetry: Ints, opposites: bool) -> li
     flat = sets.reshape(-1, joints)
     places = flat * (np.pi / joints)
     per_row = sets.shape[1]
-    circuits = shape.circuits_of_loops(places)
-    deep = layers(shape.chain, places).reshape(-1, per_row)
-    full = never_singular(shape.prepared, places[::per_row]).tolist() if shape.single else []
-    allowed = over_angles(shape.prepared, flat) if shape.grounded and shape.single else None
+    circuits = candidate.circuits_of_loops(places)
+    deep = layers(candidate.chain, places).reshape(-1, per_row)
+    full = never_singular(candidate.rate_formulas, places[::per_row]).tolist() if candidate.single else []
+    allowed = over_angles(candidate.rate_formulas, flat) if candidate.grounded and candidate.single else None
     made: list[Row] = []
-    for i, start in enumerate(shape.common(slots, opposites)):
+    for i, start in enumerate(candidate.common(slots, opposites)):
         mine = slice(i * per_row, (i + 1) * per_row)
-        turns = np.array([one.turns for one in circuits[mine]])
+        turns = np.array([of_loops.turns for of_loops in circuits[mine]])
         row: list[Any] = [*start, int(symmetry[i]), *circuits[i * per_row][:-1], _ranges(turns)]
         row += [int(deep[i].min())] if opposites else [int(deep[i].min()), int(deep[i].max())]
         row += full[i : i + 1]
         if allowed is not None:
-            row += _ways(shape, allowed, mine, opposites)
+            row += _ways(candidate, allowed, mine, opposites)
         made.append(tuple(row))
     return made
 
@@ -202,23 +204,25 @@ def _ranges(turns: Ints) -> tuple[tuple[int, int], ...]:
     return tuple(zip(turns.min(axis=0).tolist(), turns.max(axis=0).tolist(), strict=True))
 
 
-def _ways(shape: Shape, found: OverAngles, mine: slice, opposites: bool) -> list[Any]:
-    links = [_together(found.links[mine, n]) for n in range(found.links.shape[1])]
-    linkage = _together(found.linkage[mine])
-    words = [_ALLOWED[one].split()[-2 if one in (Allowed.BOTH, Allowed.ONE) else -1] for one in links]
+def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: bool) -> list[Any]:
+    links = [_together(over.links[mine, n]) for n in range(over.links.shape[1])]
+    linkage = _together(over.linkage[mine])
+    words = [_WORD_OF_A_LINK[allowed] for allowed in links]
     if opposites:
-        signs = [_sign_of(found.signs[mine][0, list(joints)]) for joints in shape.chain.joints_of]
-        sense = next((s for s, one in zip(signs[1:], links[1:], strict=True) if s and one == Allowed.ONE), 1)
+        signs = [_sign_of(over.signs[mine][0, list(joints)]) for joints in candidate.chain.joints_of]
+        sense = next(
+            (s for s, allowed in zip(signs[1:], links[1:], strict=True) if s and allowed == Allowed.ONE), 1
+        )
         words = [
-            {1: "outward", -1: "inward"}[s * sense] if s and one == Allowed.ONE else word
-            for s, one, word in zip(signs, links, words, strict=True)
+            {1: "outward", -1: "inward"}[s * sense] if s and allowed == Allowed.ONE else word
+            for s, allowed, word in zip(signs, links, words, strict=True)
         ]
-        return [shape.ways_of_links(words), _ALLOWED[linkage]]
-    counts = np.bincount(found.linkage[mine], minlength=4)
+        return [candidate.ways_of_links(words), _ALLOWED[linkage]]
+    counts = np.bincount(over.linkage[mine], minlength=4)
     return [
-        shape.ways_of_links(words),
+        candidate.ways_of_links(words),
         _ALLOWED[linkage],
-        *(int(counts[one]) for one in (Allowed.ONE, Allowed.BOTH, Allowed.ANGLES, Allowed.UNKNOWN)),
+        *(int(counts[allowed]) for allowed in (Allowed.ONE, Allowed.BOTH, Allowed.ANGLES, Allowed.UNKNOWN)),
     ]
 
 
@@ -227,9 +231,9 @@ def _sign_of(signs: npt.NDArray[np.int8]) -> int:
     return int(signs[np.abs(signs).argmax()])
 
 
-def _together(found: npt.NDArray[np.int8]) -> Allowed:
+def _together(allowed: npt.NDArray[np.int8]) -> Allowed:
     """Return what several orders with opposites allow together."""
-    seen = set(found.tolist())
+    seen = set(allowed.tolist())
     if len(seen) == 1:
         return Allowed(seen.pop())
     either = Allowed.ANGLES in seen or {Allowed.ONE, Allowed.BOTH} <= seen
@@ -237,13 +241,18 @@ def _together(found: npt.NDArray[np.int8]) -> Allowed:
 
 
 def placed_rows(
-    shape: Shape, places: Floats, slots: Ints, symmetry: Ints, on_slots: bool, cone_angle: float | None
+    candidate: CandidateChain,
+    places: Floats,
+    slots: Ints,
+    symmetry: Ints,
+    on_slots: bool,
+    cone_angle: float | None,
 ) -> list[Row]:
     """Return rows of joints at given azimuths.
 
     Parameters
     ----------
-    shape : Shape
+    candidate : CandidateChain
     places : float[r, J]
         Azimuths between 0 and 2 pi, radians.
     slots : int64[r, J]
@@ -254,23 +263,23 @@ def placed_rows(
     cone_angle : float, optional
         lambda, radians.
     """
-    chain = shape.chain
+    chain = candidate.chain
     motion = first_order(chain, places)
     rank = motion.rank()
     least = np.take_along_axis(motion.singular_values, rank[:, np.newaxis] - 1, -1)[:, 0]
     singular = rank < motion.singular_values.shape[-1]
     pairs, half = half_turns(chain, places)
-    classes = four_bar_classes(shape.loops, places, cone_angle)
-    circuits = shape.circuits_of_loops(places)
+    classes = four_bar_classes(candidate.loops, places, cone_angle)
+    circuits = candidate.circuits_of_loops(places)
     deep = layers(chain, places).tolist()
     azimuths = [tuple(float(f"{x:.12g}") for x in row) for row in np.degrees(places).round(12).tolist()]
     angles = _link_angles(chain, places, pairs, cone_angle)
-    ways = _placed_ways(shape, places) if shape.grounded else None
-    joined = [(shape.names[a], shape.names[b]) for a, b in pairs]
+    ways = _placed_ways(candidate, places) if candidate.grounded else None
+    joined = [(candidate.names[a], candidate.names[b]) for a, b in pairs]
     made: list[Row] = []
-    for i, start in enumerate(shape.common(slots, False)):
+    for i, start in enumerate(candidate.common(slots, False)):
         here = tuple(joined[k] for k in np.flatnonzero(half[i]).tolist())
-        of_loops = tuple(str(one[i]) for one in classes)
+        of_loops = tuple(str(of_loop[i]) for of_loop in classes)
         row: list[Any] = [*(start if on_slots else start[:-1]), int(symmetry[i]), *circuits[i]]
         row += [azimuths[i], here, len(here), deep[i]]
         row += [int(rank[i]), int(motion.freedoms[i]), bool(singular[i]), float(f"{least[i]:.9g}")]
@@ -292,19 +301,19 @@ def _link_angles(
         return None
     first, second = (list(side) for side in zip(*pairs, strict=True))
     steps = wrapped(places[:, second] - places[:, first])
-    found: list[list[float]] = np.degrees(link_angles(steps, cone_angle)).tolist()
-    return found
+    angles: list[list[float]] = np.degrees(link_angles(steps, cone_angle)).tolist()
+    return angles
 
 
-def _placed_ways(shape: Shape, places: Floats) -> list[list[Any]]:
-    chain = shape.chain
-    found = behaviour_of_motion(chain, places, first_order(chain, places), link_arcs(chain, places))
+def _placed_ways(candidate: CandidateChain, places: Floats) -> list[list[Any]]:
+    chain = candidate.chain
+    behaviour = behaviour_of_motion(chain, places, first_order(chain, places), link_arcs(chain, places))
     word = {int(way): way.name.lower() for way in Way}
-    known = (found.ways != Way.UNKNOWN).all(axis=-1).tolist()
+    known = (behaviour.ways != Way.UNKNOWN).all(axis=-1).tolist()
     return [
         [
-            shape.ways_of_links([word[one] for one in ways]),
+            candidate.ways_of_links([word[way] for way in ways]),
             _ALLOWED[(Allowed.ONE if one_way else Allowed.BOTH) if told else Allowed.UNKNOWN],
         ]
-        for ways, one_way, told in zip(found.ways.tolist(), found.one_way.tolist(), known, strict=True)
+        for ways, one_way, told in zip(behaviour.ways.tolist(), behaviour.one_way.tolist(), known, strict=True)
     ]

@@ -34,16 +34,16 @@ def loop_circuits(loops: Sequence[Sequence[int]], places: npt.ArrayLike) -> tupl
 
     Examples
     --------
-    >>> (one,) = loop_circuits([(0, 1, 2, 3)], np.radians([[0, 90, 180, 270], [0, 180, 90, 270]]))
-    >>> one.names().tolist(), one.turns.tolist()
+    >>> (circuit,) = loop_circuits([(0, 1, 2, 3)], np.radians([[0, 90, 180, 270], [0, 180, 90, 270]]))
+    >>> circuit.names().tolist(), circuit.turns.tolist()
     (['open', 'crossed'], [1, -1])
     """
     t = np.asarray(places, dtype=float)
-    found = []
+    of_loops = []
     for loop in loops:
         mine = t[..., list(loop)]
-        found.append(circuits(wrapped((np.roll(mine, -1, axis=-1) - mine).round(12))))
-    return tuple(found)
+        of_loops.append(circuits(wrapped((np.roll(mine, -1, axis=-1) - mine).round(12))))
+    return tuple(of_loops)
 
 
 def half_turns(
@@ -60,14 +60,14 @@ def half_turns(
     -------
     pairs : list of (int, int)
         Joints that share a link.
-    found : bool[..., number of pairs]
+    is_half_turn : bool[..., number of pairs]
 
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> pairs, found = half_turns(chain, np.radians([0, 180, 90, 300]))
-    >>> [pair for pair, is_so in zip(pairs, found) if is_so]
+    >>> pairs, is_half_turn = half_turns(chain, np.radians([0, 180, 90, 300]))
+    >>> [pair for pair, is_so in zip(pairs, is_half_turn) if is_so]
     [(0, 1)]
     """
     t = np.asarray(places, dtype=float)
@@ -98,7 +98,7 @@ def four_bar_classes(
     ['Grashof', 'non-Grashof']
     """
     t = np.asarray(places, dtype=float)
-    found = []
+    classes = []
     for loop in loops:
         if len(loop) != 4:
             continue
@@ -108,5 +108,5 @@ def four_bar_classes(
             differences = planar_differences(chords(steps, 1.0))
         else:
             differences = spherical_differences(link_angles(steps, cone_angle))
-        found.append(grashof_class(differences))
-    return found
+        classes.append(grashof_class(differences))
+    return classes

@@ -25,12 +25,12 @@ from graphs.arrays import Flags, Floats, Ints, Signs
 from graphs.errors import NumericalError
 from synth.conformed.outward import OutwardRate, joint_rates, outward_rates
 from synth.conformed.rates import ConformedChain
-from synth.conformed.sign_reasoning import Relations
+from synth.conformed.sign_reasoning import SignRelations
 
 __all__ = [
     "Allowed",
     "OverAngles",
-    "Prepared",
+    "RateFormulas",
     "never_singular",
     "orders_with_opposites",
     "over_angles",
@@ -58,7 +58,7 @@ class Allowed(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Prepared:
+class RateFormulas:
     """A chain of one freedom with all that does not depend on the order of its joints.
 
     Attributes
@@ -68,7 +68,7 @@ class Prepared:
         Of the outward rate of each joint.
     rates : tuple of tuples of OutwardRate
         Of the rate of each joint.
-    relations : Relations
+    relations : SignRelations
     moving : tuple of tuples of int
         Joints of each link that are not the ground's.
     """
@@ -76,11 +76,11 @@ class Prepared:
     chain: ConformedChain
     formulas: tuple[tuple[OutwardRate, ...], ...]
     rates: tuple[tuple[OutwardRate, ...], ...]
-    relations: Relations
+    relations: SignRelations
     moving: tuple[tuple[int, ...], ...]
 
     @classmethod
-    def of(cls, chain: ConformedChain) -> Prepared:
+    def of(cls, chain: ConformedChain) -> RateFormulas:
         """Prepare a chain.
 
         Raises
@@ -90,7 +90,7 @@ class Prepared:
         """
         formulas = outward_rates(chain)
         moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
-        return cls(chain, formulas, joint_rates(chain), Relations.of(chain), moving)
+        return cls(chain, formulas, joint_rates(chain), SignRelations.of(chain), moving)
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,16 +171,18 @@ def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Fl
     half = np.cumsum(gaps, axis=1) - gaps[:, :1]
     half = np.pi * (half + gaps[:, :1]) / gaps.sum(axis=1, keepdims=True)
     half = np.concatenate([np.zeros((samples, 1)), half[:, :-1]], axis=1)
-    found = half[:, slots % joints] + np.pi * (slots >= joints)
-    return np.moveaxis(found, 0, -2)
+    azimuths = half[:, slots % joints] + np.pi * (slots >= joints)
+    return np.moveaxis(azimuths, 0, -2)
 
 
-def over_angles(chain: ConformedChain | Prepared, places: npt.ArrayLike, samples: int = _SAMPLES) -> OverAngles:
+def over_angles(
+    chain: ConformedChain | RateFormulas, places: npt.ArrayLike, samples: int = _SAMPLES
+) -> OverAngles:
     """Return what orders with opposites allow the links of a chain of one freedom.
 
     Parameters
     ----------
-    chain : ConformedChain or Prepared
+    chain : ConformedChain or RateFormulas
     places : int64[..., J]
         Orders with opposites: places on 2 J slots.
     samples : int, optional
@@ -197,20 +199,20 @@ def over_angles(chain: ConformedChain | Prepared, places: npt.ArrayLike, samples
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
-    >>> found = over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]])
-    >>> [Allowed(one).name for one in found.linkage]
+    >>> over = over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]])
+    >>> [Allowed(allowed).name for allowed in over.linkage]
     ['ONE', 'BOTH']
     """
     slots = np.asarray(places, dtype=np.int64)
     shape = slots.shape[:-1]
-    given = chain if isinstance(chain, Prepared) else Prepared.of(chain)
+    given = chain if isinstance(chain, RateFormulas) else RateFormulas.of(chain)
     made = _over_angles(given, slots.reshape(-1, slots.shape[-1]), samples)
     return OverAngles(
         made.links.reshape(*shape, -1), made.linkage.reshape(shape), made.signs.reshape(*shape, slots.shape[-1])
     )
 
 
-def _over_angles(given: Prepared, slots: Ints, samples: int) -> OverAngles:
+def _over_angles(given: RateFormulas, slots: Ints, samples: int) -> OverAngles:
     """Return what orders with opposites int64[r, J] allow: by signs that are certain, by refuting, by samples."""
     relations, moving = given.relations, given.moving
     middle = slots * (np.pi / slots.shape[-1])
@@ -245,22 +247,22 @@ def _over_angles(given: Prepared, slots: Ints, samples: int) -> OverAngles:
 
 
 def _by_reason(
-    relations: Relations, known: Signs, sines: Signs, parts: list[int], both: Flags
+    relations: SignRelations, known: Signs, sines: Signs, parts: list[int], both: Flags
 ) -> npt.NDArray[np.int8]:
     """Return what is allowed to what has these outward rates, as far as it is certain; else UNKNOWN.
 
     Where the known signs do not tell, each thinkable set of signs is tried, and left out if it contradicts itself.
     """
-    found = _from_signs(known[:, parts], both)
-    left = np.flatnonzero(found == Allowed.UNKNOWN)
+    allowed = _from_signs(known[:, parts], both)
+    left = np.flatnonzero(allowed == Allowed.UNKNOWN)
     if not len(left):
-        return found
-    one, two = _possible(relations, known[left], sines[left], parts)
-    found[left] = np.where(one & two, Allowed.UNKNOWN, np.where(one, Allowed.ONE, Allowed.BOTH))
-    return found
+        return allowed
+    one_sign, two_signs = _possible(relations, known[left], sines[left], parts)
+    allowed[left] = np.where(one_sign & two_signs, Allowed.UNKNOWN, np.where(one_sign, Allowed.ONE, Allowed.BOTH))
+    return allowed
 
 
-def _possible(relations: Relations, known: Signs, sines: Signs, parts: list[int]) -> tuple[Flags, Flags]:
+def _possible(relations: SignRelations, known: Signs, sines: Signs, parts: list[int]) -> tuple[Flags, Flags]:
     """Tell whether all of some rates can have one sign, and whether two of them can have different ones."""
 
     def refuted(assumed: dict[int, int]) -> Flags:
@@ -271,21 +273,21 @@ def _possible(relations: Relations, known: Signs, sines: Signs, parts: list[int]
             trial[:, part] = sign
         return wrong | relations.follow(trial, sines)
 
-    one = ~refuted(dict.fromkeys(parts, 1)) | ~refuted(dict.fromkeys(parts, -1))
-    two = np.zeros(len(known), bool)
+    one_sign = ~refuted(dict.fromkeys(parts, 1)) | ~refuted(dict.fromkeys(parts, -1))
+    two_signs = np.zeros(len(known), bool)
     for a, b in combinations(parts, 2):
-        two |= ~refuted({a: 1, b: -1}) | ~refuted({a: -1, b: 1})
-    return one, two
+        two_signs |= ~refuted({a: 1, b: -1}) | ~refuted({a: -1, b: 1})
+    return one_sign, two_signs
 
 
-def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+def never_singular(chain: ConformedChain | RateFormulas, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     """Tell of which cyclic orders it is certain that the rank at the conformed position is full for all angles.
 
     It is where some minor of the closure equations has terms of one sign only. False: not certain.
 
     Parameters
     ----------
-    chain : ConformedChain or Prepared
+    chain : ConformedChain or RateFormulas
         Of one freedom.
     places : float[..., J]
         Azimuths between 0 and 2 pi in the order asked for.
@@ -301,7 +303,7 @@ def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> n
     """
     t = np.asarray(places, dtype=float)
     sure = np.zeros(t.shape[:-1], bool)
-    given = chain if isinstance(chain, Prepared) else Prepared.of(chain)
+    given = chain if isinstance(chain, RateFormulas) else RateFormulas.of(chain)
     for formulas in given.rates:
         for formula in formulas:
             sure |= formula.signs(t) != 0
@@ -311,42 +313,42 @@ def never_singular(chain: ConformedChain | Prepared, places: npt.ArrayLike) -> n
 def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.int8]:
     """Return the sign of a joint's outward rate where one of its formulas tells."""
     middle = slots * (np.pi / slots.shape[-1])
-    found = np.zeros(len(slots), np.int8)
+    signs = np.zeros(len(slots), np.int8)
     for formula in formulas:
-        left = found == 0
+        left = signs == 0
         if not left.any():
             break
-        found[left] = formula.signs(middle[left])
+        signs[left] = formula.signs(middle[left])
     for formula in formulas[:_BY_CHORDS]:
-        left = found == 0
+        left = signs == 0
         if not left.any():
             break
-        found[left] = formula.signs_by_chords(slots[left])
-    return found
+        signs[left] = formula.signs_by_chords(slots[left])
+    return signs
 
 
 def _goes_round(chain: ConformedChain, slots: Ints) -> Flags:
     """Tell which links have joints on no half of the circle: bool[..., N]."""
     half = slots.shape[-1]
-    found = []
+    goes_round = []
     for joints in chain.joints_of:
         mine = np.sort(slots[..., list(joints)], axis=-1)
         gaps = np.roll(mine, -1, axis=-1) - mine
         gaps[..., -1] += 2 * half
-        found.append(gaps.max(axis=-1) < half)
-    return np.stack(found, axis=-1)
+        goes_round.append(gaps.max(axis=-1) < half)
+    return np.stack(goes_round, axis=-1)
 
 
 def _from_signs(signs: npt.NDArray[np.int8], goes_round: Flags) -> npt.NDArray[np.int8]:
     """Return what certain signs of the moving joints of a link allow it."""
     plus, minus = (signs > 0).any(axis=-1), (signs < 0).any(axis=-1)
-    one = (signs > 0).all(axis=-1) | (signs < 0).all(axis=-1) | (signs.shape[-1] == 1)
-    found = np.where(one, Allowed.ONE, Allowed.UNKNOWN)
-    return np.where(goes_round | (plus & minus), Allowed.BOTH, found).astype(np.int8)
+    one_sign = (signs > 0).all(axis=-1) | (signs < 0).all(axis=-1) | (signs.shape[-1] == 1)
+    allowed = np.where(one_sign, Allowed.ONE, Allowed.UNKNOWN)
+    return np.where(goes_round | (plus & minus), Allowed.BOTH, allowed).astype(np.int8)
 
 
 def _looked_for(
-    given: Prepared, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
+    given: RateFormulas, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
 ) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.int8]]:
     """Look for angles with which links of unknown ways go one way, and others with which they go both."""
     t = sampled(slots, samples)
@@ -358,11 +360,11 @@ def _looked_for(
     def seen(joints: Sequence[int], before: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
         mine = rates[..., list(joints)]
         clear = np.abs(mine).min(axis=-1) > 1e-9 * np.abs(rates).max(axis=-1)
-        one = (mine > 0).all(axis=-1) | (mine < 0).all(axis=-1)
-        either = (one & clear).any(axis=-1) & (~one & clear).any(axis=-1)
+        one_sign = (mine > 0).all(axis=-1) | (mine < 0).all(axis=-1)
+        either = (one_sign & clear).any(axis=-1) & (~one_sign & clear).any(axis=-1)
         return np.where((before == Allowed.UNKNOWN) & either, Allowed.ANGLES, before).astype(np.int8)
 
-    found = links.copy()
+    links_seen = links.copy()
     for number in range(1, links.shape[1]):
-        found[:, number] = seen(given.moving[number], links[:, number])
-    return found, seen(every, linkage)
+        links_seen[:, number] = seen(given.moving[number], links[:, number])
+    return links_seen, seen(every, linkage)

@@ -103,8 +103,8 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
-    >>> found = behaviour(ConformedChain.of(chain), np.radians([40, 90, 140, 0]))
-    >>> [Way(way).name for way in found.ways], bool(found.one_way)
+    >>> moving = behaviour(ConformedChain.of(chain), np.radians([40, 90, 140, 0]))
+    >>> [Way(way).name for way in moving.ways], bool(moving.one_way)
     (['STILL', 'OUTWARD', 'OUTWARD', 'OUTWARD'], True)
     """
     motion = first_order(chain, places)
@@ -161,15 +161,15 @@ def _outward_ranges(motions: Floats, arcs: Floats) -> Floats:
 
 def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats) -> npt.NDArray[np.bool_]:
     """Tell which joints move along the surface."""
-    found = np.zeros(t.shape, dtype=bool)
+    tangent = np.zeros(t.shape, dtype=bool)
     for joint in range(len(chain.joints)):
         link = next(n for n, joints in enumerate(chain.joints_of) if joint in joints)
         w = motion.motions[..., link, :]
         s, c = np.sin(t[..., joint]), np.cos(t[..., joint])
         outward = w[..., 2] * s - w[..., 0] * c
         along = np.maximum(np.abs(w[..., 0] - w[..., 1] * s), np.abs(w[..., 2] - w[..., 1] * c))
-        found[..., joint] = (np.abs(outward) <= small[..., 0]) & (along > 10 * small[..., 0])
-    return found
+        tangent[..., joint] = (np.abs(outward) <= small[..., 0]) & (along > 10 * small[..., 0])
+    return tangent
 
 
 def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Floats:

@@ -85,13 +85,13 @@ def _all_dominated(signs: Signs, sets: Ints, less: int) -> bool:
 
 @compiled
 def _signs(signs: Signs, sets: Ints) -> Signs:
-    found = np.zeros(len(signs), np.int8)
+    of_sums = np.zeros(len(signs), np.int8)
     for i in range(len(signs)):
         if _all_dominated(signs[i], sets[i], -1):
-            found[i] = 1
+            of_sums[i] = 1
         elif _all_dominated(signs[i], sets[i], 1):
-            found[i] = -1
-    return found
+            of_sums[i] = -1
+    return of_sums
 
 
 def arc_sets(slots: Ints) -> Ints:

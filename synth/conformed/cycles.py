@@ -51,14 +51,14 @@ def signed_cycles(chain: ConformedChain) -> npt.NDArray[np.int64]:
         raise UnsolvableError(
             f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most"
         )
-    found: dict[tuple[int, ...], npt.NDArray[np.int64]] = {}
+    cycles: dict[tuple[int, ...], npt.NDArray[np.int64]] = {}
     for factors in product((0, 1, -1), repeat=len(independent)):
         if next((factor for factor in factors if factor), -1) < 0:  # each cycle one way round
             continue
         row = np.array(factors) @ independent
         if np.abs(row).max() == 1 and _is_simple(chain, row):
-            found[tuple(np.flatnonzero(row))] = row
-    return np.array([found[key] for key in sorted(found, key=lambda key: (len(key), key))], np.int64).reshape(
+            cycles[tuple(np.flatnonzero(row))] = row
+    return np.array([cycles[key] for key in sorted(cycles, key=lambda key: (len(key), key))], np.int64).reshape(
         -1, len(chain.joints)
     )
 

@@ -73,8 +73,8 @@ def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.Arr
 
     Examples
     --------
-    >>> found = poses_from_conformed(np.radians([50, 110, 80, 120]), np.radians(20), np.radians([-30, 30]))
-    >>> np.degrees(found.psi - found.conformed[1]).round(4).tolist()
+    >>> poses = poses_from_conformed(np.radians([50, 110, 80, 120]), np.radians(20), np.radians([-30, 30]))
+    >>> np.degrees(poses.psi - poses.conformed[1]).round(4).tolist()
     [-11.1118, 34.9421]
     """
     given = np.asarray(steps, dtype=float)

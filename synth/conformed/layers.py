@@ -67,7 +67,7 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     rank = t.argsort(axis=-1).argsort(axis=-1)
     every = (1 << joints) - 1
     most = max(map(len, chain.joints_of))
-    found = np.zeros((len(t), len(chain.joints_of), most), np.int64)
+    masks = np.zeros((len(t), len(chain.joints_of), most), np.int64)
     for number, mine in enumerate(chain.joints_of):
         ranks = np.sort(rank[:, list(mine)], axis=-1)
         ends = np.sort(t[:, list(mine)], axis=-1)
@@ -78,8 +78,8 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
         gaps[:, -1] += every  # the last goes past azimuth 0
         wide = widths >= HALF_TURN
         allowed = wide | ~wide.any(axis=-1, keepdims=True)
-        found[:, number, : len(mine)] = np.where(allowed, every ^ gaps, 0)
-    return found
+        masks[:, number, : len(mine)] = np.where(allowed, every ^ gaps, 0)
+    return masks
 
 
 def layers(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
@@ -127,13 +127,13 @@ def links_in_layers(chain: ConformedChain, places: npt.ArrayLike) -> LinksInLaye
     --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> found = links_in_layers(chain, np.radians([0, 40, 90, 140]))
-    >>> found.layers.tolist(), np.degrees(found.arcs).round(9).tolist()
+    >>> laid = links_in_layers(chain, np.radians([0, 40, 90, 140]))
+    >>> laid.layers.tolist(), np.degrees(laid.arcs).round(9).tolist()
     ([0, 1, 1, 1], [[0.0, 140.0], [0.0, 40.0], [40.0, 50.0], [90.0, 50.0]])
     """
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
     if len(t) > _MOST_JOINTS:
-        raise UnsolvableError(f"{len(t)} joints; layers are found of {_MOST_JOINTS} at most")
+        raise UnsolvableError(f"{len(t)} joints; layers are laid of {_MOST_JOINTS} at most")
     chosen, layer_of = layers_of_links(arc_choices(chain, t[np.newaxis])[0])
     arcs = np.empty((len(chain.joints_of), 2))
     for number, (joints, left_out) in enumerate(zip(chain.joints_of, chosen.tolist(), strict=True)):

@@ -49,16 +49,22 @@ class OutwardRate:
         Number of the joint, j.
     factors : int64[T]
         +1 or -1.
-    sines : int64[T]
-        i of sin(t_j - t_i); -1: no sine, in the rate q_j of the joint itself.
+    sines : int64[T] or None
+        i of sin(t_j - t_i); None: no sines, in the rate q_j of the joint itself.
     triples : int64[T, L, 3]
         The joints of the brackets.
     """
 
     joint: int
     factors: Ints
-    sines: Ints
+    sines: Ints | None
     triples: Ints
+
+    @property
+    def _terms(self) -> Iterator[tuple[int, int | None, Ints]]:
+        """Factor, joint of the sine, if there is one, and brackets of each term."""
+        sines = [None] * len(self.factors) if self.sines is None else self.sines.tolist()
+        return zip(self.factors.tolist(), sines, self.triples, strict=True)
 
     def values(self, places: npt.ArrayLike) -> Floats:
         """Return the rates of linkages.
@@ -74,8 +80,9 @@ class OutwardRate:
         """
         t = np.asarray(places, dtype=float)
         total = np.zeros(t.shape[:-1])
-        for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True):
-            term = factor * (np.sin(t[..., self.joint] - t[..., i]) if i >= 0 else np.ones(t.shape[:-1]))
+        for factor, i, triples in self._terms:
+            sine = np.ones(t.shape[:-1]) if i is None else np.sin(t[..., self.joint] - t[..., i])
+            term = factor * sine
             for triple in triples:
                 term = term * brackets(t[..., triple])
             total += term
@@ -110,10 +117,10 @@ class OutwardRate:
         t = slots * (np.pi / slots.shape[-1])
         arcs, every = arc_sets(slots), (1 << slots.shape[-1]) - 1
         terms = []
-        for i, triples in zip(self.sines.tolist(), self.triples.tolist(), strict=True):
-            pairs = [pair for a, b, c in triples for pair in ((a, b), (b, c), (a, c))]
+        for _, i, triples in self._terms:
+            pairs = [pair for a, b, c in triples.tolist() for pair in ((a, b), (b, c), (a, c))]
             factors = [arcs[:, a, b] for a, b in pairs]
-            if i >= 0:
+            if i is not None:
                 factors += [arcs[:, self.joint, i], every ^ arcs[:, self.joint, i]]
             terms.append(np.stack(factors, axis=-1))
         return sign_of_sum(np.stack(self._term_signs(t), axis=-1), np.stack(terms, axis=1))
@@ -121,16 +128,16 @@ class OutwardRate:
     def _term_signs(self, t: Floats) -> list[npt.NDArray[np.int8]]:
         return [
             _sign(factor, triples, t)
-            * (np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8) if i >= 0 else np.int8(1))
-            for factor, i, triples in zip(self.factors, self.sines, self.triples, strict=True)
+            * (np.int8(1) if i is None else np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8))
+            for factor, i, triples in self._terms
         ]
 
     def text(self, names: Sequence[object]) -> str:
         """Return the formula as text, sin(j - i) being that of the azimuths of joints j and i."""
         parts = []
-        for factor, i, triples in zip(self.factors.tolist(), self.sines.tolist(), self.triples, strict=True):
+        for factor, i, triples in self._terms:
             written = " ".join("[" + " ".join(str(names[k]) for k in triple) + "]" for triple in triples.tolist())
-            sine = f"sin({names[self.joint]} - {names[i]}) " if i >= 0 else ""
+            sine = f"sin({names[self.joint]} - {names[i]}) " if i is not None else ""
             parts.append(f"{'-' if factor < 0 else '+'} {sine}{written}")
         return " ".join(parts).removeprefix("+ ")
 
@@ -190,21 +197,21 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     ['[A B C]', '- [O B C]', '[O A C]', '- [O A B]']
     """
     kernels = _kernels(_checked(chain))
-    found = []
+    formulas = []
     for joint in range(len(chain.joints)):
         choices = {tuple(kernel[joint]) for kernel in kernels if kernel[joint]}
-        found.append(
+        formulas.append(
             tuple(
                 OutwardRate(
                     joint,
                     np.array([factor for factor, _ in terms], np.int64),
-                    np.full(len(terms), -1),
+                    None,
                     np.array([triples for _, triples in terms], np.int64),
                 )
                 for terms in sorted(choices, key=lambda terms: (len(terms), terms))
             )
         )
-    return tuple(found)
+    return tuple(formulas)
 
 
 def _checked(chain: ConformedChain) -> ConformedChain:
@@ -253,7 +260,7 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
 def _formulas(
     chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]
 ) -> tuple[OutwardRate, ...]:
-    found: dict[tuple[tuple[int, int, tuple[tuple[int, int, int], ...]], ...], None] = {}
+    sums: dict[tuple[tuple[int, int, tuple[tuple[int, int, int], ...]], ...], None] = {}
     for kernel in kernels:
         for path in _paths(chain, joint):
             terms = tuple(
@@ -263,7 +270,7 @@ def _formulas(
                 for factor, triples in kernel[i]
             )
             if terms and len(terms) <= _TERMS:
-                found[terms] = None
+                sums[terms] = None
     return tuple(
         OutwardRate(
             joint,
@@ -271,7 +278,7 @@ def _formulas(
             np.array([i for _, i, _ in terms], np.int64),
             np.array([triples for _, _, triples in terms], np.int64),
         )
-        for terms in sorted(found, key=len)
+        for terms in sorted(sums, key=len)
     )
 
 
@@ -279,14 +286,14 @@ def _paths(chain: ConformedChain, joint: int) -> list[dict[int, int]]:
     """Return paths from the ground to a link of a joint: joints to +1 or -1; short ones first."""
     cycles = signed_cycles(chain)
     ends = [n for n, joints in enumerate(chain.joints_of) if joint in joints]
-    found: dict[tuple[tuple[int, int], ...], None] = {}
+    paths: dict[tuple[tuple[int, int], ...], None] = {}
     for end in ends:
         base = chain.paths[end]
         near = [base, *(base + factor * cycle for cycle in cycles for factor in (1, -1))]
         for row in near:
             if np.abs(row).max() == 1:
-                found[tuple((i, int(row[i])) for i in np.flatnonzero(row).tolist())] = None
-    return [dict(path) for path in sorted(found, key=len)[:_PATHS]]
+                paths[tuple((i, int(row[i])) for i in np.flatnonzero(row).tolist())] = None
+    return [dict(path) for path in sorted(paths, key=len)[:_PATHS]]
 
 
 def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
@@ -294,7 +301,7 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     loops, joints = len(chain.loops), len(chain.joints)
     cycles = signed_cycles(chain)
     places = np.random.default_rng(1).uniform(0, 2 * np.pi, (8, joints))
-    found: list[list[list[_Term]]] = []
+    kernels: list[list[list[_Term]]] = []
     first: Floats | None = None
     bases = sorted(
         combinations(range(len(cycles)), loops), key=lambda chosen: int(np.abs(cycles[list(chosen)]).sum())
@@ -309,10 +316,10 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
             first = values
         elif (values * first).sum() < 0:  # another basis has the same minors, but for a common factor
             kernel = [[(-sign, triples) for sign, triples in terms] for terms in kernel]
-        found.append(kernel)
-        if len(found) == _BASES:
+        kernels.append(kernel)
+        if len(kernels) == _BASES:
             break
-    return found
+    return kernels
 
 
 def _value(terms: Sequence[_Term], places: Floats) -> Floats:

@@ -22,7 +22,7 @@ from enumerate.kernel.compiled import compiled
 from graphs.arrays import Ints, Signs
 from synth.conformed.rates import ConformedChain
 
-__all__ = ["Relations"]
+__all__ = ["SignRelations"]
 
 _ZERO = 2
 """Stands for the sign of what is always zero."""
@@ -70,7 +70,7 @@ def _follow_all(
 
 
 @dataclass(frozen=True, slots=True)
-class Relations:
+class SignRelations:
     """What the rates of a chain obey.
 
     Attributes
@@ -93,13 +93,13 @@ class Relations:
     factors: Ints
 
     @classmethod
-    def of(cls, chain: ConformedChain) -> Relations:
+    def of(cls, chain: ConformedChain) -> SignRelations:
         """Set up the relations of a chain.
 
         Examples
         --------
         >>> from graphs.mechanism.sc import SCGraph
-        >>> len(Relations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
+        >>> len(SignRelations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
         26
         """
         links, joints = len(chain.links), len(chain.joints)
