@@ -128,7 +128,7 @@ def check(row, scd, tmp_path=None):
         (10, 3, 4, 60, {}),
         (9, 1, 3, 1, {"spatial": 1}),
         pytest.param(9, 1, 4, 4000, {"spatial": 1}, marks=pytest.mark.slow),
-        (12, 1, 3, 12, {"spatial": 2}),
+        pytest.param(12, 1, 3, 4, {"spatial": 2}, marks=pytest.mark.slow),
         (4, 1, 5, 3, {"infinite": True}),
         (6, 1, 4, 5, {"infinite": True}),
         (5, 4, 4, 20, {}),

@@ -56,9 +56,10 @@ def test_hoop_angles_are_half_sums_of_crank_angles(n):
                 assert abs(np.sin(crossing.angle - due)) < 1e-6
 
 
-def test_geometric_and_analytic_form_cross_alike():
+@pytest.mark.parametrize("cases", [100, pytest.param(300, marks=pytest.mark.slow)])
+def test_geometric_and_analytic_form_cross_alike(cases):
     rng = np.random.default_rng(11)
-    for _ in range(300):
+    for _ in range(cases):
         given, axis = random_orientations(int(rng.integers(3, 8)), rng), direction(rng)
         for way in DIRECTIONS:
             turned = hoop(given, axis, way)
