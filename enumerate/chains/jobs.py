@@ -17,6 +17,7 @@ from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.graphs import contracted_graphs
 from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.running import rows_of
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
@@ -181,10 +182,8 @@ class ChainJob:
 
 def _blocks(links: int, dof: int) -> Iterator[Block]:
     """Yield all chains that nothing cuts as blocks."""
-    job = ChainJob(ChainQuery(links, dof), bare=True)
-    for unit in job.units():
-        for (code,) in job.work(unit.payload):
-            yield links, tuple(sorted(chain_from_id(code).edges()))
+    for row in rows_of(ChainJob(ChainQuery(links, dof), bare=True)):
+        yield links, tuple(sorted(chain_from_id(row["code"]).edges()))
 
 
 @dataclass(frozen=True)

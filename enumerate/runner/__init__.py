@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from enumerate.runner.job import Sink as Sink
     from enumerate.runner.job import Unit as Unit
     from enumerate.runner.running import Interrupted as Interrupted
+    from enumerate.runner.running import rows_of as rows_of
     from enumerate.runner.running import run as run
+    from enumerate.runner.running import total_of as total_of
     from enumerate.runner.sinks import CountSink as CountSink
     from enumerate.runner.sinks import RowSink as RowSink
     from enumerate.runner.sinks import SortedSink as SortedSink
@@ -27,7 +29,7 @@ else:
         __name__,
         {
             "job": "Counting Job Progress Row Sink Unit",
-            "running": "Interrupted run",
+            "running": "Interrupted rows_of run total_of",
             "sinks": "CountSink RowSink SortedSink sink_for",
             "store": "SqliteSink read_meta read_rows",
         },
