@@ -168,4 +168,4 @@ def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMech
     dof = mobility_report(mechanism).mobility
     if dof is None:
         raise UnsolvableError("the mobility of the mechanism cannot be counted")
-    return OneMechanism(map_id(mechanism), dof, Drawn(code[None], np.array([labels], np.int64)), query)
+    return OneMechanism(map_id(mechanism), dof, Drawn(code[None], np.array([labels], np.uint8)), query)
