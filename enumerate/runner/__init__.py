@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from enumerate.runner.job import Row as Row
     from enumerate.runner.job import Sink as Sink
     from enumerate.runner.job import Unit as Unit
+    from enumerate.runner.limits import Limits as Limits
     from enumerate.runner.running import Interrupted as Interrupted
     from enumerate.runner.running import rows_of as rows_of
     from enumerate.runner.running import run as run
@@ -29,6 +30,7 @@ else:
         __name__,
         {
             "job": "Counting Job Progress Row Sink Unit",
+            "limits": "Limits",
             "running": "Interrupted rows_of run total_of",
             "sinks": "CountSink RowSink SortedSink sink_for",
             "store": "SqliteSink read_meta read_rows",

@@ -68,8 +68,7 @@ def map_units(query: SCQuery, size: int = UNIT_ROWS) -> Iterator[Unit]:
     """Yield units whose payloads are `Maps`; their weights are numbers of drawn chains, about ``size`` at most."""
     if query.possible and query.loops == 1:
         degrees = Counter({2: query.links})
-        low, high = query.longest_string
-        if low <= query.links <= (high or query.links) and query.chains.admits_assortment(degrees):
+        if query.links in query.longest_string and query.chains.admits_assortment(degrees):
             yield Unit((MapPart(_RING, 0, 0),))
     held: list[MapPart] = []
     weight = 0
@@ -182,7 +181,7 @@ class SCCountJob(Counting):
 
     def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the number of SC graphs of a unit."""
-        query, low = self.query, self.query.longest_string[0]
+        query, low = self.query, self.query.longest_string.least
         count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
 
         def number(most: int) -> int:
