@@ -37,9 +37,9 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.generic import exact_mobility
 
-__all__ = ["ADDENDUM_COLUMNS", "Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
+__all__ = ["Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
 
-ADDENDUM_COLUMNS: dict[str, type] = {
+_COLUMNS: dict[str, type] = {
     "kind": str,
     "a": str,
     "b": str,
@@ -138,7 +138,7 @@ class AddendumJob:
     @property
     def columns(self) -> dict[str, type]:
         """Names and types of the values of a row."""
-        return ADDENDUM_COLUMNS
+        return _COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:

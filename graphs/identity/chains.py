@@ -16,7 +16,7 @@ import networkx as nx
 from graphs.errors import InvariantError
 from graphs.identity.bliss import ColouredGraph, labels_of, subdivided, symmetries_of
 
-__all__ = ["automorphisms_of", "canonical_links", "canonical_order", "chain_from_id", "chain_id"]
+__all__ = ["automorphisms_of", "canonical_order", "chain_from_id", "chain_id"]
 
 _PREFIX = "k1:"
 
@@ -72,7 +72,7 @@ def _order_with_parallel_joints(links: int, joints: Sequence[tuple[int, int]]) -
     return [rank[number] for number in numbers]
 
 
-def canonical_links(graph: nx.Graph) -> dict[Any, int]:
+def _canonical_links(graph: nx.Graph) -> dict[Any, int]:
     """Return the canonical number of each link of a link-joint graph.
 
     Parameters
@@ -117,7 +117,7 @@ def chain_id(graph: nx.Graph) -> str:
     >>> chain_id(nx.cycle_graph(4))
     'k1:Cr'
     """
-    number = canonical_links(graph)
+    number = _canonical_links(graph)
     named = nx.MultiGraph()
     named.add_nodes_from(range(len(number)))
     named.add_edges_from(sorted(sorted((number[a], number[b])) for a, b in graph.edges()))
