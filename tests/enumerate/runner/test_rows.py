@@ -37,8 +37,8 @@ def test_workers_end_with_the_generator():
 @pytest.mark.parametrize(
     "listing",
     [
-        lambda **options: chain_rows(12, 1, symmetry=(1, 1), **options),
-        lambda **options: sc_rows(11, 2, centres=(2, 2), **options),
+        lambda **options: chain_rows(12, 1, symmetry=(8, None), **options),
+        lambda **options: sc_rows(11, 2, symmetry=(4, None), **options),
         lambda **options: scd_rows(8, 1, 3, **options),
         lambda **options: conical_orders(ConicalQuery(EIGHT_BAR), **options),
     ],
