@@ -19,7 +19,7 @@ from statistics import median
 from time import perf_counter
 
 from enumerate.sc.graphs import count_sc_graphs
-from enumerate.sc.jobs import SCJob, drawn_of
+from enumerate.sc.jobs import UNIT_ROWS, SCJob, drawn_of
 from enumerate.sc.listing import describe
 from enumerate.sc.query import SCQuery
 from enumerate.scd.graphs import all_mechanisms
@@ -62,10 +62,10 @@ def sc_rows(links: int, dof: int) -> int:
 def scd_compiled(mechanisms: AllMechanisms) -> int:
     """List all placements with their attributes as arrays."""
     total = 0
-    for source in mechanisms.sources():
-        drawn = mechanisms.drawn(source)
-        for code, labels in zip(drawn.codes, drawn.labels, strict=True):
-            total += len(placements_on(mechanisms.placements, code, labels, mechanisms.dof, 0, 1 << 62)[0])
+    for source in mechanisms.sources(UNIT_ROWS):
+        for drawn in mechanisms.drawn(source.payload):
+            for code, labels in drawn.each():
+                total += len(placements_on(mechanisms.placements, code, labels, mechanisms.dof, 0, 1 << 62)[0])
     return total
 
 

@@ -25,6 +25,7 @@ import networkx as nx
 
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.running import rows_of
 from graphs.edit.sc import Edit, add_loop
 from graphs.errors import InvariantError
 from graphs.files.native.documents import dumps
@@ -37,9 +38,9 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.generic import exact_mobility
 
-__all__ = ["ADDENDUM_COLUMNS", "Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
+__all__ = ["Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
 
-ADDENDUM_COLUMNS: dict[str, Column] = {
+_COLUMNS: dict[str, Column] = {
     "kind": str,
     "a": str,
     "b": str,
@@ -82,7 +83,7 @@ class Addendum:
     mobility: int
 
 
-def addenda(mechanism: SCGraph, delta_dof: int) -> Iterator[Addendum]:
+def addenda(mechanism: SCGraph, delta_dof: int, *, workers: int = 1) -> Iterator[Addendum]:
     """Yield every addendum that changes the mobility of a mechanism by a number, one of each orbit.
 
     Parameters
@@ -91,6 +92,8 @@ def addenda(mechanism: SCGraph, delta_dof: int) -> Iterator[Addendum]:
         Connected. Of an SCD graph the SC graph is taken: addenda have no sides yet. Its ground link counts.
     delta_dof : int
         dM; -2 or more: two links have K + 2 new ones between them, or K + 5 in a spatial loop.
+    workers : int
+        Processes.
 
     Raises
     ------
@@ -108,10 +111,8 @@ def addenda(mechanism: SCGraph, delta_dof: int) -> Iterator[Addendum]:
     >>> [(one.kind, len(one.through)) for one in addenda(four_bar, 0)]
     [('ride-along', 1), ('dyad', 3), ('spatial loop', 1), ('dyad', 2), ('spatial loop', 2)]
     """
-    job = AddendumJob(mechanism, delta_dof)
-    before = exact_mobility(job.mechanism).mobility
-    for pair in job.pairs():
-        yield from job.on_pair(*pair, before)
+    for row in rows_of(_AddendaJob(AddendumJob(mechanism, delta_dof)), workers=workers):
+        yield row["addendum"]
 
 
 @dataclass(frozen=True)
@@ -138,7 +139,7 @@ class AddendumJob:
     @property
     def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
-        return ADDENDUM_COLUMNS
+        return _COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -169,8 +170,13 @@ class AddendumJob:
 
     def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
         """Return the rows of a unit."""
+        return [_row(addendum) for addendum in self.on_pairs(payload)]
+
+    def on_pairs(self, pairs: Sequence[tuple[LinkId, LinkId]]) -> Iterator[Addendum]:
+        """Yield the addenda between the links of some pairs."""
         before = exact_mobility(self.mechanism).mobility
-        return [_row(one) for a, b in payload for one in self.on_pair(a, b, before)]
+        for a, b in pairs:
+            yield from self.on_pair(a, b, before)
 
     def on_pair(self, a: LinkId, b: LinkId, before: int) -> Iterator[Addendum]:
         """Yield the addenda between two links; no two are exchanged by a symmetry.
@@ -238,6 +244,31 @@ def _row(one: Addendum) -> Row:
         chain_id(nx.MultiGraph(after)),
         dumps(after),
     )
+
+
+@dataclass(frozen=True)
+class _AddendaJob:
+    """The addenda themselves, for this process: no file takes them."""
+
+    rows: AddendumJob
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """One addendum."""
+        return {"addendum": Addendum}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return self.rows.key
+
+    def units(self) -> list[Unit]:
+        """Return those of the job."""
+        return self.rows.units()
+
+    def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
+        """Return the addenda of a unit."""
+        return [(addendum,) for addendum in self.rows.on_pairs(payload)]
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,8 @@ from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_o
 from enumerate.contracted.graphs import contracted_graphs
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
+from enumerate.runner.running import rows_of
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
@@ -182,10 +184,8 @@ class ChainJob:
 
 def _blocks(links: int, dof: int) -> Iterator[Block]:
     """Yield all chains that nothing cuts as blocks."""
-    job = ChainJob(ChainQuery(links, dof), bare=True)
-    for unit in job.units():
-        for (code,) in job.work(unit.payload):
-            yield links, tuple(sorted(chain_from_id(code).edges()))
+    for row in rows_of(ChainJob(ChainQuery(links, dof), bare=True)):
+        yield links, tuple(sorted(chain_from_id(row["code"]).edges()))
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ class CountJob(Counting):
 
     def work(self, payload: _Graphs) -> list[Row]:
         """Return the number of chains of a unit."""
-        query, low = self.query, self.query.longest_string[0]
+        query, low = self.query, self.query.longest_string.least
         total = self._number(payload, query.most)
         return [(total - self._number(payload, low - 1) if low > 0 else total,)]
 
@@ -288,9 +288,9 @@ def count_job(query: ChainQuery, method: str) -> CountJob | _RowCountJob | _Conn
     UnsolvableError
         If Burnside's lemma is asked for what it does not count here.
     """
-    plain = query.symmetry == (1, None) and not query.inputs
+    plain = query.symmetry == ONE_OR_MORE and not query.inputs
     if method == "burnside":
-        filtered = query.assortment is not None or query.planar is not None or query.longest_string != (0, None)
+        filtered = query.assortment is not None or query.planar is not None or query.longest_string != ANY_NUMBER
         if not plain or (query.fractionated and (filtered or query.inversions)):
             raise UnsolvableError(
                 "Burnside's lemma counts chains and inversions, by assortment, planarity and longest string, "

@@ -18,21 +18,21 @@ import networkx as nx
 
 from enumerate.chains.jobs import ChainJob, count_job
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.running import run
-from enumerate.runner.sinks import CountSink
+from enumerate.runner.running import rows_of, total_of
 from graphs.identity.chains import chain_from_id
 
 __all__ = ["chain_rows", "chains", "count_chains"]
 
 
-def chains(links: int, dof: int, **options: Any) -> Iterator[nx.Graph]:
+def chains(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[nx.Graph]:
     """Yield all kinematic chains of N links and M degrees of freedom, in a fixed order.
 
     Parameters
     ----------
     links, dof : int
         N >= 4 and M >= 1. N - 1 and M must be both even or both odd, else there is none.
+    workers : int
+        Processes.
     **options
         Other fields of `ChainQuery`: ``fractionated``, ``assortment``, ``planar``, ``longest_string``,
         ``symmetry``.
@@ -54,13 +54,13 @@ def chains(links: int, dof: int, **options: Any) -> Iterator[nx.Graph]:
     >>> next(chains(6, 1)).graph["code"]
     'k1:E`hW'
     """
-    for row in chain_rows(links, dof, **options):
+    for row in chain_rows(links, dof, workers=workers, **options):
         graph = chain_from_id(row["code"])
         graph.graph.update(row)
         yield graph
 
 
-def chain_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
+def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each kinematic chain, or inversion, or choice of inputs.
 
     Keys are ``code`` (the id), ``links``, ``joints``, ``dof``, ``loops``, ``assortment`` (numbers of binary,
@@ -70,7 +70,7 @@ def chain_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]
 
     Parameters
     ----------
-    links, dof, **options
+    links, dof, workers, **options
         As for `chains`, and ``inversions`` and ``inputs``.
 
     Examples
@@ -78,10 +78,7 @@ def chain_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]
     >>> len(list(chain_rows(8, 1, inversions=True)))
     71
     """
-    job = ChainJob(ChainQuery(links, dof, **options))
-    for unit in job.units():
-        for row in job.work(unit.payload):
-            yield row_as_dict(job.columns, row)
+    yield from rows_of(ChainJob(ChainQuery(links, dof, **options)), workers=workers)
 
 
 def count_chains(links: int, dof: int, method: str = "orbits", *, workers: int = 1, **options: Any) -> int:
@@ -111,6 +108,4 @@ def count_chains(links: int, dof: int, method: str = "orbits", *, workers: int =
     >>> count_chains(9, 2, "burnside", fractionated=True)
     40
     """
-    sink = CountSink()
-    run(count_job(ChainQuery(links, dof, **options), method), sink, workers=workers)
-    return sink.total
+    return total_of(count_job(ChainQuery(links, dof, **options), method), workers=workers)

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import networkx as nx
 import numpy as np
 
 from enumerate.contracted.graphs import MOST_LOOPS, decode
+from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE, Limits, keep_limits, key_of
 from graphs.arrays import Bytes
 from graphs.errors import InvariantError
 
-__all__ = ["ChainQuery", "Range", "is_planar", "within"]
-
-Range = tuple[int, int | None]
-"""Least and greatest value allowed; no limit above with None."""
+__all__ = ["ChainQuery", "is_planar"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +34,9 @@ class ChainQuery:
         Numbers of binary, ternary, ... links; missing ones are 0.
     planar : bool, optional
         Whether the chain can be drawn in the plane without crossings.
-    longest_string : (int, int or None)
+    longest_string : Limits, (int, int or None) or int
         Limits of the number of binary links in the longest row of them; a ring of N links counts N.
-    symmetry : (int, int or None)
+    symmetry : Limits, (int, int or None) or int
         Limits of the number of automorphisms.
 
     Raises
@@ -59,8 +57,8 @@ class ChainQuery:
     inputs: bool = False
     assortment: tuple[int, ...] | None = None
     planar: bool | None = None
-    longest_string: Range = (0, None)
-    symmetry: Range = (1, None)
+    longest_string: Limits = ANY_NUMBER
+    symmetry: Limits = ONE_OR_MORE
 
     def __post_init__(self) -> None:
         if self.links < 4:
@@ -71,9 +69,7 @@ class ChainQuery:
             raise InvariantError(
                 "loops", f"{self.links} links with M = {self.dof} have {self.loops} loops", f"{MOST_LOOPS} at most"
             )
-        for name, (low, high) in {"longest string": self.longest_string, "symmetry": self.symmetry}.items():
-            if high is not None and high < low:
-                raise InvariantError(name, f"the range {low} to {high}", "the smaller number first")
+        keep_limits(self, "longest_string", "symmetry")
         if self.assortment is not None and any(count < 0 for count in self.assortment):
             raise InvariantError("assortment", f"the assortment {self.assortment}", "numbers of links")
 
@@ -95,13 +91,13 @@ class ChainQuery:
     @property
     def most(self) -> int:
         """The longest string that can occur: M + 1 binary links; more would hold more freedoms than there are."""
-        high = self.longest_string[1]
+        high = self.longest_string.most
         return self.dof + 1 if high is None else min(high, self.dof + 1)
 
     @property
     def key(self) -> dict[str, Any]:
         """The query in JSON values."""
-        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
+        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
     def admits_assortment(self, degrees: dict[int, int]) -> bool:
         """Tell whether a chain with these numbers of links (degree to number) has the assortment asked for."""
@@ -121,7 +117,7 @@ class ChainQuery:
 
     def admits(self, longest: int, symmetry: int) -> bool:
         """Tell whether longest string and number of automorphisms are within the limits."""
-        return within(longest, self.longest_string) and within(symmetry, self.symmetry)
+        return longest in self.longest_string and symmetry in self.symmetry
 
 
 def is_planar(adjacency: Bytes) -> bool:
@@ -137,9 +133,3 @@ def is_planar(adjacency: Bytes) -> bool:
         return True
     planar: bool = nx.check_planarity(nx.Graph(np.argwhere(simple).tolist()))[0]
     return planar
-
-
-def within(value: int, limits: Range) -> bool:
-    """Tell whether a value is within limits."""
-    low, high = limits
-    return value >= low and (high is None or value <= high)

@@ -88,12 +88,9 @@ class GraphChains:
     def of(cls, query: ChainQuery, code: Bytes, n: int, only: int, prefix: Ints) -> GraphChains:
         """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
         x, order = placements_of(code, n, query.links, query.most, only, prefix)
-        kept = np.ones(len(x), bool)
-        if query.longest_string[0] > 0:
-            kept &= x.max(axis=1, initial=0) >= query.longest_string[0]
-        low, high = query.symmetry
-        if low > 1 or high is not None:
-            kept &= (order >= low) & (order <= (np.iinfo(np.int64).max if high is None else high))
+        kept = query.symmetry.admitted(order)
+        if query.longest_string.least > 0:  # the greatest length was seen to when they were placed
+            kept &= x.max(axis=1, initial=0) >= query.longest_string.least
         return cls(code, n, x[kept], order[kept])
 
     def inversions(self, links: int) -> Ints:

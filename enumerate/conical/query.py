@@ -16,6 +16,7 @@ from typing import Any
 from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.conical.symmetries import joint_symmetries
 from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.running import rows_of, total_of
 from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId, LinkId
@@ -133,8 +134,14 @@ def _symmetries(chain: Chain, ground: LinkId | None) -> Ints:
     return joint_symmetries(dict(chain), ground)
 
 
-def conical_orders(query: ConicalQuery) -> Iterator[tuple[LinkId | None, tuple[int, ...]]]:
+def conical_orders(query: ConicalQuery, *, workers: int = 1) -> Iterator[tuple[LinkId | None, tuple[int, ...]]]:
     """Yield ground link and slot of each joint of every candidate, in a fixed order.
+
+    Parameters
+    ----------
+    query : ConicalQuery
+    workers : int
+        Processes.
 
     Examples
     --------
@@ -142,12 +149,11 @@ def conical_orders(query: ConicalQuery) -> Iterator[tuple[LinkId | None, tuple[i
     >>> [row for _, row in conical_orders(ConicalQuery(four_bar))]
     [(0, 1, 2, 3), (0, 1, 3, 2)]
     """
-    for portion, _ in query.portions(_PLACEMENTS):
-        for row in query.placements(portion)[0].tolist():
-            yield portion.ground, tuple(row)
+    for row in rows_of(_OrderJob(query), workers=workers):
+        yield row["ground"], row["slots"]
 
 
-def count_conical_orders(query: ConicalQuery, method: str = "burnside") -> int:
+def count_conical_orders(query: ConicalQuery, method: str = "burnside", *, workers: int = 1) -> int:
     """Return the number of candidates.
 
     Parameters
@@ -155,6 +161,8 @@ def count_conical_orders(query: ConicalQuery, method: str = "burnside") -> int:
     query : ConicalQuery
     method : {"burnside", "orbits"}
         ``orbits`` compares each placement with its images, ``burnside`` makes none.
+    workers : int
+        Processes.
 
     Examples
     --------
@@ -162,8 +170,32 @@ def count_conical_orders(query: ConicalQuery, method: str = "burnside") -> int:
     >>> [count_conical_orders(ConicalQuery(four_bar, (0,)), method) for method in ("orbits", "burnside")]
     [3, 3]
     """
-    job = ConicalCountJob(query, method)
-    return sum(number for unit in job.units() for (number,) in job.work(unit.payload))
+    return total_of(ConicalCountJob(query, method), workers=workers)
+
+
+@dataclass(frozen=True)
+class _OrderJob:
+    """The candidates as rows for this process: a ground link may be of any kind, so no file takes them."""
+
+    query: ConicalQuery
+
+    @property
+    def columns(self) -> dict[str, type]:
+        """Names and types of the values of a row."""
+        return {"ground": object, "slots": tuple}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"enumerate": "conical orders", **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """A unit for each portion."""
+        return [Unit(portion, weight) for portion, weight in self.query.portions(_PLACEMENTS)]
+
+    def work(self, payload: Portion) -> list[Row]:
+        """Return the rows of a unit."""
+        return [(payload.ground, tuple(row)) for row in self.query.placements(payload)[0].tolist()]
 
 
 @dataclass(frozen=True)

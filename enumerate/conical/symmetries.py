@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import bliss_bind
 import networkx as nx
 import numpy as np
 
 from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.identity.chains import HEURISTIC
+from graphs.identity.bliss import subdivided, symmetries_of
 from graphs.ids import JointId, LinkId
 
 __all__ = ["joint_symmetries", "links_apart"]
@@ -94,14 +93,7 @@ def _generators(
     """
     links = list(dict.fromkeys(link for ends in joints.values() for link in ends))
     number = dict(zip(links, range(len(links)), strict=True))
-    graph = bliss_bind.Graph()
-    graph.set_splitting_heuristic(HEURISTIC)
-    for link in links:
-        graph.add_vertex(2 if ground is not None and link == ground else 0)
-    for a, b in joints.values():
-        node = graph.add_vertex(1)
-        graph.add_edge(node, number[a])
-        graph.add_edge(node, number[b])
-    generators: list[list[int]] = []
-    _, statistics = graph.canonical_form(lambda found: generators.append(list(found)))
-    return generators, links, float(statistics.get_group_size_approx())
+    pairs = [(number[a], number[b]) for a, b in joints.values()]
+    marked = None if ground is None else number.get(ground)
+    symmetries = symmetries_of(subdivided(len(links), pairs, marked))
+    return symmetries.generators, links, symmetries.size

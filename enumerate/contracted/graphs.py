@@ -17,11 +17,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from enumerate.contracted.growth import Growth
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
 from enumerate.kernel.row_set import empty_set, insert
 from graphs.arrays import Bytes, Ints
-from graphs.errors import InvariantError
 
 __all__ = ["MOST_LOOPS", "cheapest_degree", "contracted_graphs", "cubic_graphs", "decode", "graph_key"]
 
@@ -54,13 +54,7 @@ def contracted_graphs(loops: int) -> Iterator[tuple[int, Bytes]]:
     >>> {links: len(codes) for links, codes in contracted_graphs(4)}
     {6: 5, 5: 4, 4: 5, 3: 2, 2: 1}
     """
-    codes = cubic_graphs(loops)
-    links = 2 * (loops - 1)
-    yield links, codes
-    while links > 2:
-        links -= 1
-        codes = _contract_all(codes, links + 1)
-        yield links, codes
+    yield from _growth().levels(loops)
 
 
 def cubic_graphs(loops: int) -> Bytes:
@@ -79,12 +73,16 @@ def cubic_graphs(loops: int) -> Bytes:
     >>> [len(cubic_graphs(loops)) for loops in (2, 3, 4, 5)]
     [1, 2, 5, 16]
     """
-    if not 2 <= loops <= MOST_LOOPS:
-        raise InvariantError("loops", f"{loops} loops", f"2 to {MOST_LOOPS}")
-    codes = np.zeros((1, 3), np.uint8)  # two links, three joints
-    for links in range(2, 2 * (loops - 1), 2):
-        codes = _extend_all(codes, links)
-    return codes
+    return _growth().cubic(loops)
+
+
+def _growth() -> Growth:
+    return Growth(MOST_LOOPS, _theta, _extend_all, _contract_all)
+
+
+def _theta() -> Bytes:
+    """Return the code of two links with three joints."""
+    return np.zeros((1, 3), np.uint8)
 
 
 @compiled

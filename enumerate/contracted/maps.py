@@ -14,11 +14,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from enumerate.contracted.graphs import cheapest_degree
+from enumerate.contracted.growth import Growth
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from enumerate.kernel.row_set import empty_set, insert
 from graphs.arrays import Bytes, Ints
-from graphs.errors import InvariantError
 
 __all__ = ["MOST_MAP_LOOPS", "contracted_maps", "cubic_maps", "map_symmetries"]
 
@@ -52,13 +52,7 @@ def contracted_maps(loops: int) -> Iterator[tuple[int, Bytes]]:
     >>> {links: len(codes) for links, codes in contracted_maps(4)}
     {6: 4, 5: 4, 4: 5, 3: 2, 2: 1}
     """
-    codes = cubic_maps(loops)
-    links = 2 * (loops - 1)
-    yield links, codes
-    while links > 2:
-        codes = _contract_all(codes, links)
-        links -= 1
-        yield links, codes
+    yield from _growth().levels(loops)
 
 
 def cubic_maps(loops: int) -> Bytes:
@@ -74,12 +68,11 @@ def cubic_maps(loops: int) -> Bytes:
     >>> [len(cubic_maps(loops)) for loops in (2, 3, 4, 5)]
     [1, 2, 4, 14]
     """
-    if not 2 <= loops <= MOST_MAP_LOOPS:
-        raise InvariantError("loops", f"{loops} loops", f"2 to {MOST_MAP_LOOPS}")
-    codes = _theta()
-    for links in range(2, 2 * (loops - 1), 2):
-        codes = _extend_all(codes, links)
-    return codes
+    return _growth().cubic(loops)
+
+
+def _growth() -> Growth:
+    return Growth(MOST_MAP_LOOPS, _theta, _extend_all, _contract_all)
 
 
 @compiled

@@ -13,8 +13,11 @@ if TYPE_CHECKING:
     from enumerate.runner.job import Row as Row
     from enumerate.runner.job import Sink as Sink
     from enumerate.runner.job import Unit as Unit
+    from enumerate.runner.limits import Limits as Limits
     from enumerate.runner.running import Interrupted as Interrupted
+    from enumerate.runner.running import rows_of as rows_of
     from enumerate.runner.running import run as run
+    from enumerate.runner.running import total_of as total_of
     from enumerate.runner.sinks import CountSink as CountSink
     from enumerate.runner.sinks import RowSink as RowSink
     from enumerate.runner.sinks import SortedSink as SortedSink
@@ -27,7 +30,8 @@ else:
         __name__,
         {
             "job": "Counting Job Progress Row Sink Unit",
-            "running": "Interrupted run",
+            "limits": "Limits",
+            "running": "Interrupted rows_of run total_of",
             "sinks": "CountSink RowSink SortedSink sink_for",
             "store": "SqliteSink read_meta read_rows",
         },

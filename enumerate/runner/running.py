@@ -13,17 +13,18 @@ import socket
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
 from typing import Any
 
 from enumerate.machine_code.notice import heard_by, to_workers
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Job, Progress, Row, Sink, Unit
 from graphs.errors import StoreError
 
-__all__ = ["Interrupted", "run"]
+__all__ = ["Interrupted", "rows_of", "run", "total_of"]
 
 _AHEAD = 4
 """Units in the air for each worker."""
@@ -92,6 +93,36 @@ def run(
     return progress
 
 
+def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
+    """Yield the rows of a job as dictionaries, in order, unit after unit as they are ready.
+
+    Parameters
+    ----------
+    job : Job
+    workers : int
+        Local processes; 1 works in this one. They end with the last row, or when the generator is closed.
+
+    Raises
+    ------
+    StoreError
+        If workers die again and again.
+    """
+    columns = job.columns
+    for row in _rows(job, workers):
+        yield row_as_dict(columns, row)
+
+
+def total_of(job: Job, *, workers: int = 1) -> int:
+    """Return the sum of the first values of all rows: what a `Counting` job counts. Arguments: `rows_of`."""
+    return sum(row[0] for row in _rows(job, workers))
+
+
+def _rows(job: Job, workers: int) -> Iterator[Row]:
+    with closing(_results(job, job.units(), 0, workers, None, lambda: None)) as results:
+        for _, rows, _ in results:
+            yield from rows
+
+
 @contextmanager
 def _interruptible() -> Iterator[Callable[[], None]]:
     """Turn the first Ctrl-C into `Interrupted`, raised between units; a second one interrupts at once."""
@@ -123,7 +154,7 @@ def _results(
     workers: int,
     scheduler: str | None,
     check: Callable[[], None],
-) -> Iterator[tuple[int, list[Row], float]]:
+) -> Generator[tuple[int, list[Row], float]]:
     """Yield number, rows and seconds of each unit, in order."""
     left = units[stored:]
     small = len(left) <= 1 or sum(unit.weight for unit in left) < _SMALL

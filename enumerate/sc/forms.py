@@ -19,9 +19,9 @@ from enumerate.sc.jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units, map
 from enumerate.sc.query import SCQuery
 from enumerate.sc.rows import SC_COLUMNS, sc_rows_of
 
-__all__ = ["FORM_COLUMNS", "FormJob"]
+__all__ = ["FormJob"]
 
-FORM_COLUMNS: dict[str, Column] = {
+_COLUMNS: dict[str, Column] = {
     "code": str,
     "chain": str,
     "name": str,
@@ -52,7 +52,7 @@ class FormJob:
     @property
     def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
-        return FORM_COLUMNS
+        return _COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -101,5 +101,5 @@ class FormJob:
             kept = dict(zip(SC_COLUMNS, drawings[0], strict=True))
             kept |= {"code": forms[0], "name": name_of(chain), "sc_graphs": len(drawings), "centres": most}
             kept["forms"] = len(forms)
-            found.append(tuple(kept[column] for column in FORM_COLUMNS))
+            found.append(tuple(kept[column] for column in _COLUMNS))
         return found

@@ -13,9 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.running import run
-from enumerate.runner.sinks import CountSink
+from enumerate.runner.running import rows_of, total_of
 from enumerate.sc.forms import FormJob
 from enumerate.sc.jobs import SCJob, sc_count_job
 from enumerate.sc.query import SCQuery
@@ -25,13 +23,15 @@ from graphs.mechanism.sc import SCGraph
 __all__ = ["chain_forms", "count_sc_graphs", "sc_graphs", "sc_rows"]
 
 
-def sc_graphs(links: int, dof: int, **options: Any) -> Iterator[SCGraph]:
+def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[SCGraph]:
     """Yield all SC graphs of N links and M degrees of freedom, in a fixed order.
 
     Parameters
     ----------
     links, dof : int
         N >= 4 and M >= 1. N - 1 and M + 3 S must be both even or both odd, else there is none.
+    workers : int
+        Processes.
     **options
         Other fields of `SCQuery`: ``spatial``, ``infinite``, ``centres``, ``symmetry``, ``assortment``,
         ``longest_string``.
@@ -51,13 +51,13 @@ def sc_graphs(links: int, dof: int, **options: Any) -> Iterator[SCGraph]:
     >>> [len(sc.centre_classes()) for sc in sc_graphs(6, 1)]
     [2, 1, 1, 1]
     """
-    for row in sc_rows(links, dof, **options):
+    for row in sc_rows(links, dof, workers=workers, **options):
         mechanism = mechanism_from_map_id(row["code"])
         mechanism.graph.update(row)
         yield mechanism
 
 
-def sc_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
+def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each SC graph.
 
     Keys: ``code`` (its id), ``chain`` (id of the link-joint graph), ``links``, ``joints``, ``dof``, ``loops``,
@@ -68,7 +68,7 @@ def sc_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
 
     Parameters
     ----------
-    links, dof, **options
+    links, dof, workers, **options
         As for `sc_graphs`.
 
     Examples
@@ -76,18 +76,15 @@ def sc_rows(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
     >>> sorted((row["loop_sizes"], row["outer_size"]) for row in sc_rows(6, 1))
     [([4, 4], 6), ([4, 5], 5), ([4, 6], 4), ([5, 5], 4)]
     """
-    job = SCJob(SCQuery(links, dof, **options))
-    for unit in job.units():
-        for row in job.work(unit.payload):
-            yield row_as_dict(job.columns, row)
+    yield from rows_of(SCJob(SCQuery(links, dof, **options)), workers=workers)
 
 
-def chain_forms(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]]:
+def chain_forms(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each planar chain: its number of SC graphs, and one with the most centres.
 
     Parameters
     ----------
-    links, dof, **options
+    links, dof, workers, **options
         As for `sc_graphs`.
 
     Examples
@@ -95,10 +92,7 @@ def chain_forms(links: int, dof: int, **options: Any) -> Iterator[dict[str, Any]
     >>> [(row["name"], row["centres"]) for row in chain_forms(6, 1)]
     [('watt', 2), ('stephenson', 1)]
     """
-    job = FormJob(SCQuery(links, dof, **options))
-    for unit in job.units():
-        for row in job.work(unit.payload):
-            yield row_as_dict(job.columns, row)
+    yield from rows_of(FormJob(SCQuery(links, dof, **options)), workers=workers)
 
 
 def count_sc_graphs(
@@ -131,6 +125,4 @@ def count_sc_graphs(
     >>> [count_sc_graphs(links, 1, "burnside", outside=False) for links in (4, 6, 8)]
     [1, 2, 20]
     """
-    sink = CountSink()
-    run(sc_count_job(SCQuery(links, dof, **options), method, outside=outside), sink, workers=workers)
-    return sink.total
+    return total_of(sc_count_job(SCQuery(links, dof, **options), method, outside=outside), workers=workers)

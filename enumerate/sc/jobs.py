@@ -23,7 +23,7 @@ from graphs.errors import UnsolvableError
 __all__ = ["MapPart", "Maps", "SCCountJob", "SCJob", "drawn_of", "map_units", "maps_for", "sc_count_job"]
 
 UNIT_ROWS = 20_000
-"""SC graphs of a unit, about; a map with more is split."""
+"""SC graphs of a unit, about, where a job does not say otherwise."""
 
 _MAPS = 256
 """Maps of a unit of counting."""
@@ -65,17 +65,16 @@ def _admits(query: SCQuery, code: Bytes, n: int) -> bool:
     return query.chains.admits_assortment(degrees)
 
 
-def map_units(query: SCQuery) -> Iterator[Unit]:
-    """Yield units whose payloads are `Maps`; their weights are numbers of drawn chains."""
+def map_units(query: SCQuery, size: int = UNIT_ROWS) -> Iterator[Unit]:
+    """Yield units whose payloads are `Maps`; their weights are numbers of drawn chains, about ``size`` at most."""
     if query.possible and query.loops == 1:
         degrees = Counter({2: query.links})
-        low, high = query.longest_string
-        if low <= query.links <= (high or query.links) and query.chains.admits_assortment(degrees):
+        if query.links in query.longest_string and query.chains.admits_assortment(degrees):
             yield Unit((MapPart(_RING, 0, 0),))
     held: list[MapPart] = []
     weight = 0
-    for part, count in _parts(query):
-        if held and weight + count > UNIT_ROWS:
+    for part, count in _parts(query, size):
+        if held and weight + count > size:
             yield Unit(tuple(held), weight)
             held, weight = [], 0
         held.append(part)
@@ -84,12 +83,12 @@ def map_units(query: SCQuery) -> Iterator[Unit]:
         yield Unit(tuple(held), weight)
 
 
-def _parts(query: SCQuery) -> Iterator[tuple[MapPart, int]]:
-    """Yield parts of no more than some thousands of SC graphs, where it can be done, and their numbers."""
+def _parts(query: SCQuery, size: int) -> Iterator[tuple[MapPart, int]]:
+    """Yield parts of no more than twice so many SC graphs, where it can be done, and their numbers."""
     for n, codes in maps_for(query):
         for code in codes:
             for outer in outer_faces(code).tolist():
-                yield from _split(query, MapPart(code, n, outer))
+                yield from _split(query, MapPart(code, n, outer), size)
 
 
 def number_in(query: SCQuery, part: MapPart) -> int:
@@ -97,21 +96,21 @@ def number_in(query: SCQuery, part: MapPart) -> int:
     return int(weight_of(part.code, part.n, part.outer, query.links, query.chains.most, part.only, part.prefix))
 
 
-def _split(query: SCQuery, part: MapPart) -> Iterator[tuple[MapPart, int]]:
+def _split(query: SCQuery, part: MapPart, size: int) -> Iterator[tuple[MapPart, int]]:
     count = number_in(query, part)
-    if count <= 2 * UNIT_ROWS:
+    if count <= 2 * size:
         if count:
             yield part, count
     elif part.only < 0:
         for only in range(query.links - part.n + 1):
-            yield from _split(query, MapPart(part.code, part.n, part.outer, only))
+            yield from _split(query, MapPart(part.code, part.n, part.outer, only), size)
     elif len(part.prefix) >= query.links - part.n:
         yield part, count
     else:
         joints = (len(part.code) - part.n) // 2
         for slot in range(part.prefix[-1] if len(part.prefix) else 0, joints):
             prefix = np.append(part.prefix, slot)
-            yield from _split(query, MapPart(part.code, part.n, part.outer, part.only, prefix))
+            yield from _split(query, MapPart(part.code, part.n, part.outer, part.only, prefix), size)
 
 
 def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
@@ -126,9 +125,12 @@ class SCJob:
     Attributes
     ----------
     query : SCQuery
+    unit_rows : int
+        SC graphs of a unit, about; a map with more is split.
     """
 
     query: SCQuery
+    unit_rows: int = UNIT_ROWS
 
     @property
     def columns(self) -> dict[str, Column]:
@@ -142,7 +144,7 @@ class SCJob:
 
     def units(self) -> list[Unit]:
         """Units of some thousands of rows each."""
-        return list(map_units(self.query))
+        return list(map_units(self.query, self.unit_rows))
 
     def work(self, payload: Maps) -> list[Row]:
         """Return the rows of a unit."""
@@ -180,7 +182,7 @@ class SCCountJob(Counting):
 
     def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the number of SC graphs of a unit."""
-        query, low = self.query, self.query.longest_string[0]
+        query, low = self.query, self.query.longest_string.least
         count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
 
         def number(most: int) -> int:

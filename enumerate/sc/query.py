@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
-from enumerate.chains.query import ChainQuery, Range
+from enumerate.chains.query import ChainQuery
 from enumerate.contracted.maps import MOST_MAP_LOOPS
 from enumerate.kernel.centre_labels import MOST_JOINTS
+from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE, Limits, keep_limits, key_of
 from graphs.errors import InvariantError
 
 __all__ = ["SCQuery"]
@@ -25,13 +26,13 @@ class SCQuery:
         Number of loops without a centre; each takes three freedoms more than a loop with one.
     infinite : bool
         Also centres at infinity: every choice of classes of which no two share a joint.
-    centres : (int, int or None)
+    centres : Limits, (int, int or None) or int
         Limits of the number of classes of loops with one centre.
-    symmetry : (int, int or None)
+    symmetry : Limits, (int, int or None) or int
         Limits of the number of symmetries.
     assortment : tuple of int, optional
         Numbers of binary, ternary, ... links; missing ones are 0.
-    longest_string : (int, int or None)
+    longest_string : Limits, (int, int or None) or int
         Limits of the number of binary links in the longest row of them; a ring of N links counts N.
 
     Raises
@@ -49,19 +50,17 @@ class SCQuery:
     dof: int
     spatial: int = 0
     infinite: bool = False
-    centres: Range = (0, None)
-    symmetry: Range = (1, None)
+    centres: Limits = ANY_NUMBER
+    symmetry: Limits = ONE_OR_MORE
     assortment: tuple[int, ...] | None = None
-    longest_string: Range = (0, None)
+    longest_string: Limits = ANY_NUMBER
 
     def __post_init__(self) -> None:
         if self.spatial < 0:
             raise InvariantError("spatial loops", f"{self.spatial} spatial loops", "0 or more")
         if self.dof < 1:
             raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
-        for name, (low, high) in {"centres": self.centres, "symmetry": self.symmetry}.items():
-            if high is not None and high < low:
-                raise InvariantError(name, f"the range {low} to {high}", "the smaller number first")
+        keep_limits(self, "centres", "symmetry", "longest_string")
         if self.chains.loops > MOST_MAP_LOOPS:
             raise InvariantError(
                 "loops",
@@ -99,18 +98,9 @@ class SCQuery:
     @property
     def key(self) -> dict[str, Any]:
         """The query in JSON values."""
-        return {
-            "links": self.links,
-            "dof": self.dof,
-            "spatial": self.spatial,
-            "infinite": self.infinite,
-            "centres": list(self.centres),
-            "symmetry": list(self.symmetry),
-            "assortment": None if self.assortment is None else list(self.assortment),
-            "longest_string": list(self.longest_string),
-        }
+        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
     @property
     def unfiltered(self) -> bool:
         """Whether nothing is asked of an SC graph that its chain's placement does not show."""
-        return self.plain and self.centres == (0, None) and self.symmetry == (1, None)
+        return self.plain and self.centres == ANY_NUMBER and self.symmetry == ONE_OR_MORE

@@ -11,11 +11,12 @@ from enumerate.chains.rows import assortment_of, chain_ids
 from enumerate.kernel.map_texts import map_ids
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
+from enumerate.runner.limits import ANY_NUMBER
 from enumerate.sc.listing import centres_of_all, describe, list_drawn
 from enumerate.sc.query import SCQuery
-from graphs.arrays import Bytes, Flags, Ints
+from graphs.arrays import Bytes, Ints
 
-__all__ = ["SC_COLUMNS", "DrawnChains", "sc_rows_of", "within_limits"]
+__all__ = ["SC_COLUMNS", "DrawnChains", "sc_rows_of"]
 
 SC_COLUMNS: dict[str, Column] = {
     "code": str,
@@ -66,19 +67,12 @@ class DrawnChains:
         x, labels, order = list_drawn(
             code, n, outer, query.links, most, only, prefix, query.dof, query.spatial, query.infinite
         )
-        kept = np.ones(len(x), bool)
-        if len(code) and query.longest_string[0] > 0:
-            kept &= x.max(axis=1, initial=0) >= query.longest_string[0]
-        kept &= within_limits(order, *query.symmetry)
-        if query.centres != (0, None):
-            kept &= within_limits(centres_of_all(code, n, query.links, x, labels), *query.centres)
+        kept = query.symmetry.admitted(order)
+        if len(code) and query.longest_string.least > 0:
+            kept &= x.max(axis=1, initial=0) >= query.longest_string.least
+        if query.centres != ANY_NUMBER:
+            kept &= query.centres.admitted(centres_of_all(code, n, query.links, x, labels))
         return cls(code, n, outer, x[kept], labels[kept], order[kept])
-
-
-def within_limits(values: Ints, low: int, high: int | None) -> Flags:
-    """Tell which values are within limits."""
-    found: Flags = values >= low
-    return found if high is None else found & (values <= high)
 
 
 def sc_rows_of(query: SCQuery, drawn: DrawnChains) -> list[Row]:

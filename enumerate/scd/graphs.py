@@ -14,9 +14,7 @@ import numpy as np
 
 from enumerate.kernel.centre_labels import FINITE, MOST_JOINTS, OUTER
 from enumerate.kernel.map_texts import LABEL_LETTERS
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.running import run
-from enumerate.runner.sinks import CountSink
+from enumerate.runner.running import rows_of, total_of
 from enumerate.scd.jobs import AllMechanisms, Drawn, Mechanisms, OneMechanism, SCDJob, scd_count_job
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from graphs.count.report import mobility_report
@@ -30,7 +28,7 @@ __all__ = ["all_mechanisms", "count_scd_graphs", "mechanism_of", "scd_graphs", "
 _OPEN = 0
 
 
-def scd_graphs(links: int, dof: int, max_degree: int, **options: Any) -> Iterator[SCDGraph]:
+def scd_graphs(links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
     """Yield all SCD graphs of N links and M degrees of freedom, in a fixed order.
 
     Parameters
@@ -39,6 +37,8 @@ def scd_graphs(links: int, dof: int, max_degree: int, **options: Any) -> Iterato
         With M = N - 1 open chains, else as for `enumerate.sc.graphs.sc_graphs`.
     max_degree : int
         The most sides of a link.
+    workers : int
+        Processes.
     **options
         Other fields of `PlacementQuery` and `SCDQuery`: ``sheets``, ``symmetric``, ``vertices``, ``spatial``,
         ``infinite``.
@@ -58,10 +58,10 @@ def scd_graphs(links: int, dof: int, max_degree: int, **options: Any) -> Iterato
     >>> [scd.counts.vertices for scd in scd_graphs(4, 1, 4)]
     [8, 5, 6, 7, 7, 8, 9]
     """
-    yield from _graphs(all_mechanisms(links, dof, max_degree, **options))
+    yield from _graphs(all_mechanisms(links, dof, max_degree, **options), workers)
 
 
-def scd_graphs_of(mechanism: SCGraph, max_degree: int, **options: Any) -> Iterator[SCDGraph]:
+def scd_graphs_of(mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
     """Yield all SCD graphs of an SC graph; see `mechanism_of`.
 
     Examples
@@ -71,18 +71,20 @@ def scd_graphs_of(mechanism: SCGraph, max_degree: int, **options: Any) -> Iterat
     >>> len(list(scd_graphs_of(four_bar, 4)))
     7
     """
-    yield from _graphs(mechanism_of(mechanism, max_degree, **options))
+    yield from _graphs(mechanism_of(mechanism, max_degree, **options), workers)
 
 
-def _graphs(mechanisms: Mechanisms) -> Iterator[SCDGraph]:
-    for row in _rows(mechanisms):
+def _graphs(mechanisms: Mechanisms, workers: int) -> Iterator[SCDGraph]:
+    for row in rows_of(SCDJob(mechanisms), workers=workers):
         scd = mechanism_from_map_id(row["code"])
         assert isinstance(scd, SCDGraph)
         scd.graph.update(row)
         yield scd
 
 
-def scd_rows(links: int, dof: int, max_degree: int, **options: Any) -> Iterator[dict[str, Any]]:
+def scd_rows(
+    links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Any
+) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each SCD graph.
 
     Keys: ``code`` (its id), ``sc`` (id of its SC graph), ``chain`` (id of the link-joint graph), ``links``,
@@ -93,17 +95,10 @@ def scd_rows(links: int, dof: int, max_degree: int, **options: Any) -> Iterator[
 
     Parameters
     ----------
-    links, dof, max_degree, **options
+    links, dof, max_degree, workers, **options
         As for `scd_graphs`.
     """
-    yield from _rows(all_mechanisms(links, dof, max_degree, **options))
-
-
-def _rows(mechanisms: Mechanisms) -> Iterator[dict[str, Any]]:
-    job = SCDJob(mechanisms)
-    for unit in job.units():
-        for row in job.work(unit.payload):
-            yield row_as_dict(job.columns, row)
+    yield from rows_of(SCDJob(all_mechanisms(links, dof, max_degree, **options)), workers=workers)
 
 
 def count_scd_graphs(
@@ -132,9 +127,7 @@ def count_scd_graphs(
     >>> [count_scd_graphs(links, 1, 3) for links in (4, 6, 8)]
     [1, 1, 2]
     """
-    sink = CountSink()
-    run(scd_count_job(all_mechanisms(links, dof, max_degree, **options), method), sink, workers=workers)
-    return sink.total
+    return total_of(scd_count_job(all_mechanisms(links, dof, max_degree, **options), method), workers=workers)
 
 
 def all_mechanisms(
@@ -175,4 +168,4 @@ def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMech
     dof = mobility_report(mechanism).mobility
     if dof is None:
         raise UnsolvableError("the mobility of the mechanism cannot be counted")
-    return OneMechanism(map_id(mechanism), dof, Drawn(code[None], np.array([labels], np.int64)), query)
+    return OneMechanism(map_id(mechanism), dof, Drawn(code[None], np.array([labels], np.uint8)), query)

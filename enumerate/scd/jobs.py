@@ -10,7 +10,7 @@ import numpy as np
 
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
-from enumerate.sc.jobs import MapPart, drawn_of, map_units
+from enumerate.sc.jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units
 from enumerate.sc.listing import codes_of_all
 from enumerate.sc.query import SCQuery
 from enumerate.scd.choices import numbers_of_placements
@@ -21,13 +21,13 @@ from enumerate.scd.rows import SCD_COLUMNS, placements_on, scd_rows_of
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 
-__all__ = ["Drawn", "Mechanisms", "OneMechanism", "SCDCountJob", "SCDJob", "scd_count_job"]
+__all__ = ["AllMechanisms", "Drawn", "Mechanisms", "OneMechanism", "SCDCountJob", "SCDJob", "scd_count_job"]
 
 _PLACEMENTS = 40_000
 """Placements of a unit, about; symmetric ones counted apart."""
 
 _MECHANISMS = 5_000
-"""Mechanisms of a unit, at most."""
+"""Mechanisms of a unit, about."""
 
 _ALL = 1 << 62
 
@@ -40,36 +40,32 @@ class Drawn:
     ----------
     codes : uint8[r, D + N]
         Codes without labels and open edges.
-    labels : int64[r, F]
+    labels : uint8[r, F]
         Labels of the faces as the codes meet them, the outer one first.
     """
 
     codes: Bytes
-    labels: Ints
+    labels: Bytes
+
+    def __len__(self) -> int:
+        """Return the number of mechanisms."""
+        return len(self.codes)
+
+    def slice(self, start: int, end: int) -> Drawn:
+        """Return some of them; what is pickled then holds no others."""
+        return Drawn(self.codes[start:end], self.labels[start:end])
+
+    def each(self) -> Iterator[tuple[Bytes, Ints]]:
+        """Yield code and labels of each, as compiled functions take them."""
+        yield from zip(self.codes, self.labels.astype(np.int64), strict=True)
 
 
-@dataclass(frozen=True, slots=True)
-class _Range:
-    """Placements on some mechanisms: on one, those with some numbers; on several, all of them.
-
-    Attributes
-    ----------
-    source : MapPart or Drawn
-    start, end : int
-        Mechanisms with these places in the source, the end excluded.
-    first, last : int
-        Numbers of the placements, the last excluded.
-    """
-
-    source: MapPart | Drawn
-    start: int
-    end: int
-    first: int = 0
-    last: int = _ALL
+Source = Maps | Drawn
+"""Where some mechanisms come from: contracted maps, or they are there themselves."""
 
 
 class Mechanisms(Protocol):
-    """Where the mechanisms come from on which open edges are placed."""
+    """The mechanisms on which open edges are placed."""
 
     @property
     def dof(self) -> int:
@@ -83,11 +79,11 @@ class Mechanisms(Protocol):
     def key(self) -> dict[str, Any]:
         """What they are, in JSON values."""
 
-    def sources(self) -> Iterator[MapPart | Drawn]:
-        """Yield all mechanisms, in portions."""
+    def sources(self, size: int) -> Iterator[Unit]:
+        """Yield units of about so many mechanisms, whose payloads are sources, without listing mechanisms."""
 
-    def drawn(self, source: MapPart | Drawn) -> Drawn:
-        """Return the mechanisms of a portion."""
+    def drawn(self, source: Source) -> Iterator[Drawn]:
+        """Yield the mechanisms of a source."""
 
 
 @dataclass(frozen=True)
@@ -111,23 +107,29 @@ class AllMechanisms:
         """The query in JSON values."""
         return {"enumerate": "scd", **self.query.key}
 
-    def sources(self) -> Iterator[MapPart | Drawn]:
-        """Yield the contracted maps, or the trees."""
-        if self.query.tree:
-            codes = plane_trees(self.query.links, self.query.placements.max_degree)
-            yield Drawn(codes, np.zeros((len(codes), 1), np.int64))
-        else:
-            for unit in map_units(self.query.sc):
-                yield from unit.payload
+    def sources(self, size: int) -> Iterator[Unit]:
+        """Yield contracted maps, or trees."""
+        if not self.query.tree:
+            yield from map_units(self.query.sc, size)
+            return
+        codes = plane_trees(self.query.links, self.query.placements.max_degree)
+        trees = Drawn(codes, np.zeros((len(codes), 1), np.uint8))
+        for start in range(0, len(trees), size):
+            some = trees.slice(start, start + size)
+            yield Unit(some, len(some))
 
-    def drawn(self, source: MapPart | Drawn) -> Drawn:
-        """Return the SC graphs of a map, or the trees."""
-        return source if isinstance(source, Drawn) else _drawn(self.query.sc, source)
+    def drawn(self, source: Source) -> Iterator[Drawn]:
+        """Yield the SC graphs of each map, or the trees."""
+        if isinstance(source, Drawn):
+            yield source
+        else:
+            yield from (_drawn(self.query.sc, part) for part in source)
 
 
 def _drawn(query: SCQuery, part: MapPart) -> Drawn:
-    found = drawn_of(query, part)
-    return Drawn(*codes_of_all(part.code, part.n, query.links, part.outer, found.x, found.labels))
+    listed = drawn_of(query, part)
+    codes, labels = codes_of_all(part.code, part.n, query.links, part.outer, listed.x, listed.labels)
+    return Drawn(codes, labels.astype(np.uint8))
 
 
 @dataclass(frozen=True)
@@ -153,14 +155,32 @@ class OneMechanism:
         """What it is, in JSON values."""
         return {"enumerate": "scd", "of": self.name, **self.placements.key}
 
-    def sources(self) -> Iterator[MapPart | Drawn]:
+    def sources(self, size: int) -> Iterator[Unit]:
         """Yield the mechanism."""
+        del size
+        yield Unit(self.source)
+
+    def drawn(self, source: Source) -> Iterator[Drawn]:
+        """Yield the mechanism."""
+        del source
         yield self.source
 
-    def drawn(self, source: MapPart | Drawn) -> Drawn:
-        """Return the mechanism."""
-        del source
-        return self.source
+
+@dataclass(frozen=True, slots=True)
+class _Placements:
+    """Placements on some mechanisms: on one, those with some numbers; on several, all of them.
+
+    Attributes
+    ----------
+    mechanisms : Drawn
+        Listed once, when units are made: the rows on each take far more room.
+    first, last : int
+        Numbers of the placements, the last excluded.
+    """
+
+    mechanisms: Drawn
+    first: int = 0
+    last: int = _ALL
 
 
 @dataclass(frozen=True)
@@ -170,9 +190,12 @@ class SCDJob:
     Attributes
     ----------
     mechanisms : Mechanisms
+    unit_rows : int
+        Placements of a unit, about, symmetric ones counted apart; a mechanism with more is split.
     """
 
     mechanisms: Mechanisms
+    unit_rows: int = _PLACEMENTS
 
     @property
     def columns(self) -> dict[str, Column]:
@@ -186,33 +209,26 @@ class SCDJob:
 
     def units(self) -> list[Unit]:
         """Units of some thousands of placements each."""
-        return list(_units(self.mechanisms))
+        return list(_units(self.mechanisms, self.unit_rows))
 
-    def work(self, payload: tuple[_Range, ...]) -> list[Row]:
+    def work(self, payload: tuple[_Placements, ...]) -> list[Row]:
         """Return the rows of a unit."""
-        mechanisms = self.mechanisms
+        query, dof = self.mechanisms.placements, self.mechanisms.dof
         return [
             row
-            for part, code, labels in _each(mechanisms, payload)
-            for row in scd_rows_of(mechanisms.placements, code, labels, mechanisms.dof, part.first, part.last)
+            for part in payload
+            for code, labels in part.mechanisms.each()
+            for row in scd_rows_of(query, code, labels, dof, part.first, part.last)
         ]
 
 
-def _each(mechanisms: Mechanisms, payload: tuple[_Range, ...]) -> Iterator[tuple[_Range, Bytes, Ints]]:
-    """Yield the mechanisms of a unit."""
-    for part in payload:
-        drawn = mechanisms.drawn(part.source)
-        for row in range(part.start, part.end):
-            yield part, drawn.codes[row], drawn.labels[row]
-
-
-def _units(mechanisms: Mechanisms) -> Iterator[Unit]:
-    """Yield units whose payloads are ranges."""
-    held: list[_Range] = []
+def _units(mechanisms: Mechanisms, unit_rows: int) -> Iterator[Unit]:
+    """Yield units whose payloads are placements, packed from `_ranges`."""
+    held: list[_Placements] = []
     weight = number = 0
-    for part, count in _ranges(mechanisms):
-        size = part.end - part.start
-        if held and (weight + count > _PLACEMENTS or number + size > _MECHANISMS):
+    for part, count in _ranges(mechanisms, unit_rows):
+        size = len(part.mechanisms)
+        if held and (weight + count > unit_rows or number + size > _MECHANISMS):
             yield Unit(tuple(held), weight)
             held, weight, number = [], 0, 0
         held.append(part)
@@ -221,33 +237,38 @@ def _units(mechanisms: Mechanisms) -> Iterator[Unit]:
         yield Unit(tuple(held), weight)
 
 
-def _ranges(mechanisms: Mechanisms) -> Iterator[tuple[_Range, int]]:
+def _ranges(mechanisms: Mechanisms, unit_rows: int) -> Iterator[tuple[_Placements, int]]:
     """Yield ranges of no more placements than fit a unit, and their numbers."""
     most = mechanisms.placements.max_degree
-    for source in mechanisms.sources():
-        drawn = mechanisms.drawn(source)
-        counts = numbers_of_placements(drawn.codes, drawn.labels, most).tolist()
-        start = weight = 0
-        for row, count in enumerate(counts):
-            if count < 0:
+    for source in mechanisms.sources(UNIT_ROWS):  # in other parts they would come in another order
+        for drawn in mechanisms.drawn(source.payload):
+            counts = numbers_of_placements(drawn.codes, drawn.labels.astype(np.int64), most).tolist()
+            if min(counts, default=0) < 0:
                 raise UnsolvableError(
                     f"one mechanism has more than 10^18 placements of open edges for links of up to {most} sides: "
                     "choose fewer"
                 )
-            if weight and (weight + count > _PLACEMENTS or row - start >= _MECHANISMS):
-                yield _Range(source, start, row), weight
-                start, weight = row, 0
-            if count > 2 * _PLACEMENTS:
-                for first in range(0, count, _PLACEMENTS):
-                    last = min(first + _PLACEMENTS, count)
-                    yield _Range(source, row, row + 1, first, last), last - first
-                start = row + 1
-            elif count == 0 and weight == 0:
-                start = row + 1
-            else:
-                weight += count
-        if weight:
-            yield _Range(source, start, len(counts)), weight
+            yield from _ranges_on(drawn, counts, unit_rows)
+
+
+def _ranges_on(drawn: Drawn, counts: list[int], unit_rows: int) -> Iterator[tuple[_Placements, int]]:
+    """Yield ranges of the placements on mechanisms that have so many each."""
+    start = weight = 0
+    for row, count in zip(range(len(counts)), counts, strict=True):
+        if weight and (weight + count > unit_rows or row - start >= _MECHANISMS):
+            yield _Placements(drawn.slice(start, row)), weight
+            start, weight = row, 0
+        if count > 2 * unit_rows:
+            for first in range(0, count, unit_rows):
+                last = min(first + unit_rows, count)
+                yield _Placements(drawn.slice(row, row + 1), first, last), last - first
+            start = row + 1
+        elif count == 0 and weight == 0:
+            start = row + 1
+        else:
+            weight += count
+    if weight:
+        yield _Placements(drawn.slice(start, len(counts))), weight
 
 
 @dataclass(frozen=True)
@@ -272,29 +293,31 @@ class SCDCountJob(Counting):
     def units(self) -> Sequence[Unit]:
         """Units of some thousands of mechanisms, or of placements."""
         if self.method == "orbits":
-            return list(_units(self.mechanisms))
-        found = []
-        for source in self.mechanisms.sources():
-            size = len(self.mechanisms.drawn(source).codes)
-            found += [
-                Unit((_Range(source, i, min(i + _MECHANISMS, size)),), min(_MECHANISMS, size - i))
-                for i in range(0, size, _MECHANISMS)
-            ]
-        return found
+            return list(_units(self.mechanisms, _PLACEMENTS))
+        return list(self.mechanisms.sources(_MECHANISMS))
 
-    def work(self, payload: tuple[_Range, ...]) -> list[Row]:
+    def work(self, payload: Any) -> list[Row]:
         """Return the number of placements of a unit."""
+        return [(self._listed(payload) if self.method == "orbits" else self._counted(payload),)]
+
+    def _listed(self, payload: tuple[_Placements, ...]) -> int:
+        query, dof = self.mechanisms.placements, self.mechanisms.dof
+        return sum(
+            len(placements_on(query, code, labels, dof, part.first, part.last)[0])
+            for part in payload
+            for code, labels in part.mechanisms.each()
+        )
+
+    def _counted(self, source: Source) -> int:
         query, dof = self.mechanisms.placements, self.mechanisms.dof
         total = 0
-        for part, code, labels in _each(self.mechanisms, payload):
-            if self.method == "orbits":
-                total += len(placements_on(query, code, labels, dof, part.first, part.last)[0])
-                continue
-            count = int(count_placements(code, labels, query.max_degree, dof, query.sheets))
-            if count < 0:
-                raise UnsolvableError("one mechanism has more than 10^18 placements of open edges")
-            total += count
-        return [(total,)]
+        for drawn in self.mechanisms.drawn(source):
+            for code, labels in drawn.each():
+                count = int(count_placements(code, labels, query.max_degree, dof, query.sheets))
+                if count < 0:
+                    raise UnsolvableError("one mechanism has more than 10^18 placements of open edges")
+                total += count
+        return total
 
 
 def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCountJob:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
-from enumerate.chains.query import Range
+from enumerate.runner.limits import ANY_NUMBER, Limits, keep_limits, key_of
 from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError
 
@@ -27,7 +27,7 @@ class PlacementQuery:
         sheet without holes.
     symmetric : bool
         Only those with a symmetry other than the identity.
-    vertices : (int, int or None)
+    vertices : Limits, (int, int or None) or int
         Limits of the number of vertices of the polyhedron model.
 
     Raises
@@ -39,29 +39,22 @@ class PlacementQuery:
     max_degree: int
     sheets: bool = False
     symmetric: bool = False
-    vertices: Range = (0, None)
+    vertices: Limits = ANY_NUMBER
 
     def __post_init__(self) -> None:
         if not 3 <= self.max_degree <= _MOST_DEGREE:
             raise InvariantError("max degree", f"{self.max_degree} sides", f"3 to {_MOST_DEGREE}")
-        low, high = self.vertices
-        if high is not None and high < low:
-            raise InvariantError("vertices", f"the range {low} to {high}", "the smaller number first")
+        keep_limits(self, "vertices")
 
     @property
     def counted(self) -> bool:
         """Whether nothing is asked that Burnside's lemma does not count."""
-        return not self.symmetric and self.vertices == (0, None)
+        return not self.symmetric and self.vertices == ANY_NUMBER
 
     @property
     def key(self) -> dict[str, Any]:
         """The query in JSON values."""
-        return {
-            "max_degree": self.max_degree,
-            "sheets": self.sheets,
-            "symmetric": self.symmetric,
-            "vertices": list(self.vertices),
-        }
+        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from enumerate.kernel.centre_labels import SPATIAL
 from enumerate.kernel.map_texts import map_ids
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
-from enumerate.sc.rows import within_limits
+from enumerate.runner.limits import ANY_NUMBER
 from enumerate.scd.choices import outline
 from enumerate.scd.listing import list_placements_of, sides_of_all
 from enumerate.scd.query import PlacementQuery
@@ -58,9 +58,9 @@ def placements_on(
     codes, lengths, facts = list_placements_of(
         code, labels, query.max_degree, dof, first, last, query.sheets, query.symmetric
     )
-    if query.vertices == (0, None):
+    if query.vertices == ANY_NUMBER:
         return codes, lengths, facts
-    kept = within_limits(facts[:, 1], *query.vertices)
+    kept = query.vertices.admitted(facts[:, 1])
     return codes[kept], lengths[kept], facts[kept]
 
 

@@ -8,7 +8,6 @@ from graphs.lazy import offered
 
 if TYPE_CHECKING:
     from graphs.identity.chains import automorphisms_of as automorphisms_of
-    from graphs.identity.chains import canonical_links as canonical_links
     from graphs.identity.chains import chain_from_id as chain_from_id
     from graphs.identity.chains import chain_id as chain_id
     from graphs.identity.classes import class_code as class_code
@@ -21,7 +20,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "chains": "automorphisms_of canonical_links chain_from_id chain_id",
+            "chains": "automorphisms_of chain_from_id chain_id",
             "classes": "class_code symmetries_of_links",
             "drawings": "drawing_of map_code map_id mechanism_from_map_id",
         },

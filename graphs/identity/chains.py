@@ -11,15 +11,13 @@ from collections.abc import Iterable, Sequence
 from io import BytesIO
 from typing import Any
 
-import bliss_bind
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
+from graphs.identity.bliss import ColouredGraph, labels_of, subdivided, symmetries_of
 
-__all__ = ["HEURISTIC", "automorphisms_of", "canonical_links", "canonical_order", "chain_from_id", "chain_id"]
+__all__ = ["automorphisms_of", "canonical_order", "chain_from_id", "chain_id"]
 
-HEURISTIC = bliss_bind.Graph.SplittingHeuristic.shs_fm
-"""What bliss is told everywhere: ids depend on it."""
 _PREFIX = "k1:"
 
 
@@ -43,13 +41,7 @@ def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
     >>> sorted(canonical_order(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     [0, 1, 2, 3]
     """
-    graph = bliss_bind.Graph(links)
-    graph.set_splitting_heuristic(HEURISTIC)
-    add = graph.add_edge
-    for a, b in joints:
-        add(a, b)
-    order: list[int] = graph.canonical_form()[0]
-    return order
+    return labels_of(ColouredGraph(links, joints))
 
 
 def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[int], list[list[int]], int]:
@@ -69,31 +61,18 @@ def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[
     >>> automorphisms_of(4, [(0, 1), (1, 2), (2, 3), (3, 0)])[2]
     8
     """
-    graph = bliss_bind.Graph(links)
-    graph.set_splitting_heuristic(HEURISTIC)
-    for a, b in joints:
-        graph.add_edge(a, b)
-    generators: list[list[int]] = []
-    order, statistics = graph.canonical_form(lambda found: generators.append(list(found)))
-    return order, generators, round(statistics.get_group_size_approx())
+    order, generators, size = symmetries_of(ColouredGraph(links, joints))
+    return order, generators, round(size)
 
 
 def _order_with_parallel_joints(links: int, joints: Sequence[tuple[int, int]]) -> list[int]:
-    """Return canonical numbers of links where joints may be parallel: bliss sees a joint as a node of its own."""
-    graph = bliss_bind.Graph()
-    graph.set_splitting_heuristic(HEURISTIC)
-    for _ in range(links):
-        graph.add_vertex(0)
-    for a, b in joints:
-        node = graph.add_vertex(1)
-        graph.add_edge(node, a)
-        graph.add_edge(node, b)
-    numbers: list[int] = graph.canonical_form()[0][:links]
+    """Return canonical numbers of links where joints may be parallel."""
+    numbers = labels_of(subdivided(links, joints))[:links]
     rank = {number: i for i, number in enumerate(sorted(numbers))}
     return [rank[number] for number in numbers]
 
 
-def canonical_links(graph: nx.Graph) -> dict[Any, int]:
+def _canonical_links(graph: nx.Graph) -> dict[Any, int]:
     """Return the canonical number of each link of a link-joint graph.
 
     Parameters
@@ -138,7 +117,7 @@ def chain_id(graph: nx.Graph) -> str:
     >>> chain_id(nx.cycle_graph(4))
     'k1:Cr'
     """
-    number = canonical_links(graph)
+    number = _canonical_links(graph)
     named = nx.MultiGraph()
     named.add_nodes_from(range(len(number)))
     named.add_edges_from(sorted(sorted((number[a], number[b])) for a, b in graph.edges()))

@@ -9,9 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Hashable
 from typing import Any
 
-import bliss_bind
-
-from graphs.identity.chains import HEURISTIC
+from graphs.identity.bliss import ColouredGraph, labels_of, symmetries_of
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 
@@ -37,9 +35,9 @@ def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
     >>> class_code(one) == class_code(SCGraph(4, ring, [Loop((0, 1, 2, 3), "infinite")]))
     False
     """
-    graph, colours, edges = _coloured(sc, marked)
-    labels, _ = graph.canonical_form()
-    form = sorted(tuple(sorted((labels[a], labels[b]))) for a, b in edges)
+    graph, colours = _coloured(sc, marked)
+    labels = labels_of(graph)
+    form = sorted(tuple(sorted((labels[a], labels[b]))) for a, b in graph.edges)
     return tuple(sorted(zip(labels, map(repr, colours), strict=True))), tuple(form), sc.spatial_loops
 
 
@@ -53,17 +51,13 @@ def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
     >>> len(symmetries_of_links(four_bar)) > 0
     True
     """
-    found: list[list[int]] = []
-    graph, _, _ = _coloured(sc, ())
-    graph.find_automorphisms(lambda moved: found.append(list(moved)))
+    graph, _ = _coloured(sc, ())
     links = list(sc.nodes)
-    return [{link: links[moved[i]] for i, link in enumerate(links)} for moved in found]
+    return [{link: links[moved[i]] for i, link in enumerate(links)} for moved in symmetries_of(graph).generators]
 
 
-def _coloured(
-    sc: SCGraph, marked: Collection[LinkId]
-) -> tuple[bliss_bind.Graph, list[tuple[Any, ...]], list[tuple[int, int]]]:
-    """Return the coloured graph, links first in their order, the colours of its nodes and its edges."""
+def _coloured(sc: SCGraph, marked: Collection[LinkId]) -> tuple[ColouredGraph, list[tuple[Any, ...]]]:
+    """Return the coloured graph, links first in their order, and what the colours of its nodes stand for."""
     colours: list[tuple[Any, ...]] = []
     edges: list[tuple[int, int]] = []
     number: dict[tuple[str, Hashable], int] = {}
@@ -82,10 +76,4 @@ def _coloured(
         node("class", k, one.centre.value, len(one.loops), closing)
         edges += [(number["class", k], number["joint", joint]) for joint in one.joints]
     palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
-    graph = bliss_bind.Graph()
-    graph.set_splitting_heuristic(HEURISTIC)
-    for colour in colours:
-        graph.add_vertex(palette[colour])
-    for a, b in edges:
-        graph.add_edge(a, b)
-    return graph, colours, edges
+    return ColouredGraph(len(colours), edges, [palette[colour] for colour in colours]), colours

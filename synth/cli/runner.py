@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from enumerate.runner.columns import Column
     from enumerate.runner.job import Job, Progress, Row, Sink
 
-__all__ = ["Limits", "RunOptions", "cores", "run_count", "run_rows", "runner_options"]
+__all__ = ["LimitsType", "RunOptions", "cores", "run_count", "run_rows", "runner_options"]
 
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
@@ -26,14 +26,16 @@ _INTERRUPTED = 130
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-class Limits(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+class LimitsType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
     """A number or a range: ``2``, ``2..4``, ``2..``, ``..4``."""
 
     name = "limits"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return (least, greatest or None)."""
-        if isinstance(value, tuple):
+        """Return limits."""
+        from enumerate.runner.limits import Limits
+
+        if isinstance(value, Limits):
             return value
         low, dots, high = str(value).partition("..")
         if not dots:
@@ -41,7 +43,7 @@ class Limits(click.ParamType):  # type: ignore[type-arg,unused-ignore]
         numbers = [part for part in (low, high) if part]
         if not numbers or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in numbers):
             self.fail(f"{plain(value)!r} is neither a number nor a range such as 2..4, 2.. or ..4", param, ctx)
-        return int(low or 0), int(high) if high else None
+        return Limits(int(low or 0), int(high) if high else None)
 
 
 class RunOptions:

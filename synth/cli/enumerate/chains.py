@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from synth.cli.output import plain
-from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
+
+if TYPE_CHECKING:
+    from enumerate.runner.limits import Limits
 
 __all__ = ["assortment", "chains", "say_if_odd"]
 
@@ -31,8 +34,8 @@ def assortment(context: click.Context, parameter: click.Parameter, value: str | 
 @click.option("--inputs", is_flag=True, help="Each choice of a ground link and M input joints apart.")
 @click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
 @click.option("--planar/--nonplanar", default=None, help="Only chains that can (not) be drawn without crossings.")
-@click.option("--longest-string", type=Limits(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
-@click.option("--symmetry", type=Limits(), metavar="K", help="Number of automorphisms: 1, 2.., 2..8")
+@click.option("--longest-string", type=LimitsType(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
+@click.option("--symmetry", type=LimitsType(), metavar="K", help="Number of automorphisms: 1, 2.., 2..8")
 @click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
 @click.option(
     "--method", type=click.Choice(["orbits", "burnside"]), help="How --count counts: two ways that must agree."
@@ -43,8 +46,8 @@ def chains(
     dof: int,
     only_count: bool,
     method: str | None,
-    longest_string: tuple[int, int | None] | None,
-    symmetry: tuple[int, int | None] | None,
+    longest_string: Limits | None,
+    symmetry: Limits | None,
     **rest: Any,
 ) -> None:
     """List or count all kinematic chains of N links and M degrees of freedom.
@@ -65,9 +68,10 @@ def chains(
         raise click.UsageError("--method says how --count counts; add --count")
     from enumerate.chains.jobs import ChainJob, count_job
     from enumerate.chains.query import ChainQuery
+    from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
 
     query = ChainQuery(
-        links, dof, **rest, longest_string=longest_string or (0, None), symmetry=symmetry or (1, None)
+        links, dof, **rest, longest_string=longest_string or ANY_NUMBER, symmetry=symmetry or ONE_OR_MORE
     )
     say_if_odd(links, dof)
     if only_count:

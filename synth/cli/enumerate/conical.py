@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from synth.cli.output import about, plain
-from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Sink
@@ -46,13 +46,13 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
     "--lambda", "cone_angle", type=float, metavar="DEGREES", help="Cone angle: link angles, Grashof classes."
 )
 @click.option("--linkage", type=click.Choice(_LINKAGE), help="Which ways all moving links can go together.")
-@click.option("--open", "open_loops", type=Limits(), metavar="K", help="Number of open loops: 2, 1..2, 2..")
-@click.option("--layers", type=Limits(), metavar="K", help="Fewest layers: 2, ..3")
-@click.option("--symmetry", type=Limits(), metavar="K", help="Number of symmetries: 1, 2..")
-@click.option("--grashof", type=Limits(), metavar="K", help="Number of four-bar loops that are Grashof.")
-@click.option("--rank", type=Limits(), metavar="K", help="Rank at the conformed position.")
+@click.option("--open", "open_loops", type=LimitsType(), metavar="K", help="Number of open loops: 2, 1..2, 2..")
+@click.option("--layers", type=LimitsType(), metavar="K", help="Fewest layers: 2, ..3")
+@click.option("--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries: 1, 2..")
+@click.option("--grashof", type=LimitsType(), metavar="K", help="Number of four-bar loops that are Grashof.")
+@click.option("--rank", type=LimitsType(), metavar="K", help="Rank at the conformed position.")
 @click.option("--singular/--regular", default=None, help="Only (no) candidates whose rank is less than full.")
-@click.option("--half-turns", type=Limits(), metavar="K", help="Number of steps of exactly 180 degrees.")
+@click.option("--half-turns", type=LimitsType(), metavar="K", help="Number of steps of exactly 180 degrees.")
 @click.option("--sort", metavar="[-]COLUMN", help="Sort by a column; - before it: falling.")
 @click.option("--pictures", metavar="FOLDER", help="Draw each candidate, circle and cone, to a new folder.")
 @click.option("--formulas", is_flag=True, help="Print the outward rate of each joint as a formula, and stop.")
@@ -162,7 +162,7 @@ def _filters(rest: dict[str, Any]) -> tuple[Filter, ...]:
     from synth.candidates.job import Filter
 
     found = [
-        Filter(column, least=rest[option][0], most=rest[option][1])
+        Filter(column, least=rest[option].least, most=rest[option].most)
         for option, column in _LIMITS.items()
         if rest[option] is not None
     ]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from synth.cli.enumerate.chains import assortment, say_if_odd
-from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
+
+if TYPE_CHECKING:
+    from enumerate.runner.limits import Limits
 
 __all__ = ["sc"]
 
@@ -15,12 +18,12 @@ __all__ = ["sc"]
 @click.command(short_help="SC graphs: planar chains drawn on the sphere, with their centres.")
 @click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
 @click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
-@click.option("--centres", type=Limits(), metavar="K", help="Number of distinct centres: 2, 1..2, 2..")
+@click.option("--centres", type=LimitsType(), metavar="K", help="Number of distinct centres: 2, 1..2, 2..")
 @click.option("--spatial", type=click.IntRange(min=0), default=0, metavar="S", help="Hybrids: S spatial loops.")
 @click.option("--infinite", is_flag=True, help="Also centres at infinity (planar loops).")
-@click.option("--symmetry", type=Limits(), metavar="K", help="Number of symmetries: 1, 2.., 2..4")
+@click.option("--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries: 1, 2.., 2..4")
 @click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
-@click.option("--longest-string", type=Limits(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
+@click.option("--longest-string", type=LimitsType(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
 @click.option("--per-chain", is_flag=True, help="One row a chain: its most general form, with the most centres.")
 @click.option("--embeddings", is_flag=True, help="With --count: embeddings in the sphere, without outer face.")
 @click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
@@ -35,9 +38,9 @@ def sc(
     per_chain: bool,
     embeddings: bool,
     method: str | None,
-    centres: tuple[int, int | None] | None,
-    symmetry: tuple[int, int | None] | None,
-    longest_string: tuple[int, int | None] | None,
+    centres: Limits | None,
+    symmetry: Limits | None,
+    longest_string: Limits | None,
     **rest: Any,
 ) -> None:
     """List or count all SC graphs of N links and M degrees of freedom.
@@ -59,6 +62,7 @@ def sc(
     options = RunOptions.taken_from(rest)
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings say how --count counts; add --count")
+    from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
     from enumerate.sc.forms import FormJob
     from enumerate.sc.jobs import SCJob, sc_count_job
     from enumerate.sc.query import SCQuery
@@ -67,9 +71,9 @@ def sc(
         links,
         dof,
         **rest,
-        centres=centres or (0, None),
-        symmetry=symmetry or (1, None),
-        longest_string=longest_string or (0, None),
+        centres=centres or ANY_NUMBER,
+        symmetry=symmetry or ONE_OR_MORE,
+        longest_string=longest_string or ANY_NUMBER,
     )
     say_if_odd(links, dof, query.spatial)
     if only_count and per_chain:

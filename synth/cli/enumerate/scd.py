@@ -8,9 +8,10 @@ import click
 
 from synth.cli.enumerate.chains import say_if_odd
 from synth.cli.output import about
-from synth.cli.runner import Limits, RunOptions, run_count, run_rows, runner_options
+from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
+    from enumerate.runner.limits import Limits
     from enumerate.scd.jobs import Mechanisms
 
 __all__ = ["scd"]
@@ -25,7 +26,7 @@ __all__ = ["scd"]
 @click.option("--infinite", is_flag=True, help="Also centres at infinity (planar loops).")
 @click.option("--all-explicit", "sheets", is_flag=True, help="Only single sheets without holes.")
 @click.option("--symmetric", is_flag=True, help="Only those with a symmetry.")
-@click.option("--vertices", type=Limits(), metavar="K", help="Vertices of the polyhedron model: 8, 6..8, ..8")
+@click.option("--vertices", type=LimitsType(), metavar="K", help="Vertices of the polyhedron model: 8, 6..8, ..8")
 @click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
 @click.option(
     "--method", type=click.Choice(["burnside", "orbits"]), help="How --count counts: two ways that must agree."
@@ -38,7 +39,7 @@ def scd(
     max_degree: int,
     spatial: int,
     infinite: bool,
-    vertices: tuple[int, int | None] | None,
+    vertices: Limits | None,
     only_count: bool,
     method: str | None,
     **rest: Any,
@@ -60,9 +61,10 @@ def scd(
     options = RunOptions.taken_from(rest)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
+    from enumerate.runner.limits import ANY_NUMBER
     from enumerate.scd.jobs import SCDJob, scd_count_job
 
-    filters = {**rest, "vertices": vertices or (0, None)}
+    filters = {**rest, "vertices": vertices or ANY_NUMBER}
     mechanisms: Mechanisms
     if file is not None:
         if links is not None or dof is not None or spatial or infinite:

@@ -11,7 +11,6 @@ from rigidity import chains_by_geng
 from enumerate.chains.kinematic import chain_rows
 from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
-from enumerate.sc import jobs as sc_jobs
 from enumerate.sc.graphs import chain_forms, count_sc_graphs, sc_graphs, sc_rows
 from enumerate.sc.jobs import SCJob
 from enumerate.sc.query import SCQuery
@@ -259,11 +258,10 @@ def test_rings():
     assert re.fullmatch("m1:.*;s", row["code"])
 
 
-def test_large_units_are_split(monkeypatch):
+def test_large_units_are_split():
     """A map with more SC graphs than fit a unit is taken in parts, in the same order with any number of workers."""
     whole = list(sc_rows(10, 1))
-    monkeypatch.setattr(sc_jobs, "UNIT_ROWS", 5)
-    job = SCJob(SCQuery(10, 1))
+    job = SCJob(SCQuery(10, 1), unit_rows=5)
     assert len(job.units()) > 100
     found = []
     run(job, RowSink(lambda columns, rows: found.extend(rows)), workers=2)

@@ -5,7 +5,6 @@ from scd_oracle import code, scd_codes
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.sc.graphs import sc_rows
-from enumerate.scd import jobs as scd_jobs
 from enumerate.scd.choices import number_of_placements
 from enumerate.scd.graphs import (
     all_mechanisms,
@@ -165,11 +164,10 @@ def test_filters():
         assert count_scd_graphs(6, 1, 4, **options) == len(expected)
 
 
-def test_units_of_ranges(monkeypatch):
+def test_units_of_ranges():
     """A mechanism with more placements than fit a unit is taken in ranges of their numbers."""
     expected = list(scd_rows(6, 1, 5))
-    monkeypatch.setattr(scd_jobs, "_PLACEMENTS", 20)
-    job = SCDJob(all_mechanisms(6, 1, 5))
+    job = SCDJob(all_mechanisms(6, 1, 5), unit_rows=20)
     assert len(job.units()) > 30
     found = []
     run(job, RowSink(lambda columns, rows: found.extend(rows)), workers=2)

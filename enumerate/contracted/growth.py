@@ -1,0 +1,54 @@
+"""How contracted graphs and contracted maps come from each other: level by level, cubic ones first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from graphs.arrays import Bytes
+from graphs.errors import InvariantError
+
+__all__ = ["Growth"]
+
+
+class Growth(NamedTuple):
+    """A kind of cubic graphs or maps that extend to larger ones, and whose joints can be contracted.
+
+    Attributes
+    ----------
+    most_loops : int
+    smallest : callable
+        Returns the codes of those with two links and two loops.
+    extend, contract : callable
+        Return the codes, one row each, of those with two links more, and one loop more, than some; of those with a
+        link less. Arguments are codes and their number of links.
+    """
+
+    most_loops: int
+    smallest: Callable[[], Bytes]
+    extend: Callable[[Bytes, int], Bytes]
+    contract: Callable[[Bytes, int], Bytes]
+
+    def cubic(self, loops: int) -> Bytes:
+        """Return the codes of all cubic ones with so many loops.
+
+        Raises
+        ------
+        InvariantError
+            If there are too few or too many loops.
+        """
+        if not 2 <= loops <= self.most_loops:
+            raise InvariantError("loops", f"{loops} loops", f"2 to {self.most_loops}")
+        codes = self.smallest()
+        for links in range(2, 2 * (loops - 1), 2):
+            codes = self.extend(codes, links)
+        return codes
+
+    def levels(self, loops: int) -> Iterator[tuple[int, Bytes]]:
+        """Yield numbers of links, most first, and the codes of all with so many links and loops."""
+        codes = self.cubic(loops)
+        most = 2 * (loops - 1)
+        yield most, codes
+        for links in range(most, 2, -1):
+            codes = self.contract(codes, links)
+            yield links - 1, codes
