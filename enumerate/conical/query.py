@@ -150,7 +150,7 @@ def conical_orders(query: ConicalQuery, *, workers: int = 1) -> Iterator[tuple[L
     [(0, 1, 2, 3), (0, 1, 3, 2)]
     """
     for row in rows_of(_OrderJob(query), workers=workers):
-        yield row["ground"], row["slots"]
+        yield row["ground"], tuple(row["slots"])
 
 
 def count_conical_orders(query: ConicalQuery, method: str = "burnside", *, workers: int = 1) -> int:

@@ -2,6 +2,7 @@ import pytest
 from rigidity import chains_by_geng
 from scd_oracle import code, scd_codes
 
+from enumerate.runner.columns import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.sinks import CountSink, RowSink
 from enumerate.sc.graphs import sc_rows
@@ -171,7 +172,7 @@ def test_units_of_ranges():
     assert len(job.units()) > 30
     found = []
     run(job, RowSink(lambda columns, rows: found.extend(rows)), workers=2)
-    assert found == [tuple(row.values()) for row in expected]
+    assert [row_as_dict(job.columns, row) for row in found] == expected
 
 
 def test_of_a_mechanism(data):
