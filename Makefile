@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 # One process per core. Each takes tests from its own part of the list first, so that what one test compiled or
 # listed serves its neighbours; who is done takes from the others. PARALLEL= runs them in one process.
-PARALLEL ?= -n logical --dist worksteal
+PARALLEL ?= -n logical --dist loadgroup
 
 .PHONY: demo test test-slow check data clean help
 

@@ -23,6 +23,18 @@ settings.register_profile(
 settings.load_profile("synthedra")
 
 
+_SHARED = ("fold_folder", "whole")
+"""Fixtures whose tests share what takes long to read or to make: with several processes, one has them all."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep the tests together that share something."""
+    for item in items:
+        for name in _SHARED:
+            if name in getattr(item, "fixturenames", ()):
+                item.add_marker(pytest.mark.xdist_group(name))
+
+
 @pytest.fixture(scope="session")
 def data() -> Path:
     """The folder of the project's own mechanisms and golden values."""

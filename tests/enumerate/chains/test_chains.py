@@ -145,8 +145,13 @@ def test_inversions_are_the_links_that_differ():
         assert len(rows) == len(marked) == len({(row["code"], row["ground"]) for row in rows})
 
 
-def test_inputs_of_small_chains_by_brute_force():
-    for links, dof in [(5, 2), (6, 1), (7, 2), (6, 3), (8, 3)]:
+@pytest.mark.parametrize(
+    "sizes",
+    [[(5, 2), (6, 1), (6, 3)], pytest.param([(7, 2), (8, 3)], marks=pytest.mark.slow)],
+    ids=["small", "large"],
+)
+def test_inputs_of_small_chains_by_brute_force(sizes):
+    for links, dof in sizes:
         rows = Counter(row["code"] for row in chain_rows(links, dof, inputs=True, fractionated=True))
         for graph in chains(links, dof, fractionated=True):
             joints = [tuple(sorted(joint)) for joint in graph.edges()]
@@ -183,8 +188,11 @@ def test_every_joint_of_a_chain_with_one_freedom_can_be_an_input():
     assert len(list(input_choices(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [], 1))) == 16
 
 
-def test_shapes_hold_every_fractionated_chain():
-    for links, dof in [(9, 2), (10, 3), (9, 4), (12, 5)]:
+@pytest.mark.parametrize(
+    "sizes", [[(9, 2), (9, 4)], pytest.param([(10, 3), (12, 5)], marks=pytest.mark.slow)], ids=["small", "large"]
+)
+def test_shapes_hold_every_fractionated_chain(sizes):
+    for links, dof in sizes:
         sizes = set()
         for graph in chains(links, dof, fractionated=True):
             blocks = [graph.subgraph(nodes) for nodes in nx.biconnected_components(graph)]

@@ -30,7 +30,9 @@ def can_all_move(graph):
     return True
 
 
-@pytest.mark.parametrize(("loops", "dof"), [(2, 1), (2, 2), (2, 4), (3, 1), (3, 2), (3, 3)])
+@pytest.mark.parametrize(
+    ("loops", "dof"), [(2, 1), (2, 2), (2, 4), (3, 1), (3, 2), pytest.param(3, 3, marks=pytest.mark.slow)]
+)
 def test_against_all_placements(loops, dof):
     """Every way to place the links, the chains built and looked at one by one, and told apart by bliss."""
     links = dof + 2 * loops + 1

@@ -26,7 +26,10 @@ def brute_force(n, loops):
     return found
 
 
-@pytest.mark.parametrize(("n", "loops"), [(2, 2), (2, 3), (3, 3), (4, 3), (2, 4), (3, 4), (4, 4), (5, 4), (4, 5)])
+@pytest.mark.parametrize(
+    ("n", "loops"),
+    [(2, 2), (2, 3), (3, 3), (4, 3), (2, 4), (3, 4), (4, 4), (4, 5), pytest.param(5, 4, marks=pytest.mark.slow)],
+)
 def test_against_all_multigraphs(n, loops):
     codes = dict(contracted_graphs(loops))[n]
     ids = [chain_id(as_multigraph(decode(code, n))) for code in codes]

@@ -29,7 +29,7 @@ def child(numbers, begin):
     os._exit(not right or any(outer.stats.cache_misses.values()) and len(numbers) > 1)
 
 wrong = []
-for number in range(2):
+for number in range(1):
     os.environ["SYNTHEDRA_CACHE"] = f"{os.environ['BASE']}/{number}"
     begin = time.time() + 0.05
     both = [child([4], begin), child([4.5], begin)]
@@ -72,7 +72,7 @@ def test_code_is_renewed_when_a_function_it_calls_changes(tmp_path):
 def test_two_processes_compile_different_signatures_at_once(tmp_path, monkeypatch):
     make_toy(tmp_path)
     monkeypatch.setenv("BASE", str(tmp_path / "rounds"))
-    assert run(ROUNDS, tmp_path, tmp_path / "cache")[0] == [0] * 6
+    assert run(ROUNDS, tmp_path, tmp_path / "cache")[0] == [0] * 3
 
 
 @forks

@@ -191,7 +191,10 @@ def test_a_stopped_run_goes_on(tmp_path):
     assert progress.done == progress.units > 3
     found = list(read_rows(store))
     assert len(found) == count_conical_orders(job.query) == 15_168
-    assert [row_as_dict(job.columns, row) for row in found[:200]] == job.rows()[:200]
+    first = job.work(job.units()[0].payload)[:200]
+    assert [row_as_dict(job.columns, row) for row in found[: len(first)]] == [
+        row_as_dict(job.columns, row) for row in first
+    ]
 
 
 def test_a_chain_of_two_freedoms_and_singular_eight_bars():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from conical import WATT
 
+from enumerate.runner.columns import row_as_dict
 from synth.candidates.job import CandidateJob
 from synth.candidates.pictures import picture_of_row, title_of_picture
 from synth.conformed.layers import layers, links_in_layers
@@ -34,11 +35,17 @@ def check_laid(chain, places):
     return int(laid.layers.max()) + 1
 
 
-def test_title_picture_and_row_agree_for_all_watt_orders():
+def rows_of_units(job, most):
+    """The rows of the first units of a job: all of them without a limit."""
+    return [row_as_dict(job.columns, row) for unit in job.units()[:most] for row in job.work(unit.payload)]
+
+
+@pytest.mark.parametrize(("units", "number"), [(1, 120), pytest.param(None, 360, marks=pytest.mark.slow)])
+def test_title_picture_and_row_agree_for_watt_orders(units, number):
     job = CandidateJob(WATT, (WATT_BINARY,))
     chain = ConformedChain.of(WATT, WATT_BINARY)
-    rows = job.rows()
-    assert len(rows) == 360
+    rows = rows_of_units(job, units)
+    assert len(rows) == number
     for row in rows:
         places = job.places(row)
         drawn = check_laid(chain, places)
@@ -58,7 +65,7 @@ def test_rows_at_angles_and_with_opposites_are_drawn_in_as_many_layers_as_they_s
 def test_the_picture_has_the_layers_of_its_title():
     pytest.importorskip("matplotlib")
     job = CandidateJob(WATT, (WATT_BINARY,))
-    for row in job.rows()[::90]:
+    for row in rows_of_units(job, 1)[::32]:
         figure = picture_of_row(job, row)
         radii = {
             round(float(np.hypot(*line.get_data())[0]), 6)

@@ -50,11 +50,12 @@ def nearest(points, axis):
     return min(float(np.linalg.norm(np.cross(points, axis), axis=1).min()), 1.0)
 
 
-def test_the_curves_of_four_orientations():
+@pytest.mark.parametrize("cases", [20, pytest.param(60, marks=pytest.mark.slow)])
+def test_the_curves_of_four_orientations(cases):
     """All samples are dyads; S_ij and the dyads of any fifth orientation lie on the curves; steps are short."""
     rng = np.random.default_rng(34)
     pieces = set()
-    for _ in range(60):
+    for _ in range(cases):
         given = random_orientations(5, rng)
         four = given.subset([1, 2, 3, 4])
         curves = centre_axes(four, 1000)
@@ -99,13 +100,14 @@ def test_dyads_sampled_from_the_curves_are_dyads():
     assert min(lines_apart(dyad.fixed, made.fixed) for dyad in found) < 0.05
 
 
-def test_the_curves_of_quarter_turns():
+@pytest.mark.parametrize("cases", [20, pytest.param(60, marks=pytest.mark.slow)])
+def test_the_curves_of_quarter_turns(cases):
     """Rotations of a cube: the cone may hold planes and cross itself, and is found whole all the same."""
     rng = np.random.default_rng(41)
     cube = Rotation.create_group("O")
     turn = np.linspace(0.0, np.pi, 1001)[:, None]
     pieces = set()
-    for _ in range(60):
+    for _ in range(cases):
         four = Orientations.from_rotation(cube[rng.choice(24, 4, replace=False)])
         m = four.matrices
         turns_about_one = np.linalg.matrix_rank(np.array(list(four.relative_axes().values())), tol=1e-9) == 1

@@ -131,11 +131,12 @@ def test_circuits_branches_and_order_are_those_of_the_linkage():
     assert len(told) >= 5
 
 
-def test_a_driver_of_a_usable_four_bar_is_in_order_by_the_hoop():
+@pytest.mark.parametrize("wanted", [12, pytest.param(30, marks=pytest.mark.slow)])
+def test_a_driver_of_a_usable_four_bar_is_in_order_by_the_hoop(wanted):
     """The hoop's verdict is necessary; for a driver that does not turn fully it is not sufficient."""
     rng = np.random.default_rng(52)
     usable, only_hoop = 0, 0
-    while usable < 30:
+    while usable < wanted:
         given = wandering(5, rng)
         for one in four_bars(given, dyads_of_five(given).dyads):
             if not one.defects:
@@ -157,10 +158,11 @@ def wandering(n, rng):
     return Orientations.from_rotation(Rotation.concatenate(made))
 
 
-def test_the_motion_passes_the_orientations_on_both_dyads():
+@pytest.mark.parametrize("wanted", [5, pytest.param(12, marks=pytest.mark.slow)])
+def test_the_motion_passes_the_orientations_on_both_dyads(wanted):
     rng = np.random.default_rng(53)
     done = 0
-    while done < 12:
+    while done < wanted:
         given = wandering(5, rng)
         for one in four_bars(given, dyads_of_five(given).dyads):
             if one.defects:

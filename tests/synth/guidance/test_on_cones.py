@@ -37,10 +37,11 @@ def check(one):
     return number
 
 
-def test_cones_rebuilt_have_the_link_angles():
+@pytest.mark.parametrize("wanted", [5, pytest.param(12, marks=pytest.mark.slow)])
+def test_cones_rebuilt_have_the_link_angles(wanted):
     rng = np.random.default_rng(71)
     numbers = []
-    while len(numbers) < 12:
+    while len(numbers) < wanted:
         given = random_orientations(5, rng)
         numbers += [check(one) for one in four_bars(given, dyads_of_five(given).dyads)[:2]]
     assert max(numbers) > 0

@@ -79,7 +79,7 @@ def test_many_axes_at_once_are_the_single_ones():
     rng = np.random.default_rng(12)
     for n in range(3, 8):
         given = random_orientations(n, rng)
-        axes = rng.normal(size=(200, 3))
+        axes = rng.normal(size=(80, 3))
         words = {1: "ccw", -1: "cw", 0: None}
         verdicts = order_verdicts(given, axes)
         assert [words[v] for v in verdicts] == [order_by_inequalities(given, axis) for axis in axes]
