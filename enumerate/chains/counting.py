@@ -10,7 +10,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.contracted.binary_links import conditions, no_prefix, permutations, place, rigid_sets, slots
+from enumerate.contracted.binary_links import (
+    EVERY,
+    Units,
+    Wanted,
+    conditions,
+    no_prefix,
+    permutations,
+    place,
+    rigid_sets,
+    slots,
+)
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
@@ -36,7 +46,7 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
     """
     total = 0
     for c in range(len(codes)):
-        total += count_of_graph(codes[c], n, links, most, -1, no_prefix())
+        total += count_of_graph(codes[c], n, links, most, EVERY, no_prefix())
     return total
 
 
@@ -49,7 +59,7 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
     code, n, links, most
         As for `count_by_orbits`.
     only : int
-        Placements with this number W of bound units only; -1 for all.
+        Placements with this number W of bound units only; `EVERY` for all.
     prefix : int64[p]
         Where the first units lie.
     """
@@ -58,21 +68,12 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
     ends, first = slots(adjacency, n)
     sets, needs = rigid_sets(adjacency, n)
     moved = permutations(ends, first, automorphisms)
-    return count_in(ends, first, moved, sets, needs, n, links, most, only, prefix)
+    return count_in(ends, first, moved, sets, needs, n, Wanted(links, most, only), prefix)
 
 
 @compiled
 def count_in(
-    ends: Bytes,
-    first: Ints,
-    moved: Bytes,
-    sets: Ints,
-    needs: Ints,
-    n: int,
-    links: int,
-    most: int,
-    only: int,
-    prefix: Ints,
+    ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, n: int, wanted: Wanted, prefix: Ints
 ) -> int:
     """Return the number of placements on joints with given symmetries.
 
@@ -82,17 +83,18 @@ def count_in(
         Joints, first parallel ones, and permutations of the joints: `enumerate.contracted.binary_links`.
     sets, needs
         As `enumerate.contracted.binary_links.rigid_sets` returns them.
-    n, links, most, only, prefix
+    n, prefix
         As for `count_of_graph`.
+    wanted : Wanted
     """
-    total = 0
+    total, links = 0, wanted.links
     nothing, nowhere = np.zeros((0, len(ends)), np.uint8), no_prefix()
     cost = np.ones(len(ends), np.int64)
     for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
-        if only in (-1, bound):
+        if wanted.only in (EVERY, bound):
             room, weight = conditions(ends, sets, needs, bound)
-            free = links - n - bound
-            total += place(room, weight, cost, first, bound, free, most, moved, prefix, nothing, nowhere)
+            units = Units(bound, links - n - bound, wanted.most)
+            total += place(room, weight, cost, first, units, moved, prefix, nothing, nowhere)
     return total
 
 
@@ -107,8 +109,8 @@ def count_fixed(
         cost, start, share, _ = _cycles(moved, first, weight)
         same = np.arange(len(cost)).astype(np.uint8).reshape(1, -1)
         nothing, nowhere = np.zeros((0, len(cost)), np.uint8), no_prefix()
-        free = links - n - bound
-        total += place(room, share, cost, start, bound, free, most, same, no_prefix(), nothing, nowhere)
+        units = Units(bound, links - n - bound, most)
+        total += place(room, share, cost, start, units, same, no_prefix(), nothing, nowhere)
     return total
 
 
@@ -160,20 +162,18 @@ def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: b
             simple &= first[e] == e
         for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
             room, weight = conditions(ends, sets, needs, bound)
-            free = links - n - bound
+            units = Units(bound, links - n - bound, most)
             for a in range(len(moved)):
                 cost, start, share, joint = _cycles(moved[a], first, weight)
                 nothing, nowhere = np.zeros((0, len(cost)), np.uint8), no_prefix()
-                count = place(
-                    room, share, cost, start, bound, free, most, moved[:1], no_prefix(), nothing, nowhere
-                )
+                count = place(room, share, cost, start, units, moved[:1], no_prefix(), nothing, nowhere)
                 if not inversions:
                     fixed += count
                 elif a == 0 and simple:
                     fixed += count * links
                 elif count:
                     x, swaps = np.zeros((count, len(cost)), np.uint8), np.zeros(count, np.int64)
-                    place(room, share, cost, start, bound, free, most, moved[:1], no_prefix(), x, swaps)
+                    place(room, share, cost, start, units, moved[:1], no_prefix(), x, swaps)
                     for i in range(count):
                         fixed += _fixed_links(x[i], joint, start, ends, first, moved[a], automorphisms[a])
         total += fixed // len(moved)

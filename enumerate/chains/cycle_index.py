@@ -26,7 +26,7 @@ from math import factorial
 
 import numpy as np
 
-from enumerate.contracted.binary_links import conditions, place, rigid_sets
+from enumerate.contracted.binary_links import Units, conditions, place, rigid_sets
 from enumerate.contracted.graphs import contracted_graphs, decode
 from enumerate.contracted.listing import frame_of
 from graphs.arrays import Bytes, Ints
@@ -156,7 +156,8 @@ def _placements(ends: Bytes, sets: Ints, needs: Ints, joints: list[list[int]], u
         shares = np.array([weight[cycle].sum(axis=0) for cycle in joints], np.uint64).reshape(
             len(joints), len(room)
         )
-        problem = room, shares, cost, alone, bound, units - bound, units, identity, np.zeros(0, np.int64)
+        left = Units(bound, units - bound, units)
+        problem = room, shares, cost, alone, left, identity, np.zeros(0, np.int64)
         count = place(*problem, np.zeros((0, len(cost)), np.uint8), np.zeros(0, np.int64))
         if count:
             x = np.zeros((count, len(cost)), np.uint8)

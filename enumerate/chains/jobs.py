@@ -15,6 +15,7 @@ from enumerate.chains.cycle_index import count_connected
 from enumerate.chains.fractionated import Block, block_choices, glued, shapes
 from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
+from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
@@ -125,7 +126,7 @@ class ChainJob:
         query = self.query
         start = weight = 0
         for i, code in zip(range(len(codes)), codes, strict=True):
-            count = count_of_graph(code, n, query.links, query.most, -1, np.zeros(0, np.int64))
+            count = count_of_graph(code, n, query.links, query.most, EVERY, np.zeros(0, np.int64))
             if weight and weight + count > _ROWS:
                 yield Unit(_Graphs(n, codes[start:i]), weight)
                 start, weight = i, 0
@@ -168,7 +169,7 @@ class ChainJob:
         if isinstance(payload, _Graphs):
             rows = []
             for code in payload.codes:
-                chains = GraphChains.of(query, code, payload.n, -1, np.zeros(0, np.int64))
+                chains = GraphChains.of(query, code, payload.n, EVERY, np.zeros(0, np.int64))
                 rows += rows_of_graph(query, chains, self.bare)
             return rows
         if isinstance(payload, _Ring):
@@ -248,7 +249,7 @@ class _RowCountJob(Counting):
             return [(len(self.rows.work(payload)),)]
         codes = payload.codes if isinstance(payload, _Graphs) else payload.code[None]
         only, prefix = (
-            (-1, np.zeros(0, np.int64)) if isinstance(payload, _Graphs) else (payload.only, payload.prefix)
+            (EVERY, np.zeros(0, np.int64)) if isinstance(payload, _Graphs) else (payload.only, payload.prefix)
         )
         total = 0
         for code in codes:

@@ -18,17 +18,67 @@ lexicographically largest. Theory: docs/theory/chains.md.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.arrays import Bytes, Ints, Words
 
-__all__ = ["conditions", "no_prefix", "permutations", "place", "rigid_sets", "slots"]
+__all__ = ["EVERY", "Units", "Wanted", "conditions", "no_prefix", "permutations", "place", "rigid_sets", "slots"]
 
 _GUARD = np.uint64(0x8080808080808080)
 _ONES = np.uint64(0x0101010101010101)
 _LOW = np.uint64(0x7F7F7F7F7F7F7F7F)
 _BYTE = np.uint64(0xFF)
+
+
+class Units(NamedTuple):
+    """The binary links that are left to place.
+
+    Attributes
+    ----------
+    bound : int
+        W, the first and second units on slots: those that the conditions count.
+    free : int
+        Units beyond the second on a slot.
+    most : int
+        No slot may hold more.
+    """
+
+    bound: int
+    free: int
+    most: int
+
+
+class _Range(NamedTuple):
+    """The slots among which the next unit is put: from v on, before stop; depth units are placed already."""
+
+    depth: int
+    v: int
+    stop: int
+
+
+class Wanted(NamedTuple):
+    """Which placements are asked for.
+
+    Attributes
+    ----------
+    links : int
+        Number of links N of the chains.
+    most : int
+        The longest string of binary links to allow.
+    only : int
+        Placements with this number W of bound units only; `EVERY` for all.
+    """
+
+    links: int
+    most: int
+    only: int
+
+
+EVERY = -1
+"""No choice of bound units: placements with any number of them."""
 
 
 @compiled
@@ -207,9 +257,7 @@ def place(
     weight: Words,
     cost: Ints,
     first: Ints,
-    bound: int,
-    free: int,
-    most: int,
+    units: Units,
     symmetries: Bytes,
     prefix: Ints,
     out: Bytes,
@@ -223,10 +271,8 @@ def place(
         The conditions; ``weight`` of one unit on each slot.
     cost, first : int64[m], int64[m]
         Units that one unit on a slot stands for; the first slot of its group, whose values must not rise.
-    bound, free : int
-        W, and the number of units beyond the second on a slot.
-    most : int
-        No slot may hold more.
+    units : Units
+        How many there are to place.
     symmetries : uint8[a, m]
         Permutations of the slots, the identity first; a placement is kept if none of them makes it larger. With
         one alone every placement is kept.
@@ -243,6 +289,7 @@ def place(
         The number of placements. Where it is more than r > 0, only the first r are written.
     """
     m = len(cost)
+    bound, free, most = units.bound, units.free, units.most
     inside = _inside(weight, cost, bound)
     left = np.zeros((bound + free + 2, len(room)), np.uint64)
     for k in range(len(room)):
@@ -260,7 +307,7 @@ def place(
         elif quick and bound == 1:
             found += _count_last(left[depth], weight, cost, first, x, start, most)
             stop = 0
-        v = _next(left, depth, inside, weight, cost, first, x, v, stop, most, bound, free)
+        v = _next(left, inside, weight, cost, first, x, _Range(depth, v, stop), Units(bound, free, most))
         if v < stop:
             free -= cost[v] * (x[v] >= 2)
             bound -= cost[v] * (x[v] < 2)
@@ -285,21 +332,12 @@ def place(
 
 @compiled
 def _next(
-    left: Words,
-    depth: int,
-    inside: Words,
-    weight: Words,
-    cost: Ints,
-    first: Ints,
-    x: Ints,
-    v: int,
-    stop: int,
-    most: int,
-    bound: int,
-    free: int,
+    left: Words, inside: Words, weight: Words, cost: Ints, first: Ints, x: Ints, among: _Range, units: Units
 ) -> int:
     """Return the first slot from v on that can take the next unit, ``stop`` if none can; write what it leaves."""
     words = left.shape[1]
+    depth, v, stop = among.depth, among.v, among.stop
+    bound, free, most = units.bound, units.free, units.most
     due = np.uint64(bound) * _ONES
     while v < stop:
         broken = np.uint64(0)

@@ -8,7 +8,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from enumerate.contracted.binary_links import conditions, no_prefix, permutations, place, rigid_sets, slots
+from enumerate.contracted.binary_links import (
+    EVERY,
+    Units,
+    Wanted,
+    conditions,
+    no_prefix,
+    permutations,
+    place,
+    rigid_sets,
+    slots,
+)
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
@@ -53,41 +63,33 @@ def placements_of(code: Bytes, n: int, links: int, most: int, only: int, prefix:
     """
     ends, first, moved, _ = frame_of(code, n)
     sets, needs = rigid_sets(decode(code, n), n)
-    return list_placements(ends, first, moved, sets, needs, n, links, most, only, prefix)
+    return list_placements(ends, first, moved, sets, needs, n, Wanted(links, most, only), prefix)
 
 
 @compiled
 def list_placements(
-    ends: Bytes,
-    first: Ints,
-    moved: Bytes,
-    sets: Ints,
-    needs: Ints,
-    n: int,
-    links: int,
-    most: int,
-    only: int,
-    prefix: Ints,
+    ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, n: int, wanted: Wanted, prefix: Ints
 ) -> tuple[Bytes, Ints]:
     """List the placements on joints with given symmetries, as `placements_of` does for a graph."""
     m = len(ends)
     cost = np.ones(m, np.int64)
+    links = wanted.links
     least, last = max(needs[-1], 0), min(links - n, 2 * m)
     x, order = np.zeros((0, m), np.uint8), no_prefix()
     used = 0
     for bound in range(least, last + 1):
-        if only not in (-1, bound):
+        if wanted.only not in (EVERY, bound):
             continue
         room, weight = conditions(ends, sets, needs, bound)
-        free = links - n - bound
-        count = place(room, weight, cost, first, bound, free, most, moved, prefix, x[:0], order[:0])
+        units = Units(bound, links - n - bound, wanted.most)
+        count = place(room, weight, cost, first, units, moved, prefix, x[:0], order[:0])
         more, fixing = np.zeros((used + count, m), np.uint8), np.zeros(used + count, np.int64)
         for i in range(used):
             fixing[i] = order[i]
             for e in range(m):
                 more[i, e] = x[i, e]
         if count:
-            place(room, weight, cost, first, bound, free, most, moved, prefix, more[used:], fixing[used:])
+            place(room, weight, cost, first, units, moved, prefix, more[used:], fixing[used:])
         x, order, used = more, fixing, used + count
     for i in range(used):
         order[i] *= _parallel_swaps(first, x[i])

@@ -19,6 +19,8 @@ least over all allowed roots and both senses, and the roots that give it are the
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
@@ -28,6 +30,14 @@ __all__ = ["END", "JOINT", "OPEN", "canonical_map", "decode_map", "faces_of", "f
 
 OPEN, END, JOINT = 0, 1, 2
 """Symbols of a code: an open edge, the end of a link; joint k is ``JOINT + k``."""
+
+
+class _Reading(NamedTuple):
+    """How a map is read: counter-clockwise (0) or clockwise, from which dart; length of the least code so far."""
+
+    side: int
+    root: int
+    length: int
 
 
 @compiled
@@ -99,26 +109,22 @@ def _read(
     open_edges: Ints,
     face: Ints,
     labels: Ints,
-    side: int,
-    root: int,
+    reading: _Reading,
     best: Bytes,
-    length: int,
     code: Bytes,
-    order: Ints,
     work: Ints,
 ) -> tuple[int, int]:
     """Write the code of a map from a root; stop where it is seen to be greater than the best.
 
     Parameters
     ----------
-    side : int
-        0 to read counter-clockwise, 1 clockwise.
-    best, length : uint8[:], int
-        The least code so far, and its length; 0 where there is none.
-    code, order : uint8[:], int64[D]
-        Where to write the code and the darts in the order in which they were read.
-    work : int64[4, >= D]
-        Work space.
+    reading : _Reading
+    best : uint8[:]
+        The least code so far.
+    code : uint8[:]
+        Where to write the code.
+    work : int64[5, >= D]
+        Work space; the last row gets the darts in the order in which they were read.
 
     Returns
     -------
@@ -127,8 +133,9 @@ def _read(
     size : int
         Length of the code.
     """
-    verdict = -1 if length == 0 else 0
-    joint, link, start = work[0], work[1], work[2]
+    side, root = reading.side, reading.root
+    verdict = -1 if reading.length == 0 else 0
+    joint, link, start, order = work[0], work[1], work[2], work[4]
     for k in range(work.shape[1]):
         joint[k] = link[k] = -1
     start[0], link[vertex[root]] = root, 0
@@ -162,7 +169,7 @@ def _read(
             return verdict, size
         size += 1
         at += 1
-    return _read_labels(turn, face, labels, side, best, code, order, work[3], verdict, size)
+    return _read_labels(turn, face, labels, side, best, code, work, verdict, size)
 
 
 @compiled
@@ -181,16 +188,17 @@ def _read_labels(
     side: int,
     best: Bytes,
     code: Bytes,
-    order: Ints,
-    seen: Ints,
+    work: Ints,
     verdict: int,
     size: int,
 ) -> tuple[int, int]:
     """Write the labels of the faces after a code, in the order in which it met them."""
     if len(labels):
+        seen, order = work[3], work[4]
         for f in range(len(labels)):
             seen[f] = 0
-        for d in order:
+        for i in range(len(face)):
+            d = order[i]
             f = face[d if side == 0 else turn[1, d]]
             if not seen[f]:
                 seen[f] = 1
@@ -239,23 +247,21 @@ def canonical_map(
     best, code = np.zeros(size, np.uint8), np.zeros(size, np.uint8)
     orders = np.zeros((4, darts), np.int64)
     sides = np.zeros(2 * darts, np.int64)
-    order = np.zeros(darts, np.int64)
-    work = np.zeros((4, max(darts, len(labels)) + 1), np.int64)
+    work = np.zeros((5, max(darts, len(labels)) + 1), np.int64)
     found = length = 0
     for side in range(2):
         for root in range(darts):
             if key[side, root] != lowest:
                 continue
-            verdict, size = _read(
-                turn, vertex, open_edges, face, labels, side, root, best, length, code, order, work
-            )
+            reading = _Reading(side, root, length)
+            verdict, size = _read(turn, vertex, open_edges, face, labels, reading, best, code, work)
             if verdict > 0:
                 continue
             if verdict < 0:
                 best, code, length, found = code, best, size, 0
             orders = doubled(orders) if found == len(orders) else orders
             for i in range(darts):
-                orders[found, i] = order[i]
+                orders[found, i] = work[4, i]
             sides[found] = side
             found += 1
     return best[:length].copy(), orders[:found], sides[:found]

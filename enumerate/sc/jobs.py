@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.embedded import outer_faces
 from enumerate.contracted.maps import contracted_maps
 from enumerate.kernel.maps import decode_map
@@ -39,7 +40,7 @@ class MapPart:
     code: Bytes
     n: int
     outer: int
-    only: int = -1
+    only: int = EVERY
     prefix: Ints = field(default_factory=lambda: _NOWHERE)
 
 
@@ -101,7 +102,7 @@ def _split(query: SCQuery, part: MapPart, size: int) -> Iterator[tuple[MapPart, 
     if count <= 2 * size:
         if count:
             yield part, count
-    elif part.only < 0:
+    elif part.only == EVERY:
         for only in range(query.links - part.n + 1):
             yield from _split(query, MapPart(part.code, part.n, part.outer, only), size)
     elif len(part.prefix) >= query.links - part.n:

@@ -5,9 +5,12 @@ Theory: docs/theory/sc-enumeration.md.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from enumerate.chains.counting import count_fixed, count_in
+from enumerate.contracted.binary_links import EVERY, Wanted
 from enumerate.contracted.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
 from enumerate.contracted.listing import list_placements
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
@@ -27,6 +30,24 @@ __all__ = [
 ]
 
 
+class Centres(NamedTuple):
+    """Which centres the loops of a mechanism may have.
+
+    Attributes
+    ----------
+    dof : int
+        The rank of a mechanism with spatial loops must say so, and every joint of it must move.
+    spatial : int
+        How many loops have none.
+    infinite : bool
+        Whether centres may be at infinity.
+    """
+
+    dof: int
+    spatial: int
+    infinite: bool
+
+
 @compiled
 def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int, prefix: Ints) -> int:
     """Return the number of drawn chains of a contracted map with one outer face that begin in one way.
@@ -42,7 +63,7 @@ def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int,
     """
     ends, moved, _ = outer_frame(code, outer)
     sets, needs = sets_of(code, n)
-    return count_in(ends, np.arange(len(ends)), moved, sets, needs, n, links, most, only, prefix)
+    return count_in(ends, np.arange(len(ends)), moved, sets, needs, n, Wanted(links, most, only), prefix)
 
 
 @compiled
@@ -62,7 +83,7 @@ def count_drawn(codes: Bytes, n: int, links: int, most: int, outside: bool) -> i
         for k in range(len(faces)):
             ends, moved, _ = outer_frame(codes[c], faces[k])
             first = np.arange(len(ends))
-            total += count_in(ends, first, moved, sets, needs, n, links, most, -1, nowhere)
+            total += count_in(ends, first, moved, sets, needs, n, Wanted(links, most, EVERY), nowhere)
     return total
 
 
@@ -94,27 +115,16 @@ def _drawing(code: Bytes, n: int, x: Bytes, links: int) -> tuple[Ints, Ints, Int
 
 @compiled
 def list_drawn(
-    code: Bytes,
-    n: int,
-    outer: int,
-    links: int,
-    most: int,
-    only: int,
-    prefix: Ints,
-    dof: int,
-    spatial: int,
-    infinite: bool,
+    code: Bytes, n: int, outer: int, wanted: Wanted, prefix: Ints, centres: Centres
 ) -> tuple[Bytes, Ints, Ints]:
     """List the SC graphs of a contracted map with one outer face.
 
     Parameters
     ----------
-    code, n, outer, links, most, only, prefix
+    code, n, outer, prefix
         As for `weight_of`; an empty code is a ring.
-    dof : int
-        The rank of a mechanism with spatial loops must say so, and every joint of it must move.
-    spatial, infinite
-        As for `enumerate.kernel.centre_labels.labellings`.
+    wanted : Wanted
+    centres : Centres
 
     Returns
     -------
@@ -128,34 +138,26 @@ def list_drawn(
     if len(code):
         ends, moved, faces = outer_frame(code, outer)
         sets, needs = sets_of(code, n)
-        x, order = list_placements(ends, np.arange(len(ends)), moved, sets, needs, n, links, most, only, prefix)
+        x, order = list_placements(ends, np.arange(len(ends)), moved, sets, needs, n, wanted, prefix)
     else:
+        links = wanted.links
         x, order = np.zeros((1, 0), np.uint8), np.full(1, 2 * links)
         moved = np.zeros((2 * links, 0), np.uint8)
         faces = np.zeros((2 * links, 2), np.int64)
         for a in range(2 * links):
             faces[a, 1] = 1
     count = faces.shape[1]
-    if spatial == 0 and not infinite:
+    if centres.spatial == 0 and not centres.infinite:
         labels = np.full((len(x), count), FINITE, np.int64)
         for r in range(len(x)):
             labels[r, outer] = OUTER
         return x, labels, order
-    return _labelled(code, n, outer, links, x, moved, faces, dof, spatial, infinite)
+    return _labelled(code, n, outer, wanted.links, x, moved, faces, centres)
 
 
 @compiled
 def _labelled(
-    code: Bytes,
-    n: int,
-    outer: int,
-    links: int,
-    x: Bytes,
-    moved: Bytes,
-    faces: Ints,
-    dof: int,
-    spatial: int,
-    infinite: bool,
+    code: Bytes, n: int, outer: int, links: int, x: Bytes, moved: Bytes, faces: Ints, centres: Centres
 ) -> tuple[Bytes, Ints, Ints]:
     """Return drawn chains with all labels of their faces that make mechanisms."""
     count = faces.shape[1]
@@ -173,9 +175,9 @@ def _labelled(
             kept[a] = True
             for e in range(x.shape[1]):
                 kept[a] &= x[r, moved[a, e]] == x[r, e]
-        labels, order = labellings(around, outer, spatial, infinite, faces[kept])
+        labels, order = labellings(around, outer, centres.spatial, centres.infinite, faces[kept])
         for k in range(len(labels)):
-            if not is_mechanism(face, labels[k], around, dof):
+            if not is_mechanism(face, labels[k], around, centres.dof):
                 continue
             size = len(more_x)
             if used == size:

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from enumerate.chains.rows import assortment_of, chain_ids
+from enumerate.contracted.binary_links import Wanted
 from enumerate.kernel.map_texts import map_ids
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
 from enumerate.runner.limits import ANY_NUMBER
-from enumerate.sc.listing import centres_of_all, describe, list_drawn
+from enumerate.sc.listing import Centres, centres_of_all, describe, list_drawn
 from enumerate.sc.query import SCQuery
 from graphs.arrays import Bytes, Ints
 
@@ -64,9 +65,8 @@ class DrawnChains:
     def of(cls, query: SCQuery, code: Bytes, n: int, outer: int, only: int, prefix: Ints) -> DrawnChains:
         """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
         most = query.chains.most
-        x, labels, order = list_drawn(
-            code, n, outer, query.links, most, only, prefix, query.dof, query.spatial, query.infinite
-        )
+        wanted, centres = Wanted(query.links, most, only), Centres(query.dof, query.spatial, query.infinite)
+        x, labels, order = list_drawn(code, n, outer, wanted, prefix, centres)
         kept = query.symmetry.admitted(order)
         if len(code) and query.longest_string.least > 0:
             kept &= x.max(axis=1, initial=0) >= query.longest_string.least

@@ -10,6 +10,8 @@ docs/theory/scd-enumeration.md.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from enumerate.contracted.embedded import code_of
@@ -33,6 +35,18 @@ __all__ = ["SCD_FACTS", "list_placements_of", "sides_of_all"]
 
 SCD_FACTS = ("open_edges", "vertices", "explicit", "implicit", "symmetry", "exact_dof")
 """Columns of the facts of `list_placements_of`."""
+
+
+class _Choice(NamedTuple):
+    """A drawn mechanism with a pattern and explicit faces chosen: what its corners may hold."""
+
+    turn: Ints
+    vertex: Ints
+    face: Ints
+    kinds: Ints
+    states: Bytes
+    symmetries: Ints
+    most: int
 
 
 @compiled
@@ -84,9 +98,8 @@ def list_placements_of(
             if mobility == -2:
                 mobility = forced_mobility(turn, face, kinds, number, allowed[p])
             if mobility == dof:
-                codes, facts, used = _list_choice(
-                    turn, vertex, face, kinds, states, symmetries, most, begin, end, symmetric, codes, facts, used
-                )
+                choice = _Choice(turn, vertex, face, kinds, states, symmetries, most)
+                codes, facts, used = _list_choice(choice, begin, end, symmetric, codes, facts, used)
     for r in range(used):
         facts[r, 5] = dof
     return codes[:used], facts[:used, 6].copy(), facts[:used, :6].copy()
@@ -94,21 +107,10 @@ def list_placements_of(
 
 @compiled
 def _list_choice(
-    turn: Ints,
-    vertex: Ints,
-    face: Ints,
-    kinds: Ints,
-    states: Bytes,
-    symmetries: Ints,
-    most: int,
-    begin: int,
-    end: int,
-    symmetric: bool,
-    codes: Bytes,
-    facts: Ints,
-    used: int,
+    choice: _Choice, begin: int, end: int, symmetric: bool, codes: Bytes, facts: Ints, used: int
 ) -> tuple[Bytes, Ints, int]:
-    """Write the placements of one choice of pattern and explicit faces with numbers from begin to end."""
+    """Write the placements of one choice with numbers from begin to end."""
+    turn, vertex, face, kinds, states, symmetries, most = choice
     rows, offset = _tables(vertex, states, most)
     digit = _digits(offset, begin)
     place = _places(vertex, states, len(digit))
