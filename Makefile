@@ -40,7 +40,13 @@ demo: $(STAMP)
 	@$(BIN)/python -m synth.cli.ahead || true
 	@BIN=$(BIN) sh data/demo.sh
 
-test: $(STAMP)
+# Compiled once before the tests, so that two of them do not compile the same function side by side.
+COMPILED := $(VENV)/.compiled
+$(COMPILED): $(STAMP) $(shell find enumerate synth/conformed -name '*.py')
+	$(BIN)/python -m synth.cli.ahead
+	@touch $@
+
+test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest $(PARALLEL) -m "not slow"
 
 test-slow: $(STAMP)

@@ -65,7 +65,7 @@ def test_rows_at_angles_and_with_opposites_are_drawn_in_as_many_layers_as_they_s
 def test_the_picture_has_the_layers_of_its_title():
     pytest.importorskip("matplotlib")
     job = CandidateJob(WATT, (WATT_BINARY,))
-    for row in rows_of_units(job, 1)[::32]:
+    for row in rows_of_units(job, 1)[::64]:
         figure = picture_of_row(job, row)
         radii = {
             round(float(np.hypot(*line.get_data())[0]), 6)

@@ -131,7 +131,7 @@ def test_circuits_branches_and_order_are_those_of_the_linkage():
     assert len(told) >= 5
 
 
-@pytest.mark.parametrize("wanted", [12, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("wanted", [6, pytest.param(30, marks=pytest.mark.slow)])
 def test_a_driver_of_a_usable_four_bar_is_in_order_by_the_hoop(wanted):
     """The hoop's verdict is necessary; for a driver that does not turn fully it is not sufficient."""
     rng = np.random.default_rng(52)

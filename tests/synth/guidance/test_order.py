@@ -56,7 +56,7 @@ def test_hoop_angles_are_half_sums_of_crank_angles(n):
                 assert abs(np.sin(crossing.angle - due)) < 1e-6
 
 
-@pytest.mark.parametrize("cases", [100, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [50, pytest.param(300, marks=pytest.mark.slow)])
 def test_geometric_and_analytic_form_cross_alike(cases):
     rng = np.random.default_rng(11)
     for _ in range(cases):

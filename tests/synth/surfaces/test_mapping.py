@@ -278,7 +278,7 @@ def test_why_there_is_no_cone():
     assert "no loop sum" in map_to_cones(np.radians([144.3, 103.8, 36.7, 172.3, 53.4])).why
 
 
-@pytest.mark.parametrize("count", [100, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [40, pytest.param(300, marks=pytest.mark.slow)])
 def test_supplementary_linkage_is_offered_where_t4_is_below_zero(count, rng):
     offered = 0
     for angles in random_link_angles(rng, count):
