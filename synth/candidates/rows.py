@@ -39,7 +39,12 @@ _ALLOWED = {
     Allowed.ANGLES: "by angles",
     Allowed.UNKNOWN: "not known",
 }
-_WORD_OF_A_LINK = {Allowed.BOTH: "both", Allowed.ONE: "one", Allowed.ANGLES: "angles", Allowed.UNKNOWN: "known"}
+_WORD_OF_A_LINK = {
+    Allowed.BOTH: "both",
+    Allowed.ONE: "one",
+    Allowed.ANGLES: "angles",
+    Allowed.UNKNOWN: "not known",
+}
 
 _WORDS = ListColumn(" ", kind=str)
 _NUMBERS = ListColumn(" ")
