@@ -26,7 +26,7 @@ def run(suffix: str, number: int, seed: int, data: Path) -> tuple[int, int]:
 
 @pytest.mark.parametrize("suffix", sorted(READERS))
 def test_mutated_files(suffix, data):
-    answered, refused = run(suffix, 80, 1, data)
+    answered, refused = run(suffix, 50, 1, data)
     assert answered > 0
     assert refused > 0
 

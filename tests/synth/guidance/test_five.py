@@ -78,11 +78,12 @@ def test_as_many_as_where_two_curves_cross(cases):
             assert min(lines_apart(dyad.fixed, axis) for axis in crossings) < 0.01
 
 
-def test_least_squares_find_no_other():
+@pytest.mark.parametrize("cases", [10, pytest.param(30, marks=pytest.mark.slow)])
+def test_least_squares_find_no_other(cases):
     """A third method: every perfect fit is among the six, and nearly all of the six are found by it."""
     rng = np.random.default_rng(25)
     missed = 0
-    for _ in range(30):
+    for _ in range(cases):
         given = random_orientations(5, rng)
         found = dyads_of_five(given).dyads
         fitted = [dyad for dyad in dyads_by_least_squares(given) if dyad.misfit < 1e-8]

@@ -212,7 +212,7 @@ def test_a_sum_that_touches_a_multiple_of_360_degrees(over, count, loops):
         assert (found.double[mine][near] == (over == 0.0)).all()
 
 
-@pytest.mark.parametrize("links", [4, 5, 6, 7])
+@pytest.mark.parametrize("links", [4, 5, 6, pytest.param(7, marks=pytest.mark.slow)])
 def test_coordinates_find_the_circles_of_loop_sums(links, rng):
     for angles in random_link_angles(rng, 25, links):
         chord = 2 * np.sin(angles / 2)
