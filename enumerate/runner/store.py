@@ -104,15 +104,10 @@ class SqliteSink:
     @contextmanager
     def _transaction(self) -> Iterator[sqlite3.Cursor]:
         assert self._connection is not None
-        cursor = self._connection.cursor()
-        cursor.execute("BEGIN IMMEDIATE")
-        try:
+        with self._connection:  # commits at the end, or takes back what was written, whatever is raised
+            cursor = self._connection.cursor()
+            cursor.execute("BEGIN IMMEDIATE")
             yield cursor
-        except BaseException:
-            if self._connection.in_transaction:  # a full disk ends it by itself
-                cursor.execute("ROLLBACK")
-            raise
-        cursor.execute("COMMIT")
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Store a unit and its rows in one transaction.

@@ -1,6 +1,6 @@
 """One path from a file to a mechanism and back: formats by extension.
 
-To add a format, write a reader or a writer and enter it in ``READERS`` or ``WRITERS`` (CONTRIBUTING.md).
+To add a format, write a reader or a writer and enter it in ``READERS`` or ``WRITERS`` (docs/architecture.md).
 """
 
 from __future__ import annotations

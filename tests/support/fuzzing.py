@@ -8,6 +8,8 @@ import resource
 import signal
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from graphs.convert.duality import mechanism_of_sheet
@@ -90,6 +92,19 @@ def answer(path: Path) -> str | None:
     return None
 
 
+@contextmanager
+def told_on_failure(words: str) -> Iterator[None]:
+    """Stop the clock, and say on stderr what was tried unless it came to its end."""
+    done = False
+    try:
+        yield
+        done = True
+    finally:
+        signal.alarm(0)
+        if not done:
+            sys.stderr.write(words + "\n")
+
+
 def fuzz(suffix: str, number: int, seed: int, data: Path) -> tuple[int, int]:
     """Try so many mutated files of a format; return how many were answered and refused.
 
@@ -109,14 +124,9 @@ def fuzz(suffix: str, number: int, seed: int, data: Path) -> tuple[int, int]:
         for i in range(number):
             raw = mutated(rng.choice(files), rng)
             path.write_bytes(raw)
-            signal.alarm(SECONDS)
-            try:
+            with told_on_failure(f"file {i} of {suffix}, seed {seed}: {raw[:2000]!r}"):
+                signal.alarm(SECONDS)
                 line = answer(path)
-            except Exception:
-                sys.stderr.write(f"file {i} of {suffix}, seed {seed}: {raw[:2000]!r}\n")
-                raise
-            finally:
-                signal.alarm(0)
             answered += line is None
             refused += line is not None
             assert line is None or ("\n" not in line and len(line) < 1000), line
