@@ -9,7 +9,7 @@ from memberships import memberships
 from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 
 from graphs.files.atomic import write_text
-from graphs.files.native.conical import write_conical
+from graphs.files.formats import write
 from graphs.files.text import json_text
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
@@ -30,7 +30,7 @@ def write_surfaces(folder: Path) -> None:
     """Write the linkage with the first membership, and the list of all."""
     folder.mkdir(exist_ok=True)
     linkages = fig_11()
-    write_conical(linkages[0], folder / "fig11-stephenson.json")
+    write(linkages[0], folder / "fig11-stephenson.json")
     rows = [["".join(loop.joints) for loop in linkage.chain.loops] for linkage in linkages]
     document = {
         "source": "Hyatt et al. 2020, Fig. 11",

@@ -16,7 +16,7 @@ from typing import Any
 from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
 from enumerate.conical.symmetries import joint_symmetries
 from enumerate.runner.job import Counting, Row, Unit
-from enumerate.runner.running import rows_of, total_of
+from enumerate.runner.running import total_of, tuples_of
 from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId, LinkId
@@ -149,8 +149,7 @@ def conical_orders(query: ConicalQuery, *, workers: int = 1) -> Iterator[tuple[L
     >>> [row for _, row in conical_orders(ConicalQuery(four_bar))]
     [(0, 1, 2, 3), (0, 1, 3, 2)]
     """
-    for row in rows_of(_OrderJob(query), workers=workers):
-        yield row["ground"], tuple(row["slots"])
+    yield from tuples_of(_OrderJob(query), workers=workers)
 
 
 def count_conical_orders(query: ConicalQuery, method: str = "burnside", *, workers: int = 1) -> int:

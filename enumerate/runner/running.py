@@ -24,7 +24,7 @@ from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Job, Progress, Row, Sink, Unit
 from graphs.errors import StoreError
 
-__all__ = ["Interrupted", "rows_of", "run", "total_of"]
+__all__ = ["Interrupted", "rows_of", "run", "total_of", "tuples_of"]
 
 _AHEAD = 4
 """Units in the air for each worker."""
@@ -108,16 +108,17 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
         If workers die again and again.
     """
     columns = job.columns
-    for row in _rows(job, workers):
+    for row in tuples_of(job, workers=workers):
         yield row_as_dict(columns, row)
 
 
 def total_of(job: Job, *, workers: int = 1) -> int:
     """Return the sum of the first values of all rows: what a `Counting` job counts. Arguments: `rows_of`."""
-    return sum(row[0] for row in _rows(job, workers))
+    return sum(row[0] for row in tuples_of(job, workers=workers))
 
 
-def _rows(job: Job, workers: int) -> Iterator[Row]:
+def tuples_of(job: Job, *, workers: int = 1) -> Iterator[Row]:
+    """Yield the rows of a job as they are, in order. Arguments: `rows_of`."""
     with closing(_results(job, job.units(), 0, workers, None, lambda: None)) as results:
         for _, rows, _ in results:
             yield from rows

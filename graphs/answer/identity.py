@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 import networkx as nx
 
-from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.table import Mechanism, to_sc, to_scd
+from graphs.convert.table import Mechanism, graph_of, to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
 
 __all__ = ["Identity", "identify"]
@@ -77,7 +77,7 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
     >>> identify(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])).drawing
     'm1:a-b.ac-.b-d.cd-'
     """
-    chain, no_chain = _id_or_reason(lambda: chain_id(_graph_of(mechanism)))
+    chain, no_chain = _id_or_reason(lambda: chain_id(graph_of(mechanism)))
     drawing, no_drawing = _id_or_reason(lambda: map_id(_drawn(mechanism)))
     notes = [f"no id of the chain: {no_chain}"] * (chain is None)
     notes += [f"no id of the drawing: {no_drawing}"] * (drawing is None)
@@ -91,20 +91,11 @@ def _id_or_reason(find: Callable[[], str]) -> tuple[str | None, str]:
         return None, str(error)
 
 
-def _graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
-    if isinstance(mechanism, SCGraph):
-        return mechanism
-    return sc_from_link_joint_graph(mechanism) if _is_bare(mechanism) else to_sc(mechanism)
-
-
-def _is_bare(mechanism: object) -> bool:
-    return type(mechanism) in (nx.Graph, nx.MultiGraph)
-
-
 def _drawn(mechanism: Mechanism | nx.Graph) -> SCGraph:
     """Return the mechanism with all that its drawing tells."""
-    if _is_bare(mechanism) or (isinstance(mechanism, SCGraph) and mechanism.centres_assumed):
+    if isinstance(mechanism, Sheet | PolyhedronModel):
+        return to_scd(mechanism)
+    graph = graph_of(mechanism)
+    if graph.centres_assumed:
         raise UnsolvableError("a link-joint graph has no drawing and no centres")
-    if isinstance(mechanism, SCGraph):
-        return mechanism
-    return mechanism.chain if isinstance(mechanism, ConicalLinkage) else to_scd(mechanism)
+    return graph

@@ -13,13 +13,11 @@ import networkx as nx
 from graphs.answer.ranks import model_with_exact, with_exact, with_pose
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.table import Mechanism, to_sc
+from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.pose import pose_mobility_of_axes
 
@@ -76,7 +74,7 @@ def mobility(
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
         return model_with_exact(answer, mechanism, demanded=demanded) if wanted else answer
-    sc = _graph_of(mechanism)
+    sc = graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
     if sc.centres_assumed:
         answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
@@ -85,12 +83,6 @@ def mobility(
     if wanted:
         answer = with_exact(answer, sc, demanded=demanded)
     return _conformed(answer, mechanism) if isinstance(mechanism, ConicalLinkage) else answer
-
-
-def _graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
-    if isinstance(mechanism, SCGraph):
-        return mechanism
-    return sc_from_link_joint_graph(mechanism) if isinstance(mechanism, nx.Graph) else to_sc(mechanism)
 
 
 def _conformed(answer: MobilityAnswer, linkage: ConicalLinkage) -> MobilityAnswer:

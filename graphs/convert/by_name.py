@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from graphs.convert.table import CONVERSIONS, Mechanism, to_sc
+from graphs.convert.table import CONVERSIONS, Mechanism, graph_of
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.errors import InvariantError, shown
-from graphs.mechanism.sc import SCGraph
 
 __all__ = ["FORMS", "convert"]
 
@@ -46,4 +45,4 @@ def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None =
         mechanism = CONVERSIONS[kind](mechanism)
     if form is None:
         return mechanism
-    return FORMS[form](mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism))
+    return FORMS[form](graph_of(mechanism))

@@ -10,7 +10,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 
+import networkx as nx
+
 from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import oriented_panels, scd_from_panels
 from graphs.convert.reconstruction import polyhedron_of
 from graphs.errors import UnsolvableError
@@ -21,7 +24,16 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, sheet_from_model, sides_of_face
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
 
-__all__ = ["CONVERSIONS", "Mechanism", "to_polyhedron", "to_sc", "to_scd", "to_sheet", "to_vertex_edge"]
+__all__ = [
+    "CONVERSIONS",
+    "Mechanism",
+    "graph_of",
+    "to_polyhedron",
+    "to_sc",
+    "to_scd",
+    "to_sheet",
+    "to_vertex_edge",
+]
 
 Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage
 """What a file may hold (an SCDGraph is an SCGraph)."""
@@ -50,6 +62,28 @@ def to_sc(thing: Mechanism) -> SCGraph:
     if isinstance(thing, ConicalLinkage):
         return thing.chain
     return to_scd(thing).sc_graph()
+
+
+def graph_of(thing: Mechanism | nx.Graph) -> SCGraph:
+    """Return the SC or SCD graph that something is, or the SC graph that it has.
+
+    A plain networkx graph is a link-joint graph: each face of a drawing of it is given a finite centre.
+
+    Raises
+    ------
+    UnsolvableError
+        As `to_sc`.
+
+    Examples
+    --------
+    >>> graph_of(nx.cycle_graph(4)), graph_of(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
+    (<SCGraph: 4 links, 4 joints, 1 centre>, <SCGraph: 2 links, 1 joint, 0 centres>)
+    """
+    if isinstance(thing, SCGraph):
+        return thing
+    if isinstance(thing, nx.Graph) and not isinstance(thing, PolyhedronModel):
+        return sc_from_link_joint_graph(thing)
+    return to_sc(thing)
 
 
 def to_scd(thing: Mechanism) -> SCDGraph:

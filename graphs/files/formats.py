@@ -32,7 +32,7 @@ from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["READERS", "WRITERS", "Entry", "is_id", "mechanism_of_id", "read", "read_all", "write"]
+__all__ = ["READERS", "WRITERS", "Entry", "is_id", "mechanism_of_id", "read", "read_all", "read_linkage", "write"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +92,31 @@ def read(path: str | Path) -> Mechanism:
     if len(entries) != 1:
         raise FileError(path, "", f"{len(entries)} mechanisms", "one")
     return entries[0].mechanism
+
+
+def read_linkage(path: str | Path) -> ConicalLinkage:
+    """Return the linkage of a file of a linkage on a cone.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read, or holds another mechanism, which has no angles.
+
+    Examples
+    --------
+    >>> read_linkage("k1:Cr")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: k1:Cr: a mechanism without angles; expected a linkage on a cone, 'synthedra/conical'
+    """
+    linkage = read(path)
+    if not isinstance(linkage, ConicalLinkage):
+        raise FileError(path, "", "a mechanism without angles", "a linkage on a cone, 'synthedra/conical'")
+    return linkage
 
 
 _IDS = ("k1:", "m1:")

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 
 from enumerate.conical.query import ConicalQuery, Portion
-from enumerate.runner.columns import Column, row_as_dict
+from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.running import rows_of
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.native.documents import dumps
@@ -221,7 +222,7 @@ class CandidateJob:
 
     def rows(self) -> list[dict[str, Any]]:
         """Return all rows as dictionaries, worked out in this process."""
-        return [row_as_dict(self.columns, row) for unit in self.units() for row in self.work(unit.payload)]
+        return list(rows_of(self))
 
     def places(self, row: Mapping[str, Any]) -> Floats:
         """Return the azimuths of the joints of a row, radians; of an order, evenly spaced, opposites too.

@@ -12,8 +12,7 @@ from memberships import memberships
 from enumerate.conical.query import Portion
 from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
-from graphs.files.formats import read
-from graphs.files.native.conical import read_conical
+from graphs.files.formats import read, read_linkage
 from synth.candidates.job import CandidateJob
 from synth.conformed.four_bar_poses import poses_from_conformed
 from synth.conformed.pose import dihedral_angles, joint_axes
@@ -271,7 +270,7 @@ def test_fig_11(golden):
     """000-8: azimuths, link angles of all pairs of axes, the step that closes; every membership of the loops."""
     entry = golden["000"]["fig11_stephenson2"]
     wanted = entry["computed"]
-    linkage = read_conical(DATA / "surfaces" / "fig11-stephenson.json")
+    linkage = read_linkage(DATA / "surfaces" / "fig11-stephenson.json")
     places = dict(zip(linkage.chain.joints, linkage.places(), strict=True))
     assert np.degrees(linkage.cone_angle) == pytest.approx(entry["inputs"]["lambda_deg"])
     assert {j: float(np.degrees(t)) for j, t in places.items()} == pytest.approx(wanted["azimuths"])
@@ -300,7 +299,7 @@ def test_fig_11(golden):
 def test_fig_11_is_a_stephenson_candidate(golden):
     """The seven axes in their cyclic order are among the 102, whatever the loops; the link angles agree."""
     wanted = golden["000"]["fig11_stephenson2"]["computed"]
-    linkage = read_conical(DATA / "surfaces" / "fig11-stephenson.json")
+    linkage = read_linkage(DATA / "surfaces" / "fig11-stephenson.json")
     lam, places = linkage.cone_angle, np.radians(list(wanted["azimuths"].values()))
     assert list(wanted["azimuths"]) == list("OABCDEF")
     order = np.remainder(places, 2 * np.pi).argsort().argsort()

@@ -12,51 +12,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import degrees, radians
-from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, shown
-from graphs.files.atomic import write_text
 from graphs.files.check import Checker
 from graphs.files.native.graphs import read_sc, sc_document
-from graphs.files.native.names import VERSION, written
-from graphs.files.text import json_text, load_json
+from graphs.files.native.names import written
 from graphs.ids import JointId
 from graphs.mechanism.conical import ConicalLinkage, Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["conical_document", "conical_from_document", "read_conical", "write_conical"]
+__all__ = ["conical_document", "conical_from_document"]
 
 _FORMAT = "synthedra/conical"
 _KEYS = ("format", "version", "links", "joints", "loops")
 _OPTIONAL = ("ground", "angles", "steps", "lambda_deg")
-
-
-def read_conical(path: str | Path) -> ConicalLinkage:
-    """Read a file of a linkage on a cone.
-
-    Raises
-    ------
-    FileError
-        With the place of what is wrong.
-
-    Examples
-    --------
-    >>> read_conical("missing.json")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.OpenError: missing.json: no such file; expected a file
-    """
-    if str(path).startswith(("k1:", "m1:")):
-        raise FileError(path, "", "an id, which has no angles", "a file of a linkage with angles")
-    check = Checker(Path(path))
-    value = load_json(check.path)
-    check.mapping(value, "", _KEYS, _OPTIONAL)
-    if value["format"] != _FORMAT:
-        raise FileError(path, "format", shown(value["format"]), f"{_FORMAT!r}, a linkage with angles")
-    if value["version"] != VERSION or isinstance(value["version"], bool):
-        raise FileError(path, "version", shown(value["version"]), str(VERSION))
-    return conical_from_document(value, check)
 
 
 def conical_from_document(value: Mapping[str, Any], check: Checker) -> ConicalLinkage:
@@ -111,17 +81,6 @@ def _pairs(value: Any, key: str, chain: SCGraph, check: Checker) -> dict[Pair, f
             raise FileError(check.path, f"{place}[2]", shown(number), f"between {low:g} and {high:g} degrees")
         found[ends[0], ends[1]] = radians(angle)
     return found
-
-
-def write_conical(linkage: ConicalLinkage, path: str | Path) -> None:
-    """Write a linkage on a cone.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
-    """
-    write_text(Path(path), json_text(conical_document(linkage)))
 
 
 def conical_document(linkage: ConicalLinkage) -> dict[str, Any]:

@@ -38,13 +38,12 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
     """
     options = RunOptions.taken_from(rest)
     from enumerate.addenda import AddendumCountJob, AddendumJob
-    from graphs.convert.table import to_sc
+    from graphs.convert.table import graph_of
     from graphs.files.formats import read
-    from graphs.mechanism.sc import SCGraph
 
     thing = read(file)
     with about(file):
-        job = AddendumJob(thing if isinstance(thing, SCGraph) else to_sc(thing), delta_dof)
+        job = AddendumJob(graph_of(thing), delta_dof)
     if only_count:
         run_count(AddendumCountJob(job), options)
     else:

@@ -131,10 +131,9 @@ def _chain(name: str) -> SCGraph:
     """Return the chain of a name, an id or a file."""
     from enumerate.chains.names import chain_named, chain_names
     from graphs.convert.link_joint import sc_from_link_joint_graph
-    from graphs.convert.table import to_sc
+    from graphs.convert.table import graph_of
     from graphs.errors import FileError
     from graphs.files.formats import is_id, read
-    from graphs.mechanism.sc import SCGraph
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name
@@ -142,7 +141,7 @@ def _chain(name: str) -> SCGraph:
         raise FileError(name, "", "no chain and no file", f"{' '.join(known)}, an id k1:..., or a file")
     with about(name):
         thing = read(code)
-        sc = thing if isinstance(thing, SCGraph) else to_sc(thing)
+        sc = graph_of(thing)
         return sc if sc.loops else sc_from_link_joint_graph(sc)
 
 

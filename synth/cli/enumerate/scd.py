@@ -86,10 +86,9 @@ def scd(
 
 def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
     from enumerate.scd.graphs import mechanism_of
-    from graphs.convert.table import to_sc
+    from graphs.convert.table import graph_of
     from graphs.files.formats import read
-    from graphs.mechanism.sc import SCGraph
 
     thing = read(file)
     with about(file):
-        return mechanism_of(thing if isinstance(thing, SCGraph) else to_sc(thing), max_degree, **filters)
+        return mechanism_of(graph_of(thing), max_degree, **filters)

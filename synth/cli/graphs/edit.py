@@ -44,13 +44,12 @@ def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]
     Example:
       synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
     """
-    from graphs.convert.table import to_sc
+    from graphs.convert.table import graph_of
     from graphs.files.formats import read, write
-    from graphs.mechanism.sc import SCGraph
 
     thing = read(file)
     with about(file):
-        sc = thing if isinstance(thing, SCGraph) else to_sc(thing)
+        sc = graph_of(thing)
         edits = []
         for make in _edits(wanted):
             edits.append(make(sc))

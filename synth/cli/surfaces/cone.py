@@ -84,11 +84,11 @@ def map_command(
 
 
 def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
-    from graphs.files.native.conical import read_conical
+    from graphs.files.formats import read_linkage
     from synth.cli.surfaces.conical import print_linkage
     from synth.surfaces.linkages import by_angles, map_linkage
 
-    linkage = read_conical(file)
+    linkage = read_linkage(file)
     with about(file):
         if angles_only:
             linkage = by_angles(linkage)
@@ -142,7 +142,7 @@ def behaviour_command(
       synth cone behaviour --steps 40,50,50 --ground 2
       synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
     """
-    from graphs.files.native.conical import read_conical
+    from graphs.files.formats import read_linkage
     from synth.cli.surfaces.conical import print_behaviours
     from synth.conformed.linkages import linkage_on_cones, loop_of_steps, loop_on_cones
     from synth.surfaces.cone import checked_cone_angle
@@ -154,7 +154,7 @@ def behaviour_command(
         raise click.UsageError("--angles tell the cone themselves")
     if file is not None:
         with about(file):
-            found = _behaviours(linkage_on_cones(read_conical(file), tilt), ground)
+            found = _behaviours(linkage_on_cones(read_linkage(file), tilt), ground)
     elif angles is not None:
         found = _behaviours(loop_on_cones(_radians(angles)), ground)
     else:

@@ -11,7 +11,7 @@ from commands import run
 
 from enumerate.runner.columns import row_as_dict
 from enumerate.runner.store import read_rows
-from graphs.files.native.conical import read_conical
+from graphs.files.formats import read_linkage
 
 
 def test_enumerate_conical(tmp_path, data):
@@ -39,7 +39,7 @@ def test_enumerate_conical(tmp_path, data):
     assert [{**row, "link_angles_deg": json.loads(row["link_angles_deg"])} for row in table] == found
     assert found[0]["link_angles_deg"][0][:2] == ["0", "1"]
     for path, row in zip(sorted(files["folder"].iterdir()), found, strict=True):
-        linkage = read_conical(path)
+        linkage = read_linkage(path)
         assert str(linkage.chain.ground) == row["ground"]
         mapped = json.loads(run("cone", "map", path, "--json").stdout)["cones"]
         assert mapped[0]["lambda_deg"] == pytest.approx(20)

@@ -12,7 +12,7 @@ from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 from memberships import memberships
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
-from graphs.files.native.conical import read_conical, write_conical
+from graphs.files.formats import read_linkage, write
 from graphs.loops.loop import Loop
 from graphs.mechanism.conical import ConicalLinkage, places_of_steps
 from graphs.mechanism.sc import SCGraph
@@ -182,15 +182,15 @@ def schema():
 def test_files_come_back_as_they_were(tmp_path, rng):
     places = rng.uniform(-np.pi, np.pi, 7)
     linkage = ConicalLinkage(WATT, angles=angles_of(WATT, places, 0.5))
-    write_conical(linkage, tmp_path / "a.json")
+    write(linkage, tmp_path / "a.json")
     jsonschema.validate(json.loads((tmp_path / "a.json").read_text()), schema())
-    again = read_conical(tmp_path / "a.json")
+    again = read_linkage(tmp_path / "a.json")
     assert again.angles == pytest.approx(linkage.angles, abs=1e-11)
     assert again.chain.joints == WATT.joints
     cones, _ = common_cones(again.chain, again.angles)
     assert any(abs(cone.cone_angle - 0.5) < 1e-6 for cone in cones)
-    fig = read_conical(FIG_11)
-    write_conical(fig, tmp_path / "b.json")
+    fig = read_linkage(FIG_11)
+    write(fig, tmp_path / "b.json")
     assert (tmp_path / "b.json").read_text() == FIG_11.read_text()
     jsonschema.validate(json.loads(FIG_11.read_text()), schema())
 
@@ -198,7 +198,7 @@ def test_files_come_back_as_they_were(tmp_path, rng):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"format": "synthedra/sc"}, "format: 'synthedra/sc'; expected 'synthedra/conical'"),
+        ({"format": "synthedra/none"}, "format: 'synthedra/none'; expected one of synthedra/conical"),
         ({"version": 2}, "version: 2; expected 1"),
         ({"loops": []}, "loops: no loops"),
         ({"angles": []}, "both or neither of 'angles' and 'steps'"),
@@ -218,7 +218,7 @@ def test_bad_files_are_named_with_the_place(change, message, tmp_path):
     path = tmp_path / "bad.json"
     path.write_text(json.dumps({**json.loads(FIG_11.read_text()), **change}))
     with pytest.raises(FileError) as error:
-        read_conical(path)
+        read_linkage(path)
     assert str(error.value).startswith(f"{path}: ")
     assert message in str(error.value)
     if "extra" not in change and "loops" not in change and "steps" not in change:
@@ -231,7 +231,7 @@ def test_link_angles_with_a_cone_angle_are_refused(tmp_path):
     path = tmp_path / "bad.json"
     path.write_text(json.dumps({**document, "angles": [["O", "A", 40]]}))
     with pytest.raises(FileError, match="lambda_deg: a cone angle with link angles"):
-        read_conical(path)
+        read_linkage(path)
 
 
 def test_a_loop_may_be_named_from_any_joint(rng):
