@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import cos, pi, sin
+from typing import Literal
 
 import networkx as nx
+import numpy as np
 
-from graphs.answer.ranks import model_with_exact, with_exact, with_pose
+from graphs.answer.ranks import model_with_exact, model_with_pose, notes_of_pose, with_exact, with_pose
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
@@ -18,6 +20,7 @@ from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.pose import pose_mobility_of_axes
 
@@ -28,12 +31,16 @@ _ANY_CONE = pi / 4
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
 
 
+_SOLVED = 1e-12
+"""Error of steps that a solver found, in radians."""
+
+
 def mobility(
     mechanism: Mechanism | nx.Graph,
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
-    pose: int | None = None,
+    pose: int | Literal[False] | None = None,
 ) -> MobilityAnswer:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
@@ -47,7 +54,7 @@ def mobility(
         Make hinges of the flat (F) edges of a crease pattern too.
     pose : int, optional
         Freedoms as this frame of a FOLD file lies; by default as the pattern was read, or if that has no
-        coordinates, as the first frame that has.
+        coordinates, as the first frame that has. False leaves it out.
 
     Returns
     -------
@@ -73,16 +80,20 @@ def mobility(
         return _of_sheet(mechanism, exact, hinge_flat, pose)
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
-        return model_with_exact(answer, mechanism, demanded=demanded) if wanted else answer
+        if wanted:
+            answer = model_with_exact(answer, mechanism, demanded=demanded)
+        return answer if pose is False else model_with_pose(answer, mechanism)
     sc = graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
     if sc.centres_assumed:
         answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
-    if pose is not None:
+    if pose is not None and pose is not False:
         answer = answer.with_notes(warnings=["no freedoms at a pose: a graph has no coordinates"])
     if wanted:
         answer = with_exact(answer, sc, demanded=demanded)
-    return _conformed(answer, mechanism) if isinstance(mechanism, ConicalLinkage) else answer
+    if pose is not False and isinstance(mechanism, ConicalLinkage):
+        return _conformed(answer, mechanism)
+    return answer
 
 
 def _conformed(answer: MobilityAnswer, linkage: ConicalLinkage) -> MobilityAnswer:
@@ -95,10 +106,22 @@ def _conformed(answer: MobilityAnswer, linkage: ConicalLinkage) -> MobilityAnswe
         joint: ((0.0, 0.0, 0.0), (sin(tilt) * cos(t), sin(tilt) * sin(t), cos(tilt)))
         for joint, t in zip(linkage.chain.joints, linkage.places(), strict=True)
     }
-    return replace(answer, pose=replace(pose_mobility_of_axes(linkage.chain, axes), flat=False))
+    pose = replace(pose_mobility_of_axes(linkage.chain, axes, _precision_of_steps(linkage)), flat=False)
+    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
 
 
-def _of_sheet(sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | None) -> MobilityAnswer:
+def _precision_of_steps(linkage: ConicalLinkage) -> Precision:
+    """Return how precise places are, in radians: the steps as files write them, in degrees, or solved for."""
+    assert linkage.steps is not None
+    steps = np.degrees(list(linkage.steps.values()))[:, None]
+    written = precision_of(steps.tolist())
+    size = max(np.radians(written.size * extent_of(steps)), _SOLVED) * len(linkage.chain.joints) ** 0.5
+    return Precision(float(size), written.source)
+
+
+def _of_sheet(
+    sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | Literal[False] | None
+) -> MobilityAnswer:
     """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
     dual = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     answer = MobilityAnswer.of(mobility_report(dual.sc))
@@ -115,6 +138,8 @@ def _of_sheet(sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | No
     answer = answer.with_notes(dual.repairs, (*dual.warnings, *notes))
     if exact is not False:
         answer = with_exact(answer, dual.sc, demanded=bool(exact))
+    if pose is False:
+        return answer
     lying = _lying(sheet, pose)
     placed = dual if lying is sheet else mechanism_of_sheet(lying, hinge_flat=hinge_flat)
     return with_pose(answer, lying, placed, demanded=pose is not None)

@@ -77,6 +77,12 @@ def _pose_line(answer: MobilityAnswer) -> str:
         return "as it lies: indeterminate"
     gap = pose.to_json()["gap"]
     evidence = "no zero singular value" if gap is None else f"gap {gap:.0e}"
-    state = "flat state: more infinitesimal freedoms than when folded; " if pose.flat else ""
+    state = "flat state: more infinitesimal freedoms than when folded; " if _is_only_flat(answer) else ""
     over = "" if answer.overconstraint is None else f"h = {answer.overconstraint}, "
     return f"as it lies: {pose.dof} infinitesimal freedom(s)   ({state}{over}{evidence})"
+
+
+def _is_only_flat(answer: MobilityAnswer) -> bool:
+    """Tell whether a sheet owes freedoms to lying flat."""
+    pose, over = answer.pose, answer.overconstraint
+    return pose is not None and pose.flat and bool(pose.flat_vertices) and (over is None or over > 0)

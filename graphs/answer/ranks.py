@@ -15,10 +15,11 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.generic import exact_mobility
 from graphs.rank.overconstraint import diagnose
-from graphs.rank.pose import pose_mobility, pose_mobility_of_model
+from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model
+from graphs.rank.singular_values import rounding
 
-__all__ = ["MOST_JOINTS", "model_with_exact", "with_exact", "with_pose"]
+__all__ = ["MOST_JOINTS", "model_with_exact", "model_with_pose", "notes_of_pose", "with_exact", "with_pose"]
 
 MOST_JOINTS = 1200
 """Larger mechanisms are ranked on request only: time grows with the cube of the joints."""
@@ -53,7 +54,7 @@ def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = F
 
 
 def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded: bool = False) -> MobilityAnswer:
-    """Add the exact generic mobility of a polyhedron model, and the freedoms at its coordinates if it has any.
+    """Add the exact generic mobility of a polyhedron model.
 
     Parameters
     ----------
@@ -76,7 +77,7 @@ def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded
         if exact.mobility != answer.mobility:
             note = f"the exact generic mobility is {exact.mobility}, the count says {answer.mobility}"
             answer = answer.with_notes(warnings=[note])
-    return replace(answer, pose=pose_mobility_of_model(model)) if model.coordinates else answer
+    return answer
 
 
 def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph, exact: int) -> str:
@@ -118,19 +119,44 @@ def with_pose(
     """
     if sheet.coordinates is None and not demanded:
         return answer
-    if (answer.joints or 0) > MOST_JOINTS and not demanded:
-        return answer.with_notes(
-            warnings=[
-                f"pose skipped: {answer.joints} joints are more than {MOST_JOINTS}; ask for it with --pose 0"
-            ]
-        )
     pose = pose_mobility(sheet, mechanism)
-    notes = []
+    return replace(answer, pose=pose).with_notes(warnings=[*notes_of_pose(pose), *_flat_notes(answer, pose)])
+
+
+def model_with_pose(answer: MobilityAnswer, model: PolyhedronModel) -> MobilityAnswer:
+    """Add the freedoms of a polyhedron model at its coordinates, if it has any."""
+    if not model.coordinates:
+        return answer
+    pose = pose_mobility_of_model(model)
+    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
+
+
+def notes_of_pose(pose: PoseMobility) -> list[str]:
+    """Return what is to be said of the certainty of freedoms at a pose."""
+    evidence = pose.spectrum
     if pose.dof is None:
-        notes.append(
-            "indeterminate at this pose: no gap between the singular values that are zero and those that are not; "
-            "the coordinates may be rounded"
-        )
-    elif pose.spectrum.nearly:
-        notes.append(f"nearly mobile: {pose.spectrum.nearly} more freedom(s) but for small strains")
-    return replace(answer, pose=pose).with_notes(warnings=notes)
+        near = ", ".join(f"{value:.1e}" for value in evidence.undecided[:3])
+        told = f"singular value(s) {near} are near the noise" if near else "two counts of small values differ"
+        return [f"indeterminate at this pose: {told}; precision of the coordinates: {_precision(pose)}"]
+    notes = []
+    if evidence.largest_zero > 1e3 * rounding((pose.dof + 1, pose.dof + 1)) and pose.precision.size > 1e-12:
+        zeros = f"singular values up to {evidence.largest_zero:.0e} are noise"
+        notes.append(f"coordinates precise to {_precision(pose)}: {zeros}")
+    if evidence.nearly:
+        notes.append(f"nearly mobile: {evidence.nearly} more freedom(s) but for small strains")
+    return notes
+
+
+def _precision(pose: PoseMobility) -> str:
+    return f"{pose.precision.size:.0e} of the extent ({pose.precision.source})"
+
+
+def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
+    """Caution where creases lie in one plane, if anything is gained by it."""
+    gained = pose.dof is None or (answer.mobility is not None and pose.dof > answer.mobility)
+    if not pose.flat_vertices or not gained:
+        return []
+    if pose.flat:
+        return ["flat state: the sheet has more infinitesimal freedoms as drawn than when folded"]
+    flat = f"{pose.flat_vertices} vertex(es) with all creases in one plane"
+    return [f"{flat}: more infinitesimal freedoms as drawn than when folded"]

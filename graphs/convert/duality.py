@@ -17,8 +17,9 @@ import numpy as np
 from graphs.errors import InvariantError
 from graphs.loops.cycle_space import split_dependent
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.precision import off_panel_planes
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
+from graphs.mechanism.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, sides_of_face
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
 
@@ -97,10 +98,8 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
     if split:
         notes.repairs.append(f"{split} collinear split hinge(s) joined")
-    if sheet.coordinates is not None and in_one_plane(sheet.coordinates):
-        notes.warnings.append("flat state: the sheet has more infinitesimal freedoms as drawn than when folded")
-    elif (off := _off_plane(sheet)) > ROUNDED:
-        notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of its size")
+    if (off := off_panel_planes(sheet)) > ROUNDED:
+        notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of the extent")
     return SheetMechanism(
         sc,
         panels,
@@ -347,17 +346,3 @@ def _simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
         else:
             entered[panel] = len(path)
     return cycles
-
-
-def _off_plane(sheet: Sheet) -> float:
-    """Return how far the first four vertices of a panel are off a plane at most, in units of their extent."""
-    if sheet.coordinates is None:
-        return 0.0
-    quads = [face[:4] for face in sheet.faces if len(face) > 3]
-    if not quads:
-        return 0.0
-    corners = np.asarray(sheet.coordinates, dtype=float)[np.array(quads)]
-    arms = corners[:, 1:] - corners[:, :1]
-    sizes = np.linalg.norm(arms, axis=2).max(axis=1)
-    volumes = np.abs(np.linalg.det(arms))
-    return float(np.max(volumes / np.maximum(sizes, 1e-300) ** 3))

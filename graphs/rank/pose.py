@@ -2,29 +2,41 @@
 
 The closure equations at the axes as they lie have a rank that special geometry may lower: what is gained over the
 generic mobility is the overconstraint h = M_actual - M (Wiener 2016, Eq. 8). Freedoms found here are
-infinitesimal; a flat sheet has more of them than it can use. Theory: docs/theory/pose.md.
+infinitesimal; a vertex whose creases lie in one plane has more of them than it can use. Directions are taken as
+they are and lengths in units of the extent, so that the precision of the coordinates says what each singular value
+may owe to errors. Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+import scipy.sparse
 
+from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import (
+    Precision,
+    extent_of,
+    off_panel_planes,
+    off_plane,
+    precision_of,
+    precision_of_sheet,
+)
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import Sheet, in_one_plane
+from graphs.mechanism.sheet import Sheet
 from graphs.rank.closure import Closure, closure_of
+from graphs.rank.dissection import sparse_spectrum
 from graphs.rank.fields import Reals
 from graphs.rank.general_member import Line, join
 from graphs.rank.rods import velocity_constraints
-from graphs.rank.singular_values import Spectrum, spectrum
+from graphs.rank.singular_values import NEARLY, Spectrum, spectrum
 
 __all__ = [
     "PoseMobility",
@@ -33,6 +45,15 @@ __all__ = [
     "pose_mobility_of_axes",
     "pose_mobility_of_model",
 ]
+
+_DENSE = 500
+"""Up to this many joints all singular values are computed."""
+_SHORT = 5e-3
+"""A nearly mobile mechanism has an error of this part of a typical crease at most."""
+_FLAT = 1e-5
+"""Points that are this close to one plane, in units of the extent, lie in it."""
+_SPREAD = 1e-2
+"""Points that are this close to a plane, in units of the extent, may be meant to lie in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,23 +67,34 @@ class PoseMobility:
     self_stresses : int or None
         Equations minus rank: how many closure equations are idle here.
     spectrum : Spectrum
+        The evidence, with how certain it is.
     flat : bool
-        Whether all vertices lie in one plane.
+        Whether all vertices lie in one plane, as far as their precision tells.
+    precision : Precision
+        Of the coordinates: what singular values are judged by.
+    flat_vertices : int
+        Centres of loops whose axes lie in one plane, which gives them a freedom more than when folded.
     """
 
     dof: int | None
     self_stresses: int | None
     spectrum: Spectrum
     flat: bool
+    precision: Precision
+    flat_vertices: int = 0
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on; a report adds h, the overconstraint against its count."""
         return {
             "dof": self.dof,
+            "certainty": self.spectrum.certainty,
             "gap": self.spectrum.gap if np.isfinite(self.spectrum.gap) else None,
             "self_stresses": self.self_stresses,
             "nearly_mobile": self.spectrum.nearly,
+            "near_noise": list(self.spectrum.undecided),
+            "precision": self.precision.size,
             "flat": self.flat,
+            "flat_vertices": self.flat_vertices,
         }
 
 
@@ -96,14 +128,24 @@ def pose_mobility(
     >>> pose_mobility(sheet).dof
     1
     """
-    closure = closure_at_pose(sheet, mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat))
-    evidence = spectrum(dense(closure))
+    mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
+    closure = closure_at_pose(sheet, mechanism)
     assert sheet.coordinates is not None
-    return _mobility(evidence, len(closure.joints), len(closure.rows), np.asarray(_in_space(sheet.coordinates)))
+    points = _in_space(sheet.coordinates)
+    precision = precision_of_sheet(sheet)
+    error = _error_of_axes(points, mechanism)
+    nearly = _nearly(points, mechanism, off_panel_planes(sheet))
+    matrix = _matrix(closure.rows, len(closure.joints))
+    places = _places_of_rows(points, mechanism, closure)
+    evidence = _spectrum(matrix, places, error * precision.size, error * nearly)
+    found = _mobility(evidence, len(closure.joints), len(closure.rows), points, precision)
+    return replace(found, flat_vertices=_flat_vertices(points, mechanism, precision))
 
 
 def pose_mobility_of_axes(
-    sc: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]]
+    sc: SCGraph,
+    axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
+    precision: Precision | None = None,
 ) -> PoseMobility:
     """Return the infinitesimal freedoms of a linkage whose joint axes are given.
 
@@ -114,6 +156,8 @@ def pose_mobility_of_axes(
     sc : SCGraph
     axes : mapping of joint id to (point, direction)
         Three coordinates each, any unit of length.
+    precision : Precision, optional
+        Of points, in units of their extent, and of directions; without it as many digits as they have.
 
     Raises
     ------
@@ -130,18 +174,24 @@ def pose_mobility_of_axes(
     1
     """
     points = np.array([axes[joint][0] for joint in sc.joints], dtype=float).reshape(-1, 3)
-    near = _in_space(tuple(map(tuple, points.tolist())))
-    lines = {}
-    for joint, p in zip(sc.joints, near, strict=True):
-        u = np.asarray(axes[joint][1], dtype=float)
-        size = float(np.linalg.norm(u))
-        if size == 0.0:
-            raise InvariantError(
-                "axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero"
-            )
-        lines[joint] = join((*p, 1.0), (*(np.array(p) + u / size), 1.0), Reals())
-    evidence = spectrum(dense(closure_of(SCGraph(sc.nodes, sc.joints), lines, {}, Reals())))
-    return _mobility(evidence, len(sc.joints), 6 * sc.independent_loops, points)
+    directions = np.array([axes[joint][1] for joint in sc.joints], dtype=float).reshape(-1, 3)
+    sizes = np.linalg.norm(directions, axis=1)
+    for joint in np.array(list(sc.joints), dtype=object)[sizes == 0.0]:
+        raise InvariantError("axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero")
+    near = _in_space(points.tolist())
+    lines = {
+        joint: join((*p, 1.0), (*(p + u), 1.0), Reals())
+        for joint, p, u in zip(sc.joints, near, directions / sizes[:, None], strict=True)
+    }
+    if precision is None:
+        precision = max(precision_of(points.tolist()), precision_of(directions.tolist()), key=_size)
+    closure = closure_of(SCGraph(sc.nodes, sc.joints), lines, {}, Reals())
+    evidence = spectrum(dense(closure), 2 * precision.size, 2 * NEARLY)
+    return _mobility(evidence, len(sc.joints), 6 * sc.independent_loops, points, precision)
+
+
+def _size(precision: Precision) -> float:
+    return precision.size
 
 
 def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
@@ -163,7 +213,8 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     """
     if not model.coordinates:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the model has none")
-    near = dict(zip(model.coordinates, _in_space(tuple(model.coordinates.values())), strict=True))
+    places = _in_space(tuple(model.coordinates.values()))
+    near: dict[Any, Any] = dict(zip(model.coordinates, map(tuple, places.tolist()), strict=True))
     for a, b in model.edges:
         if near[a] == near[b]:
             raise InvariantError("rod", f"the rod between vertices {a!r} and {b!r} has no length")
@@ -172,22 +223,69 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     for row in rows:
         for key in row:
             column.setdefault(key, len(column))
-    matrix = np.zeros((len(rows), max(len(column), 1)))
-    for i, row in enumerate(rows):
-        for key, value in row.items():
-            matrix[i, column[key]] = value
+    matrix = _matrix([{column[key]: value for key, value in row.items()} for row in rows], max(len(column), 1))
+    middle = np.array([np.mean([near.get(vertex, (0.0, 0.0, 0.0)) for vertex, _ in row], axis=0) for row in rows])
+    precision = precision_of(list(model.coordinates.values()))
+    # Entries are differences of coordinates, so all have their error.
+    error = np.full(matrix.shape[1], np.sqrt(2))
+    evidence = _spectrum(matrix, middle, error * precision.size, error * NEARLY)
     whole = 6 if model.ground is None else 0
-    return _mobility(spectrum(matrix), 3 * points - whole, len(rows), np.array(list(near.values())))
+    return _mobility(evidence, 3 * points - whole, len(rows), places, precision)
 
 
-def _mobility(evidence: Spectrum, unknowns: int, equations: int, points: npt.NDArray[np.float64]) -> PoseMobility:
+def _spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floats, nearly: Floats) -> Spectrum:
+    """Return the rank of a matrix of any size; places are those of its rows."""
+    if matrix.shape[1] <= _DENSE:
+        return spectrum(matrix.toarray(), error, nearly)
+    return sparse_spectrum(matrix, places, error, nearly)
+
+
+def _mobility(
+    evidence: Spectrum, unknowns: int, equations: int, points: Floats, precision: Precision
+) -> PoseMobility:
     rank = evidence.rank
     return PoseMobility(
         None if rank is None else unknowns - rank,
         None if rank is None else equations - rank,
         evidence,
-        in_one_plane(points.tolist()),
+        off_plane(points) <= max(_FLAT, 2 * precision.size),
+        precision,
     )
+
+
+def _lengths(points: Floats, found: SheetMechanism) -> Floats:
+    ends = np.array(list(found.hinges.values()), dtype=np.int64).reshape(-1, 2)
+    return np.asarray(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1))
+
+
+def _error_of_axes(points: Floats, found: SheetMechanism) -> Floats:
+    """Return the error of the axis of each hinge, its moments if need be, for an error 1 of coordinates."""
+    error = np.sqrt(2) / _lengths(points, found)
+    spatial = found.sc.independent_loops > len(found.sc.centred_loops)
+    return np.asarray(error * (1 + np.sqrt(3)) if spatial else error)
+
+
+def _nearly(points: Floats, found: SheetMechanism, off_panels: float) -> float:
+    """Return the error of coordinates that is to be told of: a small one, or one that panels show."""
+    if not found.hinges:
+        return NEARLY
+    small = min(NEARLY, _SHORT * float(np.median(_lengths(points, found))))
+    return max([small, *(2 * off for off in (off_panels, off_plane(points)) if off <= _SPREAD)])
+
+
+def _flat_vertices(points: Floats, found: SheetMechanism, precision: Precision) -> int:
+    """Count the loops about a vertex whose axes lie in one plane, as far as the precision tells."""
+    flat = 0
+    hinges: dict[JointId, tuple[int, int]] = dict(found.hinges.items())
+    for loop in found.sc.loops[: len(found.loop_vertices)]:
+        arms = np.array([points[b] - points[a] for a, b in map(hinges.__getitem__, loop.joints)])
+        sizes = np.linalg.norm(arms, axis=1)
+        if len(arms) < 4 or not sizes.all():
+            continue
+        u, values, _ = np.linalg.svd((arms / sizes[:, None]), full_matrices=False)
+        error = precision.size + _FLAT
+        flat += bool(values[2] <= 6 * np.sqrt(2) * error * np.linalg.norm(u[:, 2] / sizes))
+    return flat
 
 
 def closure_at_pose(sheet: Sheet, found: SheetMechanism) -> Closure:
@@ -205,40 +303,47 @@ def closure_at_pose(sheet: Sheet, found: SheetMechanism) -> Closure:
     places = _in_space(sheet.coordinates)
     axes = _axes(places, found)
     centres = {
-        loop: (*places[vertex], 1.0)
+        loop: (*places[vertex].tolist(), 1.0)
         for loop, vertex in zip(range(len(found.sc.loops)), found.loop_vertices, strict=True)
     }
     return closure_of(found.sc, axes, centres, Reals())
 
 
-def _in_space(coordinates: tuple[tuple[float, ...], ...]) -> list[tuple[float, float, float]]:
-    """Return coordinates in space, in units of their extent, about their middle."""
+def _in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
+    """Return coordinates in space, in units of their extent, about their middle: float[n, 3]."""
     points = np.zeros((len(coordinates), 3))
-    if coordinates:
+    if len(coordinates):
         points[:, : len(coordinates[0])] = coordinates
         points -= points.mean(axis=0)
-    extent = np.abs(points).max(initial=0.0)
-    return [(x, y, z) for x, y, z in (points / (extent or 1.0)).tolist()]
+    return points / (extent_of(points) or 1.0)
 
 
-def _axes(places: list[tuple[float, float, float]], found: SheetMechanism) -> Mapping[JointId, Line]:
+def _axes(places: Floats, found: SheetMechanism) -> Mapping[JointId, Line]:
     axes: dict[JointId, Line] = {}
-    for joint, (a, b) in found.hinges.items():
-        p, q = np.array(places[a]), np.array(places[b])
-        length = float(np.linalg.norm(q - p))
+    for (joint, (a, b)), length in zip(found.hinges.items(), _lengths(places, found).tolist(), strict=True):
+        p = places[a]
         if length == 0.0:
             raise InvariantError(
                 "hinge", f"the crease between vertices {a} and {b} has no length", part=("edges", joint)
             )
-        u = (q - p) / length
-        axes[joint] = join((*p, 1.0), (*(p + u), 1.0), Reals())
+        u = (places[b] - p) / length
+        axes[joint] = join((*p.tolist(), 1.0), (*(p + u).tolist(), 1.0), Reals())
     return axes
 
 
-def dense(closure: Closure) -> npt.NDArray[np.float64]:
+def dense(closure: Closure) -> Floats:
     """Return the matrix of closure equations: float[rows, joints]."""
-    matrix = np.zeros((len(closure.rows), len(closure.joints)))
-    for i, row in enumerate(closure.rows):
-        for j, value in row.items():
-            matrix[i, j] = value
-    return matrix
+    return np.asarray(_matrix(closure.rows, len(closure.joints)).toarray())
+
+
+def _matrix(rows: Sequence[Mapping[int, float]], columns: int) -> scipy.sparse.csr_matrix:
+    entries = [(i, j, value) for i, row in enumerate(rows) for j, value in row.items()]
+    at, to, values = zip(*entries, strict=True) if entries else ((), (), ())
+    return scipy.sparse.csr_matrix((np.array(values, dtype=float), (at, to)), shape=(len(rows), columns))
+
+
+def _places_of_rows(points: Floats, found: SheetMechanism, closure: Closure) -> Floats:
+    """Return the middle of the hinges of the loop of each row."""
+    middle: dict[JointId, Floats] = {joint: (points[a] + points[b]) / 2 for joint, (a, b) in found.hinges.items()}
+    by_loop = {loop: np.mean([middle[joint] for joint in loop], axis=0) for loop in dict.fromkeys(closure.loops)}
+    return np.array([by_loop[loop] for loop in closure.loops]).reshape(-1, 3)

@@ -1,23 +1,50 @@
-"""Numerical rank with its evidence: singular values, the gap between the large and the small ones, a verdict.
+"""Numerical rank with its evidence: which singular values are zero, which only nearly, and what cannot be told.
 
-Theory: docs/theory/pose.md.
+A singular value s with right vector v is changed by errors of the coordinates by no more than a few times s0, the
+length of (error of column j) v_j: its *floor*. Values up to six floors are noise, never equations; values a
+little above may be either, and then the rank is indeterminate; a value that an error of a thousandth of the size
+would explain is counted, and told as nearly zero. Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Spectrum", "spectrum"]
+from graphs.arrays import Floats
 
-_SMALL = 1e-5
-"""A singular value below this part of the largest may be a rounded zero."""
-_GAP = 1e3
-"""What parts zeros from the rest must be at least this ratio."""
-_NEARLY = 1e-3
-"""Nonzero singular values below this part of the largest are nearly zero."""
+__all__ = ["NEARLY", "Certainty", "Spectrum", "Verdict", "judged", "rounding", "spectrum", "verdict"]
+
+NEARLY = 2e-3
+"""The error of coordinates that would make a nearly mobile mechanism mobile: a thousandth of the size, in units of
+the extent, which is half of it."""
+
+_NOISE = 6.0
+"""Noise stays below this many floors: at most 4.5 in thousands of disturbed crease patterns."""
+_CLEAR = 20.0
+"""From this many floors on a singular value is certainly none."""
+_LARGE = 1e-3
+"""What is larger than this part of the largest singular value is never called noise."""
+
+Certainty = Literal["numerical", "nearly mobile", "indeterminate"]
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What singular values are, for one matrix or many.
+
+    Attributes
+    ----------
+    noise, undecided, nearly : bool[..., k]
+        Zero but for noise; not to be told from noise; not zero, but nearly.
+    """
+
+    noise: npt.NDArray[np.bool_]
+    undecided: npt.NDArray[np.bool_]
+    nearly: npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,13 +54,17 @@ class Spectrum:
     Attributes
     ----------
     rank : int or None
-        None where no gap tells the zeros: indeterminate.
+        None where a singular value may be noise and may be not: indeterminate.
     gap : float
-        Smallest nonzero singular value over the largest zero one, which is at least the rounding error.
+        Smallest singular value counted over the largest that is noise (or its floor); infinite where none is.
     smallest, largest_zero : float
         The two, as parts of the largest singular value.
     nearly : int
-        Nonzero singular values below a thousandth of the largest.
+        Singular values counted that an error of a thousandth would explain.
+    noise : float
+        What noise may come to, as part of the largest singular value.
+    undecided : tuple of float
+        The singular values that are near the noise, as parts of the largest.
     """
 
     rank: int | None
@@ -41,48 +72,97 @@ class Spectrum:
     smallest: float
     largest_zero: float
     nearly: int
+    noise: float
+    undecided: tuple[float, ...] = ()
+
+    @property
+    def certainty(self) -> Certainty:
+        """How the rank is known: by singular values, so but for small strains, or not."""
+        if self.rank is None:
+            return "indeterminate"
+        return "nearly mobile" if self.nearly else "numerical"
 
 
-def spectrum(matrix: npt.NDArray[np.float64]) -> Spectrum:
+def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Verdict:
+    """Judge singular values by what errors would do to them.
+
+    Parameters
+    ----------
+    values : float[..., k]
+        As parts of the largest.
+    floors : float[..., k]
+        What errors of the size of the data's precision do to each, in the mean.
+    nearly : float[..., k], optional
+        Likewise for an error of a thousandth of the size.
+
+    Examples
+    --------
+    >>> judged = verdict(np.array([1.0, 1e-5, 1e-14]), np.full(3, 1e-15), np.full(3, 1e-3))
+    >>> judged.noise.tolist(), judged.undecided.tolist(), judged.nearly.tolist()
+    ([False, False, False], [False, False, True], [False, True, False])
+    """
+    noise = values <= np.minimum(_NOISE * floors, _LARGE)
+    undecided = ~noise & (values <= _CLEAR * floors)
+    return Verdict(noise, undecided, ~noise & ~undecided & (values <= _NOISE * nearly))
+
+
+def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats = 0.0) -> Spectrum:
     """Return the numerical rank of a matrix.
-
-    Rows are scaled to unit length first: an equation says the same at any scale.
 
     Parameters
     ----------
     matrix : float[m, n]
+    error : float or float[n], optional
+        Of the entries of each column; rounding errors of double precision are added.
+    nearly : like error, optional
+        The errors that are to be told of.
 
     Examples
     --------
-    >>> found = spectrum(np.array([[1.0, 0.0], [1.0, 1e-14]]))
+    >>> found = spectrum(np.array([[1.0, 0.0], [1.0, 1e-17]]))
     >>> found.rank, found.gap > 1e6
     (1, True)
-    >>> hilbert = 1 / (1.0 + np.add.outer(np.arange(12), np.arange(12)))
-    >>> spectrum(hilbert).rank is None
+    >>> spectrum(np.array([[1.0, 0.0], [1.0, 1e-7]]), error=1e-6).rank
+    1
+    >>> spectrum(np.array([[1.0, 0.0], [0.0, 1e-5]]), error=1e-6).rank is None
     True
+    >>> spectrum(np.eye(3)).gap
+    inf
     """
-    lengths = np.linalg.norm(matrix, axis=1) if matrix.size else np.zeros(0)
-    scaled = matrix[lengths > 0] / lengths[lengths > 0, None]
-    values = np.linalg.svd(scaled, compute_uv=False) if scaled.size else np.zeros(0)
-    if not len(values):
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0)
-    values = values / values[0]
-    floor = np.finfo(float).eps * max(matrix.shape)
-    padded = np.maximum(np.append(values, 0.0), floor)
-    ratios = padded[:-1] / padded[1:]
-    rank = _rank(padded, ratios)
-    where = len(values) if rank is None else rank
+    if not matrix.size or not matrix.any():
+        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+    _, values, right = np.linalg.svd(matrix, full_matrices=False)
+    effects = [np.linalg.norm(right * of, axis=1) / values[0] for of in (error, nearly)]
+    return judged(values / values[0], rounding(matrix.shape) + effects[0], effects[1])
+
+
+def rounding(shape: tuple[int, int]) -> float:
+    """Return the floor that rounding in double precision makes, as part of the largest singular value."""
+    return float(np.finfo(float).eps * max(shape) / _NOISE)
+
+
+def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> Spectrum:
+    """Return the rank that singular values tell, of which some may be known to be large without their figures.
+
+    Parameters
+    ----------
+    values, floors, nearly : float[k]
+        As for :func:`verdict`.
+    larger : int, optional
+        How many more there are.
+    """
+    found = verdict(values, floors, nearly)
+    counted = values[~found.noise & ~found.undecided]
+    zeros = values[found.noise]
+    rank = None if found.undecided.any() else larger + len(counted)
+    smallest = float(counted.min(initial=1.0)) if larger or len(counted) else 0.0
+    floor = float(floors[found.noise].max(initial=0.0))
     return Spectrum(
         rank,
-        float(ratios[where - 1] if rank is not None else ratios.max()),
-        float(padded[where - 1]),
-        float(padded[where]),
-        int((values[:where] < _NEARLY).sum()),
+        smallest / max(float(zeros.max()), floor) if len(zeros) else float("inf"),
+        smallest,
+        float(zeros.max(initial=0.0)),
+        int(found.nearly.sum()),
+        _NOISE * float(floors.max(initial=0.0)),
+        tuple(values[found.undecided].tolist()),
     )
-
-
-def _rank(padded: npt.NDArray[np.float64], ratios: npt.NDArray[np.float64]) -> int | None:
-    """Return after how many values the widest gap lies, of the gaps that end below what may be zero."""
-    candidates = np.flatnonzero(padded[1:] < _SMALL)
-    best = int(candidates[np.argmax(ratios[candidates])])
-    return best + 1 if ratios[best] >= _GAP else None

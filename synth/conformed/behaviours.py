@@ -138,7 +138,7 @@ def behaviour_of_motion(
     first = np.take_along_axis(ways, one_sided.argmax(axis=-1)[..., np.newaxis], -1)
     turn = np.where(one_sided.any(axis=-1, keepdims=True) & (first == -1), -1, 1)
     ways = np.where(one_sided, ways * turn, ways).astype(np.int8)
-    known = motion.freedoms == 1
+    known = (motion.freedoms == 1) & (motion.undecided == 0)
     ways = np.where(known[..., np.newaxis], ways, np.int8(Way.UNKNOWN))
     one_way = known & one_sided.any(axis=-1) & np.isin(ways, (Way.STILL, Way.OUTWARD)).all(axis=-1)
     ranges = np.where((turn == -1)[..., np.newaxis], -ranges[..., ::-1], ranges)

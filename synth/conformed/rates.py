@@ -24,11 +24,14 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.rank.singular_values import rounding, verdict
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
 
-_GAP = 1e-9
-"""Singular values below this part of the largest are zero."""
+SOLVED = 1e-12
+"""The error of azimuths that were solved for, in radians."""
+NEARLY_DEGREES = 0.05
+"""The error of azimuths that is told of: what cutting a model brings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,18 +124,23 @@ class FirstOrder:
     ----------
     freedoms : int[...]
         Infinitesimal freedoms: joints less rank.
+    undecided, nearly : int[...]
+        Singular values that may be noise and may be not: where there are any, freedoms are the most that there can
+        be, and no rates are told. And those that an error of a thousandth would explain.
     singular_values : float[..., min(3 L, J)]
         Of the closure equations (with unit columns up to sqrt(2)), falling.
     gap : float[...]
-        Ratio of the smallest singular value counted to the largest not counted, or to the threshold; large is
-        clear.
+        Ratio of the smallest singular value counted to the largest that is noise, or may be, at least to what
+        noise makes; infinite where there is none.
     rates : float[..., J]
-        Joint rates of a motion, of length 1; nan unless there is one freedom. Its sense is arbitrary.
+        Joint rates of a motion, of length 1; nan unless there is certainly one freedom. Its sense is arbitrary.
     motions : float[..., N, 3]
         w of each link of the chain, in the order of its links.
     """
 
     freedoms: npt.NDArray[np.int64]
+    undecided: npt.NDArray[np.int64]
+    nearly: npt.NDArray[np.int64]
     singular_values: Floats
     gap: Floats
     rates: Floats
@@ -155,7 +163,7 @@ def ring_axes(places: npt.ArrayLike) -> Floats:
     return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
 
 
-def first_order(chain: ConformedChain, places: npt.ArrayLike) -> FirstOrder:
+def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = SOLVED) -> FirstOrder:
     """Return rank and first-order motion of linkages at their conformed position.
 
     Parameters
@@ -163,6 +171,8 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike) -> FirstOrder:
     chain : ConformedChain
     places : float[..., J]
         Azimuths of the joints, radians, in the order of the chain's joints.
+    error : float, optional
+        Of the azimuths, radians: singular values are judged by it (`graphs.rank.singular_values`).
 
     Returns
     -------
@@ -193,17 +203,24 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike) -> FirstOrder:
     if not closure.shape[-2]:
         shape = t.shape[:-1]
         return FirstOrder(
-            np.full(shape, count), np.zeros((*shape, 0)), np.full(shape, np.inf),
+            np.full(shape, count), np.zeros(shape, int), np.zeros(shape, int),
+            np.zeros((*shape, 0)), np.full(shape, np.inf),
             np.full(t.shape, np.nan), np.full((*shape, len(chain.links), 3), np.nan),
         )  # fmt: skip
     values, rows = _svd(closure)
-    counted = values > _GAP * values[..., :1]
-    rank = counted.sum(axis=-1)
-    freedoms = count - rank
-    gap = _gap(values, counted)
-    rates = np.where((freedoms == 1)[..., np.newaxis], rows[..., -1, :], np.nan)
+    parts = values / values[..., :1]
+    # A joint is in two loops at most of a basis of a planar chain, in few of any: two entries of its column move.
+    by_error = np.sqrt(2) / values[..., :1]
+    floors = np.broadcast_to(rounding(closure.shape[-2:]) + by_error * error, values.shape)
+    judged = verdict(parts, floors, by_error * np.radians(NEARLY_DEGREES))
+    counted = ~judged.noise & ~judged.undecided
+    freedoms = count - counted.sum(axis=-1)
+    undecided = judged.undecided.sum(axis=-1)
+    told = (freedoms == 1) & (undecided == 0)
+    rates = np.where(told[..., np.newaxis], rows[..., -1, :], np.nan)
     motions = np.einsum("nj,...j,...jc->...nc", chain.paths, rates, axes)
-    return FirstOrder(freedoms, values, gap, rates, motions)
+    gap = _gap(parts, counted, floors)
+    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), values, gap, rates, motions)
 
 
 def _svd(closure: Floats) -> tuple[Floats, Floats]:
@@ -212,10 +229,11 @@ def _svd(closure: Floats) -> tuple[Floats, Floats]:
     return values, rows
 
 
-def _gap(values: Floats, counted: npt.NDArray[np.bool_]) -> Floats:
-    least = np.where(counted, values, np.inf).min(axis=-1)
-    rest = np.where(counted, 0.0, values).max(axis=-1)
-    return np.asarray(least / np.maximum(rest, np.finfo(float).eps * values[..., 0]))
+def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Floats:
+    least = np.where(counted, parts, np.inf).min(axis=-1)
+    rest = np.where(counted, 0.0, np.maximum(parts, floors)).max(axis=-1)
+    with np.errstate(divide="ignore"):
+        return np.asarray(least / rest)
 
 
 def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:

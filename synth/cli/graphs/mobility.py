@@ -34,8 +34,14 @@ _LONGEST_PATH = 4096
 @click.option(
     "--pose", type=click.IntRange(min=0), metavar="FRAME", help="Freedoms as this frame of a FOLD file lies."
 )
+@click.option("--no-pose", is_flag=True, help="Leave out the freedoms at the coordinates.")
 def mobility(
-    files: tuple[str, ...], as_json: bool, exact: bool | None, hinge_flat: bool, pose: int | None
+    files: tuple[str, ...],
+    as_json: bool,
+    exact: bool | None,
+    hinge_flat: bool,
+    pose: int | None,
+    no_pose: bool,
 ) -> None:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
@@ -53,13 +59,17 @@ def mobility(
     from graphs.answer.mechanisms import mobility as asked
     from graphs.errors import FileError
 
+    if no_pose and pose is not None:
+        raise click.UsageError("--pose names a pose that --no-pose leaves out")
     failures: list[str] = []
     answers: list[tuple[str, MobilityAnswer]] = []
     with _objects_stay():
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
-                    answer = asked(entry.mechanism, exact=exact, hinge_flat=hinge_flat, pose=pose)
+                    answer = asked(
+                        entry.mechanism, exact=exact, hinge_flat=hinge_flat, pose=False if no_pose else pose
+                    )
                     answers.append((entry.label, answer))
             except FileError as error:
                 failures.append(str(error))

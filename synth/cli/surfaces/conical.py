@@ -66,12 +66,17 @@ def print_behaviours(linkages: Sequence[LinkageBehaviour]) -> None:
 def _verdict(linkage: LinkageBehaviour) -> str:
     """Say in a line which way a linkage can go."""
     where = "any cone" if linkage.cone_angle is None else f"lambda {degrees(linkage.cone_angle):.10g} degrees"
-    freedoms = int(linkage.behaviour.motion.freedoms)
-    if freedoms == 1:
+    motion = linkage.behaviour.motion
+    freedoms = int(motion.freedoms)
+    if motion.undecided:
+        verdict = "indeterminate: a singular value is near the noise"
+    elif freedoms == 1:
         words = [word for word, so in zip(("intramobile", "extramobile"), linkage.mobile(), strict=True) if so]
         verdict = "can be " + " or ".join(words) if words else "transmobile"
     else:
         verdict = f"{freedoms} infinitesimal freedoms: no one way"
+    if motion.nearly:
+        verdict += f"; nearly mobile: {int(motion.nearly)} more freedom(s) but for small errors"
     return f"{where}, link {plain(linkage.chain.links[0])} fixed: {verdict}"
 
 

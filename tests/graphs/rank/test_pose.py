@@ -49,12 +49,12 @@ def test_a_mesh_with_moved_vertices_does_not_move():
 
 
 def test_where_no_gap_tells():
-    values = 10.0 ** -np.linspace(0, 15, 16)
+    values = 10.0 ** -np.linspace(0, 17, 16)
     q, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(40, 16)))
     r, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(16, 16)))
     assert spectrum(q @ np.diag(values) @ r).rank is None
-    clear = spectrum(q @ np.diag([1.0] * 10 + [1e-4] * 3 + [0] * 3) @ r)
-    assert (clear.rank, clear.nearly) == (13, 3)
+    clear = spectrum(q @ np.diag([1.0] * 10 + [1e-4] * 3 + [0] * 3) @ r, nearly=1e-3)
+    assert (clear.rank, clear.nearly, clear.certainty) == (13, 3, "nearly mobile")
     assert clear.gap > 1e6
     empty = spectrum(np.zeros((0, 5)))
     assert (empty.rank, empty.gap) == (0, np.inf)
@@ -113,11 +113,12 @@ DIFFERENT = {
 }
 
 
-# Shapes that a simulation left, never quite at rest: many small singular values, without a gap.
-AT_REST_NEARLY = {
-    "osbo_huffmanExdentedBoxes.fold",
-    "osbo_huffmanRectangularWeave.fold",
-    "osbo_huffmanWaterbomb.fold",
+# Single precision, or one decimal, leaves singular values that are near the noise, or all in it.
+ROUNDED = {
+    "osbo_huffmanExdentedBoxes.fold": None,  # 43 near the noise
+    "osbo_huffmanRectangularWeave.fold": 156,  # 101 more are noise: 420 vertices are flat
+    "osbo_huffmanWaterbomb.fold": None,  # 33 near the noise
+    "ossvg_triPerfTess.svg": None,  # coordinates of one decimal, narrow triangles
 }
 
 
@@ -141,9 +142,9 @@ def test_crease_patterns_as_they_lie(fold_folder, most):
         if row["name"] in DIFFERENT:
             continue
         found, expected = pose_mobility(sheet), int(row["DOF_rank"])
-        if row["name"] in AT_REST_NEARLY:
-            assert found.dof is None or found.dof < expected
-            assert found.spectrum.nearly > expected - (found.dof or 0)
+        if row["name"] in ROUNDED:
+            assert found.dof == ROUNDED[row["name"]]
+            assert found.dof is not None or found.spectrum.undecided
         elif found.dof == expected:
             same += 1
         else:

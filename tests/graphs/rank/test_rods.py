@@ -163,6 +163,19 @@ def test_bennetts_linkage_moves():
     assert pose_mobility_of_axes(ring, dict(zip(range(4), tilted, strict=True))).dof == 0
 
 
+def test_bennetts_linkage_with_noise():
+    """Noise takes its one freedom, and that is told: the answer is 1, or 0 and nearly mobile, or none."""
+    ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    axes, _ = bennett(0.6, 1.1, 1.4)
+    rng = np.random.default_rng(0)
+    for noise in (*np.repeat(10.0 ** -np.arange(4, 15), 5),):
+        moved = {
+            i: (p + rng.normal(size=3) * noise, u + rng.normal(size=3) * noise) for i, (p, u) in enumerate(axes)
+        }
+        found = pose_mobility_of_axes(ring, moved)
+        assert found.dof in (None, 1) or (found.dof, found.spectrum.nearly) == (0, 1)
+
+
 def test_odd_poses():
     with pytest.raises(UnsolvableError, match="need coordinates"):
         pose_mobility_of_model(PolyhedronModel(2, [(0, 1)]))

@@ -1,0 +1,170 @@
+"""How precise coordinates are: what a file of them can tell apart.
+
+A file says it in the digits that it writes, in numbers that fit in single precision, and in points that ought to
+lie in one plane and nearly do. Theory: docs/theory/pose.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.mechanism.sheet import Sheet
+
+__all__ = ["Precision", "extent_of", "off_panel_planes", "off_plane", "precision_of", "precision_of_sheet"]
+
+_MOST_DECIMALS = 12
+_COARSEST = 3e-3
+"""A last decimal that is worth more of the extent than this is no rounding: few sizes were chosen on purpose."""
+_DIGITS = 3
+"""Rounded numbers end in many digits; those of a grid of halves or quarters in few."""
+_MEANT_FLAT = 1e-5
+"""Points that are this close to one plane, in units of their extent, are meant to lie in it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Precision:
+    """The error that coordinates may have.
+
+    Attributes
+    ----------
+    size : float
+        Of one coordinate, in units of the extent.
+    source : str
+        What tells: the digits written, single precision, points that ought to lie in a plane.
+    """
+
+    size: float
+    source: str
+
+
+def extent_of(points: Floats) -> float:
+    """Return the largest distance of a coordinate from the middle of all: half the size, about.
+
+    Examples
+    --------
+    >>> extent_of(np.array([[0.0, 0.0], [4.0, 2.0]]))
+    2.0
+    """
+    return float(np.abs(points - points.mean(axis=0)).max(initial=0.0)) if len(points) else 0.0
+
+
+def precision_of(coordinates: Sequence[Sequence[float]]) -> Precision:
+    """Return how precise coordinates are, by the numbers alone.
+
+    Parameters
+    ----------
+    coordinates : sequence of points
+        Any unit of length.
+
+    Examples
+    --------
+    >>> precision_of([(0.0, 0.0), (1.0, 0.0), (0.5, 0.25)]).source
+    'double precision'
+    >>> rounded = np.random.default_rng(0).random((9, 2)).round(5)
+    >>> precision_of(rounded.tolist()).source
+    '5 decimals'
+    """
+    points = np.asarray(coordinates, dtype=float)
+    extent = extent_of(points)
+    if extent == 0.0:
+        return Precision(float(np.finfo(float).eps), "double precision")
+    largest = float(np.abs(points).max())
+    decimals = _decimals(points, extent, largest)
+    if decimals is not None:
+        return Precision(0.5 * 10.0**-decimals / extent, f"{decimals} decimals")
+    if _is_single(points):
+        return Precision(float(np.finfo(np.float32).eps) / 2 * largest / extent, "single precision")
+    return Precision(float(np.finfo(float).eps) * largest / extent, "double precision")
+
+
+def _decimals(points: Floats, extent: float, largest: float) -> int | None:
+    """Return to how many decimals numbers were rounded, or None where nothing says that they were."""
+    numbers = np.unique(np.abs(points))
+    slack = 4 * np.finfo(float).eps * largest
+    for decimals in range(_MOST_DECIMALS + 1):
+        if np.abs(numbers - numbers.round(decimals)).max() > slack:
+            continue
+        last = np.rint(numbers * 10.0**decimals) % 10
+        full = last[last > 0]
+        many = len(full) >= max(_DIGITS, len(numbers) // 10) and len(np.unique(full)) >= _DIGITS
+        return decimals if decimals and many and 10.0**-decimals <= _COARSEST * extent else None
+    return None
+
+
+def _is_single(points: Floats) -> bool:
+    """Tell whether numbers fit in single precision and use it: sums of few powers of two are exact in any."""
+    with np.errstate(over="ignore"):
+        single = points.astype(np.float32)
+    if not bool((single == points).all()):
+        return False
+    mantissas = np.frexp(points)[0] * 2.0**12
+    return bool((mantissas != np.rint(mantissas)).any())
+
+
+def precision_of_sheet(sheet: Sheet) -> Precision:
+    """Return how precise the coordinates of a sheet are: by the numbers, and by panels that ought to be plane.
+
+    Raises
+    ------
+    ValueError
+        If the sheet has no coordinates.
+
+    Examples
+    --------
+    >>> places = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1e-7), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    >>> found = precision_of_sheet(Sheet(5, (), "", ((0, 1, 2, 3), (0, 1, 4)), places))
+    >>> found.source, found.size < 1e-6
+    ('panels off their planes', True)
+    """
+    if sheet.coordinates is None:
+        raise ValueError("the sheet has no coordinates")
+    points = np.asarray(sheet.coordinates, dtype=float)
+    written = precision_of(sheet.coordinates)
+    seen = [
+        Precision(off_panel_planes(sheet), "panels off their planes"),
+        Precision(off_plane(points), "vertices off one plane"),
+    ]
+    meant = [one for one in seen if one.size <= _MEANT_FLAT]
+    return max([written, *meant], key=lambda precision: precision.size)
+
+
+def off_plane(points: Floats) -> float:
+    """Return how far points are off one plane at most, in units of their extent.
+
+    Examples
+    --------
+    >>> off_plane(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))
+    0.0
+    """
+    extent = extent_of(points)
+    if extent == 0.0 or len(points) < 4 or points.shape[1] < 3:
+        return 0.0
+    middle = points - points.mean(axis=0)
+    normal = np.linalg.svd(middle, full_matrices=False)[2][-1]
+    return float(np.abs(middle @ normal).max()) / extent
+
+
+def off_panel_planes(sheet: Sheet) -> float:
+    """Return how far vertices are off the planes of their panels at most, in units of the sheet's extent.
+
+    Of a panel the first three vertices that are not in line make the plane.
+    """
+    if sheet.coordinates is None or not sheet.coordinates or len(sheet.coordinates[0]) < 3:
+        return 0.0
+    points = np.asarray(sheet.coordinates, dtype=float)
+    extent = extent_of(points)
+    by_size: dict[int, list[tuple[int, ...]]] = {}
+    for face in sheet.faces:
+        if len(face) > 3:
+            by_size.setdefault(len(face), []).append(face)
+    farthest = 0.0
+    for faces in by_size.values():
+        corners = points[np.array(faces)]
+        middle = corners - corners.mean(axis=1, keepdims=True)
+        normals = np.linalg.svd(middle, full_matrices=False)[2][:, -1]
+        farthest = max(farthest, float(np.abs(np.einsum("fvc,fc->fv", middle, normals)).max()))
+    return farthest / extent if extent else 0.0
