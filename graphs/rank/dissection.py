@@ -145,9 +145,10 @@ class _Elimination:
         block, columns, inner = self._assembled(rows)
         own = self._own(rows, columns)
         taken, rest = columns[own], columns[~own]
-        triangle = (
-            np.asarray(scipy.linalg.qr(block, mode="r")[0])[: len(columns)] if len(block) > len(columns) else block
-        )
+        triangle = block[block.any(axis=1)]
+        if len(triangle) > len(columns):
+            (whole,) = scipy.linalg.qr(triangle, mode="r", check_finite=False, overwrite_a=True)
+            triangle = whole[: len(columns)]
         left, values, right = np.linalg.svd(triangle[:, own], full_matrices=True)
         large = int((values >= _PIVOT * self.largest).sum())
         self.pivots += large
