@@ -14,11 +14,12 @@ from math import dist
 import networkx as nx
 import numpy as np
 
+from graphs.convert.hinges import HingeLines, lines_of_hinges
 from graphs.errors import InvariantError
 from graphs.loops.cycle_space import split_dependent
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
+from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, in_one_plane, sides_of_face
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
 
@@ -82,7 +83,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     hinges = HINGES + ("F" if hinge_flat else "")
     faces_at, assignment, notes = _edges_of_faces(sheet)
     panel_of_face, panels = _merge_flat(sheet, faces_at, assignment, hinges)
-    joint_of_edge, joints, idle = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
+    joint_of_edge, joints, idle, lines = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
     if idle:
         notes.warnings.append(f"{idle} crease(s) end inside a panel and fold nothing")
     centre_of = _vertex_cycles(sheet, faces_at, joint_of_edge, panel_of_face)
@@ -97,6 +98,8 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
     if split:
         notes.repairs.append(f"{split} collinear split hinge(s) joined")
+    notes.repairs += lines.repairs
+    notes.warnings += lines.warnings
     if sheet.coordinates is not None and in_one_plane(sheet.coordinates):
         notes.warnings.append("flat state: the sheet has more infinitesimal freedoms as drawn than when folded")
     elif (off := _off_plane(sheet)) > ROUNDED:
@@ -196,8 +199,8 @@ def _joints(
     assignment: Mapping[Edge, tuple[str, int]],
     hinges: str,
     panel_of_face: Sequence[int],
-) -> tuple[dict[Edge, int | None], dict[int, tuple[int, int]], int]:
-    """Return the joint of each hinged edge (None for one inside a panel), the joints, and how many are idle."""
+) -> tuple[dict[Edge, int | None], dict[int, tuple[int, int]], int, HingeLines]:
+    """Return the joint of each hinged edge (None for one inside a panel), the joints, how many are idle, lines."""
     joint_of_edge: dict[Edge, int | None] = {}
     between: dict[tuple[int, int], list[tuple[int, Edge]]] = defaultdict(list)
     idle = 0
@@ -212,39 +215,15 @@ def _joints(
         else:
             between[(a, b) if a < b else (b, a)].append((index, edge))
     joints: dict[int, tuple[int, int]] = {}
-    for pair, hinged in sorted(between.items(), key=lambda item: min(item[1])):
-        if len(hinged) == 1:
-            ((first, edge),) = hinged
-            joints[first] = pair
-            joint_of_edge[edge] = first
-            continue
-        for group in _collinear_groups(sheet, hinged):
-            first = min(index for index, _ in group)
-            joints[first] = pair
-            for _, edge in group:
-                joint_of_edge[edge] = first
-    return joint_of_edge, joints, idle
-
-
-def _collinear_groups(sheet: Sheet, hinged: list[tuple[int, Edge]]) -> list[list[tuple[int, Edge]]]:
-    """Group the hinges between two panels by the line they lie on; without coordinates each is its own."""
-    if sheet.coordinates is None:
-        return [[one] for one in sorted(hinged)]
-    groups: list[list[tuple[int, Edge]]] = []
-    for one in sorted(hinged):
+    bundles = sorted((sorted(hinged), pair) for pair, hinged in between.items())
+    lines = lines_of_hinges(sheet.coordinates, [[edge for _, edge in hinged] for hinged, _ in bundles])
+    for (hinged, pair), groups in zip(bundles, lines.groups, strict=True):
         for group in groups:
-            if _collinear([sheet.coordinates[v] for v in (*group[0][1], *one[1])]):
-                group.append(one)
-                break
-        else:
-            groups.append([one])
-    return groups
-
-
-def _collinear(points: Sequence[Sequence[float]]) -> bool:
-    spread = np.asarray(points, dtype=float) - np.mean(points, axis=0)
-    sizes = np.linalg.svd(spread, compute_uv=False)
-    return bool(sizes[1] <= COLLINEAR * sizes[0])
+            first, _ = hinged[group[0]]
+            joints[first] = pair
+            for place in group:
+                joint_of_edge[hinged[place][1]] = first
+    return joint_of_edge, joints, idle, lines
 
 
 def _vertex_cycles(
