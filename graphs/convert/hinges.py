@@ -131,7 +131,8 @@ def lines_of_hinges(
     tolerance = _plateau([bundle.tree(bundle.excess)[:, 2] for bundle in measured])
     within, loosely, unclear = 0.0, 0, 0
     for i, bundle in zip(several, measured, strict=True):
-        if bundle.deviation.max() <= COLLINEAR:
+        if (most := float(bundle.deviation.max())) <= COLLINEAR:  # one line at any tolerance: by far the most are
+            within = max(within, most)
             groups[i] = (tuple(range(bundle.size)),)
             continue
         tight = bundle.cliques(bundle.deviation, COLLINEAR)
@@ -179,7 +180,7 @@ class _Bundle:
 
     def rows(self, heights: Floats, tolerance: float) -> Groups:
         """Group hinges that hang together by steps within a tolerance: those of a curve too."""
-        return _cut(self.tree(heights, "single"), tolerance) if self.size > 2 else self.cliques(heights, tolerance)
+        return _cut(self.tree(heights, "single"), tolerance)
 
     def apart(self, groups: Groups) -> npt.NDArray[np.bool_]:
         """Tell of each pair whether it is in two groups."""
