@@ -41,6 +41,7 @@ def mobility(
     exact: bool | None = None,
     hinge_flat: bool = False,
     pose: int | Literal[False] | None = None,
+    geometry: bool = True,
 ) -> MobilityAnswer:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
@@ -55,6 +56,8 @@ def mobility(
     pose : int, optional
         Freedoms as this frame of a FOLD file lies; by default as the pattern was read, or if that has no
         coordinates, as the first frame that has. False leaves it out.
+    geometry : bool, optional
+        Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
 
     Returns
     -------
@@ -77,7 +80,7 @@ def mobility(
     """
     demanded, wanted = bool(exact), exact is not False
     if isinstance(mechanism, Sheet):
-        return _of_sheet(mechanism, exact, hinge_flat, pose)
+        return _of_sheet(mechanism, exact, hinge_flat, pose, geometry)
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
         if wanted:
@@ -120,17 +123,18 @@ def _precision_of_steps(linkage: ConicalLinkage) -> Precision:
 
 
 def _of_sheet(
-    sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | Literal[False] | None
+    sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | Literal[False] | None, geometry: bool
 ) -> MobilityAnswer:
     """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
-    dual = mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
+    drawn = sheet if sheet.frames is None else sheet.frames.first_placed()
+    dual = mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
     answer = MobilityAnswer.of(mobility_report(dual.sc))
     answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
     notes = []
     if flaps := answer.counts["flaps"]:
         notes.append(f"{flaps} flap(s), panels with one hinge: a freedom each")
     if "F" in sheet.assignments:
-        other = mechanism_of_sheet(sheet, hinge_flat=not hinge_flat).sc
+        other = mechanism_of_sheet(drawn, hinge_flat=not hinge_flat, geometry=geometry).sc
         if len(other) != len(dual.sc):
             way = "merged" if hinge_flat else "hinged"
             counted = mobility_report(other).mobility
@@ -141,7 +145,7 @@ def _of_sheet(
     if pose is False:
         return answer
     lying = _lying(sheet, pose)
-    placed = dual if lying is sheet else mechanism_of_sheet(lying, hinge_flat=hinge_flat)
+    placed = dual if lying is drawn else mechanism_of_sheet(lying, hinge_flat=hinge_flat)
     return with_pose(answer, lying, placed, demanded=pose is not None)
 
 

@@ -1,25 +1,28 @@
 """From a sheet to its mechanism, by duality.
 
-Panels are links, creases are joints and an interior vertex is a finite centre; leftover loops (holes, handles)
-are spatial. Theory: docs/theory/crease-patterns.md.
+Panels are links, creases are joints and an interior vertex is a finite centre. Loops along the boundaries of holes
+and cuts have a centre where their axes are parallel or meet; what is left is spatial. Theory:
+docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import dist
 
 import networkx as nx
-import numpy as np
 
+from graphs.convert.centres import loops_with_centres
+from graphs.convert.cycles import Hinged, boundary_cycles, vertex_cycles
+from graphs.convert.hinges import HingeLines, lines_of_hinges
 from graphs.errors import InvariantError
-from graphs.loops.cycle_space import split_dependent
+from graphs.loops.cycle_space import added_independent, split_dependent
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.precision import off_panel_planes
+from graphs.mechanism.precision import off_panel_planes, precision_of
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import COLLINEAR, FLAT, HINGES, Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
 
@@ -42,7 +45,7 @@ class SheetMechanism:
     hinges : mapping of joint id to (vertex, vertex)
         The ends of each joint; of a split hinge, those of its longest piece.
     loop_vertices : tuple of int
-        The vertex that is the centre of each loop of ``sc.loops``.
+        The vertex that is the centre of each of the first loops of ``sc.loops``; others have theirs by geometry.
     repairs, warnings : tuple of str
     """
 
@@ -55,7 +58,7 @@ class SheetMechanism:
     warnings: tuple[str, ...] = field(default=())
 
 
-def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechanism:
+def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool = True) -> SheetMechanism:
     """Return the mechanism of a sheet.
 
     Parameters
@@ -63,6 +66,8 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     sheet : Sheet
     hinge_flat : bool, optional
         Make hinges of flat edges too; without it they merge the faces they part.
+    geometry : bool, optional
+        Give loops along boundaries the centre where their axes meet or are parallel, if the sheet has coordinates.
 
     Returns
     -------
@@ -83,10 +88,11 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
     hinges = HINGES + ("F" if hinge_flat else "")
     faces_at, assignment, notes = _edges_of_faces(sheet)
     panel_of_face, panels = _merge_flat(sheet, faces_at, assignment, hinges)
-    joint_of_edge, joints, idle = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
+    joint_of_edge, joints, idle, lines = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
     if idle:
         notes.warnings.append(f"{idle} crease(s) end inside a panel and fold nothing")
-    centre_of = _vertex_cycles(sheet, faces_at, joint_of_edge, panel_of_face)
+    hinged = Hinged(faces_at, joint_of_edge, panel_of_face)
+    centre_of = vertex_cycles(sheet, hinged)
     cycles = list(centre_of)
     kept, closing = split_dependent(cycles)
     sc = SCGraph(
@@ -95,20 +101,46 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False) -> SheetMechan
         [Loop(cycles[i], Centre.FINITE) for i in kept],
         closing=[Loop(cycles[i], Centre.FINITE) for i in closing],
     )
+    ends = _hinge_ends(sheet, joint_of_edge)
+    if geometry and sheet.coordinates is not None and sc.spatial_loops:
+        found = loops_with_centres(sheet, boundary_cycles(sheet, hinged), ends)
+        sc = _with_loops(sc, found, notes)
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
     if split:
         notes.repairs.append(f"{split} collinear split hinge(s) joined")
+    notes.repairs += lines.repairs
+    notes.warnings += lines.warnings
     if (off := off_panel_planes(sheet)) > ROUNDED:
         notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of the extent")
     return SheetMechanism(
         sc,
         panels,
         len(cycles),
-        _hinge_ends(sheet, joint_of_edge),
+        ends,
         tuple(centre_of[cycles[i]] for i in kept),
         (*sheet.repairs, *notes.repairs),
         tuple(notes.warnings),
     )
+
+
+def _with_loops(sc: SCGraph, loops: Sequence[Loop], notes: _Notes) -> SCGraph:
+    """Add loops that are independent of those there and in no contradiction to their centres, and tell."""
+    added = {Centre.FINITE: 0, Centre.INFINITE: 0}
+    for loop in loops:
+        if not added_independent([one.joints for one in sc.loops], [loop.joints]):
+            continue
+        try:
+            more = SCGraph(sc.nodes, sc.joints, [*sc.loops, loop], closing=sc.closing)
+            more.centre_classes()
+        except InvariantError as error:
+            notes.warnings.append(f"geometry: {loop.label} stays spatial: {error}")
+            continue
+        sc = more
+        added[loop.centre] += 1
+    for centre, meet in ((Centre.INFINITE, "are parallel: planar"), (Centre.FINITE, "meet in a point: spherical")):
+        if added[centre]:
+            notes.warnings.append(f"geometry: the axes of {added[centre]} loop(s) round holes or cuts {meet}")
+    return sc
 
 
 def _hinge_ends(sheet: Sheet, joint_of_edge: Mapping[Edge, int | None]) -> dict[int, Edge]:
@@ -195,8 +227,8 @@ def _joints(
     assignment: Mapping[Edge, tuple[str, int]],
     hinges: str,
     panel_of_face: Sequence[int],
-) -> tuple[dict[Edge, int | None], dict[int, tuple[int, int]], int]:
-    """Return the joint of each hinged edge (None for one inside a panel), the joints, and how many are idle."""
+) -> tuple[dict[Edge, int | None], dict[int, tuple[int, int]], int, HingeLines]:
+    """Return the joint of each hinged edge (None for one inside a panel), the joints, how many are idle, lines."""
     joint_of_edge: dict[Edge, int | None] = {}
     between: dict[tuple[int, int], list[tuple[int, Edge]]] = defaultdict(list)
     idle = 0
@@ -211,138 +243,14 @@ def _joints(
         else:
             between[(a, b) if a < b else (b, a)].append((index, edge))
     joints: dict[int, tuple[int, int]] = {}
-    for pair, hinged in sorted(between.items(), key=lambda item: min(item[1])):
-        if len(hinged) == 1:
-            ((first, edge),) = hinged
-            joints[first] = pair
-            joint_of_edge[edge] = first
-            continue
-        for group in _collinear_groups(sheet, hinged):
-            first = min(index for index, _ in group)
-            joints[first] = pair
-            for _, edge in group:
-                joint_of_edge[edge] = first
-    return joint_of_edge, joints, idle
-
-
-def _collinear_groups(sheet: Sheet, hinged: list[tuple[int, Edge]]) -> list[list[tuple[int, Edge]]]:
-    """Group the hinges between two panels by the line they lie on; without coordinates each is its own."""
-    if sheet.coordinates is None:
-        return [[one] for one in sorted(hinged)]
-    groups: list[list[tuple[int, Edge]]] = []
-    for one in sorted(hinged):
+    bundles = sorted((sorted(hinged), pair) for pair, hinged in between.items())
+    rounding = 0.0 if sheet.coordinates is None else precision_of(sheet.coordinates).size
+    edges = [[edge for _, edge in hinged] for hinged, _ in bundles]
+    lines = lines_of_hinges(sheet.coordinates, edges, rounding=rounding)
+    for (hinged, pair), groups in zip(bundles, lines.groups, strict=True):
         for group in groups:
-            if _collinear([sheet.coordinates[v] for v in (*group[0][1], *one[1])]):
-                group.append(one)
-                break
-        else:
-            groups.append([one])
-    return groups
-
-
-def _collinear(points: Sequence[Sequence[float]]) -> bool:
-    spread = np.asarray(points, dtype=float) - np.mean(points, axis=0)
-    sizes = np.linalg.svd(spread, compute_uv=False)
-    return bool(sizes[1] <= COLLINEAR * sizes[0])
-
-
-def _vertex_cycles(
-    sheet: Sheet,
-    faces_at: Mapping[Edge, list[int]],
-    joint_of_edge: Mapping[Edge, int | None],
-    panel_of_face: Sequence[int],
-) -> dict[tuple[int, ...], int]:
-    """Return the cycles of joints round the interior vertices, and the vertex of each.
-
-    The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
-    vertex (its faces are merged elsewhere) the walk falls into several cycles with the same centre.
-    """
-    cycles: list[tuple[tuple[int, ...], int]] = []
-    for vertex, fan in _closed_fans(sheet, faces_at):
-        walk: list[tuple[int, int]] = []  # (panel entered, joint crossed into it)
-        for edge, face in fan:
-            if edge in joint_of_edge:
-                joint = joint_of_edge[edge]
-                if joint is not None:
-                    walk.append((panel_of_face[face], joint))
-            elif len({panel_of_face[f] for f in faces_at[edge]}) > 1:
-                break  # a cut: the fan is open after all
-        else:
-            cycles += [(cycle, vertex) for cycle in _simple_cycles(walk)]
-    # Hinges that are one joint may meet another joint twice; the loop of the two is one loop.
-    distinct = {frozenset(cycle): (cycle, vertex) for cycle, vertex in reversed(cycles)}
-    return dict(list(distinct.values())[::-1])
-
-
-def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, list[int]]) -> list[tuple[int, list[tuple[Edge, int]]]]:
-    """Return each vertex with faces all round, with its edges and the faces entered across them, in order."""
-    at_vertex: dict[int, list[tuple[int, Edge, Edge]]] = defaultdict(list)
-    for index, around in enumerate(sheet.faces):
-        sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
-        for i, vertex in enumerate(around):
-            at_vertex[vertex].append((index, sides[i - 1], sides[i]))
-    fans = []
-    for centre, corners in at_vertex.items():
-        sides_of = {face: (one, two) for face, one, two in corners}
-        left = dict.fromkeys(sides_of)
-        while left:
-            start = next(iter(left))
-            fan: list[tuple[Edge, int]] = []
-            edge, face = sides_of[start][1], start
-            while True:
-                left.pop(face, None)
-                here = faces_at[edge]
-                if len(here) < 2:
-                    _drop_fan(start, sides_of, faces_at, left)
-                    break
-                face = here[0] if here[1] == face else here[1]
-                fan.append((edge, face))
-                if face == start:
-                    fans.append((centre, fan))
-                    break
-                one, two = sides_of[face]
-                edge = two if edge == one else one
-    return fans
-
-
-def _drop_fan(
-    start: int,
-    sides_of: Mapping[int, tuple[Edge, Edge]],
-    faces_at: Mapping[Edge, list[int]],
-    left: dict[int, None],
-) -> None:
-    """Take the other half of an open fan off the list."""
-    face, edge = start, sides_of[start][0]
-    while True:
-        beyond = [f for f in faces_at[edge] if f != face]
-        if not beyond:
-            return
-        face = beyond[0]
-        left.pop(face, None)
-        one, two = sides_of[face]
-        edge = two if edge == one else one
-
-
-def _simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
-    """Cut a closed walk of (panel entered, joint crossed) into cycles that visit each panel once."""
-    if len({panel for panel, _ in walk}) == len(walk):
-        around = tuple(joint for _, joint in walk)
-        return [around] if len(set(around)) == len(around) > 1 else []
-    cycles: list[tuple[int, ...]] = []
-    path: list[tuple[int, int]] = []
-    entered: dict[Hashable, int] = {walk[-1][0]: 0}  # the walk starts in the panel it ends in
-    for panel, joint in walk:
-        path.append((panel, joint))
-        if panel in entered:
-            start = entered[panel]
-            part = path[start:]
-            del path[start:]
-            for inner, _ in part:
-                if inner != panel:
-                    entered.pop(inner, None)
-            around = tuple(j for _, j in part)
-            if len(set(around)) == len(around) > 1:
-                cycles.append(around)
-        else:
-            entered[panel] = len(path)
-    return cycles
+            first, _ = hinged[group[0]]
+            joints[first] = pair
+            for place in group:
+                joint_of_edge[hinged[place][1]] = first
+    return joint_of_edge, joints, idle, lines

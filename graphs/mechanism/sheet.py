@@ -29,7 +29,10 @@ __all__ = [
 ]
 
 COLLINEAR = 1e-6
-"""Points are in one line or plane if they lie this close to it, in units of their extent."""
+"""Points are in one line or plane if they lie this close to it, in units of their extent.
+
+It is the tight tolerance: of hinges, coarser ones are tried too (``graphs.convert.hinges``).
+"""
 HINGES = "MVU"
 """Edge assignments that are hinges: mountain, valley, unassigned."""
 FLAT = "FJ"

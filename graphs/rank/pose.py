@@ -261,7 +261,7 @@ def _lengths(points: Floats, found: SheetMechanism) -> Floats:
 def _error_of_axes(points: Floats, found: SheetMechanism) -> Floats:
     """Return the error of the axis of each hinge, its moments if need be, for an error 1 of coordinates."""
     error = np.sqrt(2) / _lengths(points, found)
-    spatial = found.sc.independent_loops > len(found.sc.centred_loops)
+    spatial = found.sc.independent_loops > len(found.loop_vertices)
     return np.asarray(error * (1 + np.sqrt(3)) if spatial else error)
 
 
@@ -302,10 +302,7 @@ def closure_at_pose(sheet: Sheet, found: SheetMechanism) -> Closure:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the sheet has none")
     places = _in_space(sheet.coordinates)
     axes = _axes(places, found)
-    centres = {
-        loop: (*places[vertex].tolist(), 1.0)
-        for loop, vertex in zip(range(len(found.sc.loops)), found.loop_vertices, strict=True)
-    }
+    centres = {loop: (*places[vertex].tolist(), 1.0) for loop, vertex in enumerate(found.loop_vertices)}
     return closure_of(found.sc, axes, centres, Reals())
 
 

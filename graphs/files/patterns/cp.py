@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from graphs.convert.tracing import MOST, Lines, trace_sheet
+from graphs.convert.tracing import MOST, trace_sheet
+from graphs.convert.welding import Lines
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.text import read_text

@@ -135,7 +135,8 @@ def _traced(sheet: Sheet, check: Checker) -> Sheet:
     """Trace the faces of a pattern that comes without; it must be flat."""
     import numpy as np
 
-    from graphs.convert.tracing import MOST, Lines, trace_sheet
+    from graphs.convert.tracing import MOST, trace_sheet
+    from graphs.convert.welding import Lines
 
     if not sheet.edges or sheet.coordinates is None:
         raise FileError(check.path, "faces_vertices", "missing", "faces, or edges with coordinates to trace them")

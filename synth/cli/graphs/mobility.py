@@ -6,7 +6,7 @@ import gc
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
@@ -34,6 +34,11 @@ _LONGEST_PATH = 4096
 @click.option(
     "--pose", type=click.IntRange(min=0), metavar="FRAME", help="Freedoms as this frame of a FOLD file lies."
 )
+@click.option(
+    "--no-geometry",
+    is_flag=True,
+    help="Take all loops round holes and cuts of a crease pattern for spatial, wherever their axes meet.",
+)
 @click.option("--no-pose", is_flag=True, help="Leave out the freedoms at the coordinates.")
 def mobility(
     files: tuple[str, ...],
@@ -42,6 +47,7 @@ def mobility(
     hinge_flat: bool,
     pose: int | None,
     no_pose: bool,
+    no_geometry: bool,
 ) -> None:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
@@ -61,6 +67,7 @@ def mobility(
 
     if no_pose and pose is not None:
         raise click.UsageError("--pose names a pose that --no-pose leaves out")
+    lies: int | Literal[False] | None = False if no_pose else pose
     failures: list[str] = []
     answers: list[tuple[str, MobilityAnswer]] = []
     with _objects_stay():
@@ -68,7 +75,7 @@ def mobility(
             try:
                 with about(entry.label):
                     answer = asked(
-                        entry.mechanism, exact=exact, hinge_flat=hinge_flat, pose=False if no_pose else pose
+                        entry.mechanism, exact=exact, hinge_flat=hinge_flat, pose=lies, geometry=not no_geometry
                     )
                     answers.append((entry.label, answer))
             except FileError as error:

@@ -6,11 +6,12 @@ from collections import Counter
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.tracing import Lines, trace_sheet
+from graphs.convert.tracing import trace_sheet
+from graphs.convert.welding import Lines
 from graphs.errors import InvariantError
 from graphs.files.formats import read, write
 from graphs.files.patterns.cp import cp_text, sheet_from_cp
@@ -90,8 +91,9 @@ def test_a_hole_is_no_face():
     ]
     sheet = traced(lines, "BBBB" + "BBBB" + "VVVV")
     assert len(sheet.faces) == 4
-    sc = mechanism_of_sheet(sheet).sc
+    sc = mechanism_of_sheet(sheet, geometry=False).sc
     assert (len(sc), len(sc.joints), sc.spatial_loops) == (4, 4, 1)
+    assert mechanism_of_sheet(sheet).sc.spatial_loops == 0  # its creases meet in the middle of the hole
     assert any("taken as holes" in note for note in sheet.repairs)
 
 
@@ -137,3 +139,69 @@ def test_svg_shapes_transforms_and_colours(tmp_path):
     assert "1 shape(s) in other colours left out" in sheet.repairs
     mechanism = mechanism_of_sheet(sheet)
     assert (mechanism.interior_vertices, len(mechanism.sc)) == (1, 4)
+
+
+@settings(max_examples=12)
+@given(st.integers(0, 10**9))
+def test_vertices_split_by_a_short_edge_are_mended(seed):
+    """Ten by ten panels, five vertices where the creases from both sides meet a third a little apart.
+
+    Every line ends on another, and edges less vertices are as without the splits, so only the short edges tell.
+    """
+    rng = random.Random(seed)
+    n = 10
+    split = rng.sample([(i, j) for i in range(1, n) for j in range(1, n)], 5)
+    lines, letters = list(SQUARE), "BBBB"
+    for i in range(1, n):
+        lines.append(((0, i / n), (1, i / n)))
+        letters += "M"
+    for i in range(1, n):
+        for j in range(n):
+            off = rng.choice([-1, 1]) * rng.uniform(1.5e-4, 5e-4) if (i, j) in split else 0
+            lines.append(((i / n + off, j / n), (i / n, (j + 1) / n)))
+            letters += "V"
+    sheet = traced(lines, letters)
+    assert (sheet.vertices, len(sheet.faces)) == ((n + 1) ** 2, n * n)
+    mechanism = mechanism_of_sheet(sheet)
+    assert (mechanism.interior_vertices, len(mechanism.sc.joints)) == ((n - 1) ** 2, 2 * n * (n - 1))
+    assert any("welded within" in note and "of the size" in note for note in sheet.repairs)
+
+
+def test_a_tolerance_with_simple_faces_is_preferred():
+    """A triangle hangs on a crease by one corner; another misses the border by more than a crease misses it."""
+    low, middle, high = (0.5, 8e-4), (0.5, 0.5), (0.5, 1)
+    free, near = (0.8, 0.4), (1 - 1.5e-3, 0.6)
+    lines = [*SQUARE, (low, middle), (middle, high), (middle, free), (free, near), (near, middle)]
+    sheet = traced(lines, "BBBB" + "V" * 5)
+    assert sorted(areas(sheet)) == pytest.approx([0.04, 0.225, 0.235, 0.5], abs=2e-3)
+    assert "ends welded within 2e-03 of the size" in sheet.repairs
+    without_gap = [
+        *SQUARE,
+        ((0.5, 0), middle),
+        (middle, high),
+        (middle, free),
+        (free, (0.7, 0.6)),
+        ((0.7, 0.6), middle),
+    ]
+    with pytest.raises(InvariantError, match="three or more, each once"):
+        traced(without_gap, "BBBB" + "V" * 5)
+
+
+def test_finer_tolerances_that_lose_lines_are_no_way_to_simple_faces():
+    """The triangle hangs by one corner for good; where its ends do not meet it would vanish."""
+    middle, one, two = (0.5, 0.5), (0.8, 0.4), (0.8, 0.6)
+    lines = [*SQUARE, ((0.5, 0), middle), (middle, (0.5, 1)), (middle, one), (one, two), ((0.80003, 0.6), middle)]
+    with pytest.raises(InvariantError, match="three or more, each once"):
+        traced(lines, "BBBB" + "V" * 5)
+
+
+def test_a_fine_pattern_keeps_its_panels():
+    """Pleats no wider than the coarser tolerances: short edges are no sign of splits where faces would go."""
+    n = 20
+    lines, letters = [*SQUARE], "BBBB"
+    for i in range(1, n):
+        lines.append(((0.4 + i * 9e-4, 0), (0.4 + i * 9e-4, 1)))
+        letters += "MV"[i % 2]
+    sheet = traced(lines, letters)
+    assert len(sheet.faces) == n
+    assert not any("welded" in note for note in sheet.repairs)

@@ -110,6 +110,9 @@ DIFFERENT = {
     "ossvg_FTpoly7.svg": "split lines",
     "ossvg_whirlpool.svg": "lines miss each other",
     "ossvg_HexTriFlatFoldableTess.svg": "split lines",
+    # One of ten hinges between two panels is drawn 0.15 degrees off the line of the others. It is joined to them; the
+    # reference takes it as it is drawn, and the panels do not move.
+    "ossvg_popupSimple.svg": "hinges nearly on one line",
 }
 
 

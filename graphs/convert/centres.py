@@ -1,0 +1,87 @@
+"""Centres that geometry gives to loops round holes and cuts.
+
+Round a hole or a cut the creases that end there make a loop of panels that no vertex is the centre of. Where their
+lines are parallel it is planar, where they meet in one point spherical, as they lie and as they fold: adjacent
+lines belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.precision import extent_of, precision_of_sheet
+from graphs.mechanism.sheet import Edge, Sheet
+
+__all__ = ["axes_meet", "loops_with_centres"]
+
+_MEANT = 1e-6
+"""Lines that are off by less than this, in units of the extent, are meant to be parallel or to meet."""
+_NOISE = 6.0
+_FARTHEST = 1e3
+"""A point where lines meet that is farther than this, in units of the extent, is not told from infinity."""
+
+
+def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: Mapping[int, Edge]) -> list[Loop]:
+    """Return those cycles whose axes are parallel or meet in a point, as far as the coordinates tell, as loops.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates.
+    cycles : sequence of tuple of joint id
+    hinges : mapping of joint id to (vertex, vertex)
+
+    Examples
+    --------
+    >>> sheet = Sheet(6, (), "", (), ((0, 0), (1, 0), (0, 1), (2, 1), (0, 3), (1, 3)))
+    >>> loops_with_centres(sheet, [(7, 8, 9)], {7: (0, 1), 8: (2, 3), 9: (4, 5)})[0].centre
+    <Centre.INFINITE: 'infinite'>
+    """
+    points = np.zeros((sheet.vertices, 3))
+    given = np.asarray(sheet.coordinates, dtype=float)
+    points[:, : given.shape[1]] = given
+    points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
+    tolerance = max(_NOISE * precision_of_sheet(sheet).size, _MEANT)
+    centres = [axes_meet(points, [hinges[joint] for joint in cycle], tolerance) for cycle in cycles]
+    return [
+        Loop(cycle, centre) for cycle, centre in zip(cycles, centres, strict=True) if centre is not Centre.NONE
+    ]
+
+
+def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centre:
+    """Return where lines through pairs of points meet, within a tolerance for each point.
+
+    Parameters
+    ----------
+    points : float[n, 3]
+    hinges : sequence of (point, point)
+        Two at least.
+    tolerance : float
+
+    Examples
+    --------
+    >>> axes_meet(np.array([[1.0, 0, 0], [2, 0, 0], [0, 1, 0], [0, 3, 0]]), [(0, 1), (2, 3)], 1e-6)
+    <Centre.FINITE: 'finite'>
+    """
+    ends = np.array(hinges)
+    start, along = points[ends[:, 0]], points[ends[:, 1]] - points[ends[:, 0]]
+    lengths = np.linalg.norm(along, axis=1)
+    if not lengths.all():
+        return Centre.NONE
+    direction = np.linalg.svd(along)[2][0]
+    if (np.linalg.norm(np.cross(along, direction), axis=1) <= 2 * tolerance).all():
+        return Centre.INFINITE
+    units = along / lengths[:, None]
+    across = np.eye(3) - units[:, :, None] * units[:, None, :]
+    solved, _, rank, _ = np.linalg.lstsq(
+        across.reshape(-1, 3), np.einsum("jab,jb->ja", across, start).ravel(), rcond=1e-9
+    )
+    if rank < 3 or np.abs(solved).max() > _FARTHEST:
+        return Centre.NONE
+    off = np.linalg.norm(np.einsum("jab,jb->ja", across, solved - start), axis=1)
+    reach = np.linalg.norm(solved - (start + along / 2), axis=1)
+    return Centre.FINITE if (off <= tolerance * (1 + 2 * reach / lengths)).all() else Centre.NONE

@@ -1,0 +1,196 @@
+"""Cycles of joints in a sheet: round its interior vertices, and along its boundaries.
+
+Theory: docs/theory/crease-patterns.md.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+
+__all__ = ["Hinged", "boundary_cycles", "vertex_cycles"]
+
+
+@dataclass(frozen=True)
+class Hinged:
+    """What hangs on what in a sheet.
+
+    Attributes
+    ----------
+    faces_at : mapping of edge to faces
+    joint_of_edge : mapping of edge to joint id or None
+        Of the hinges; None for one inside a panel. Edges inside a panel that are no hinges are not in it.
+    panel_of_face : sequence of int
+    """
+
+    faces_at: Mapping[Edge, Sequence[int]]
+    joint_of_edge: Mapping[Edge, int | None]
+    panel_of_face: Sequence[int]
+
+    def across(self, edge: Edge, face: int) -> int | None:
+        """Return the face beyond an edge, or None at a border or a cut."""
+        here = self.faces_at[edge]
+        if len(here) < 2:
+            return None
+        other = here[0] if here[1] == face else here[1]
+        joined = edge in self.joint_of_edge or self.panel_of_face[other] == self.panel_of_face[face]
+        return other if joined else None
+
+
+def vertex_cycles(sheet: Sheet, hinged: Hinged) -> dict[tuple[int, ...], int]:
+    """Return the cycles of joints round the interior vertices, and the vertex of each.
+
+    The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
+    vertex (its faces are merged elsewhere) the walk falls into several cycles with the same centre.
+    """
+    cycles: list[tuple[tuple[int, ...], int]] = []
+    for vertex, fan in _closed_fans(sheet, hinged.faces_at):
+        walk: list[tuple[int, int]] = []  # (panel entered, joint crossed into it)
+        for edge, face in fan:
+            if edge in hinged.joint_of_edge:
+                joint = hinged.joint_of_edge[edge]
+                if joint is not None:
+                    walk.append((hinged.panel_of_face[face], joint))
+            elif len({hinged.panel_of_face[f] for f in hinged.faces_at[edge]}) > 1:
+                break  # a cut: the fan is open after all
+        else:
+            cycles += [(cycle, vertex) for cycle in simple_cycles(walk)]
+    # Hinges that are one joint may meet another joint twice; the loop of the two is one loop.
+    distinct = {frozenset(cycle): (cycle, vertex) for cycle, vertex in reversed(cycles)}
+    return dict(list(distinct.values())[::-1])
+
+
+def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[tuple[int, list[tuple[Edge, int]]]]:
+    """Return each vertex with faces all round, with its edges and the faces entered across them, in order."""
+    at_vertex: dict[int, list[tuple[int, Edge, Edge]]] = defaultdict(list)
+    for index, around in enumerate(sheet.faces):
+        sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
+        for i, vertex in enumerate(around):
+            at_vertex[vertex].append((index, sides[i - 1], sides[i]))
+    fans = []
+    for centre, corners in at_vertex.items():
+        sides_of = {face: (one, two) for face, one, two in corners}
+        left = dict.fromkeys(sides_of)
+        while left:
+            start = next(iter(left))
+            fan: list[tuple[Edge, int]] = []
+            edge, face = sides_of[start][1], start
+            while True:
+                left.pop(face, None)
+                here = faces_at[edge]
+                if len(here) < 2:
+                    _drop_fan(start, sides_of, faces_at, left)
+                    break
+                face = here[0] if here[1] == face else here[1]
+                fan.append((edge, face))
+                if face == start:
+                    fans.append((centre, fan))
+                    break
+                one, two = sides_of[face]
+                edge = two if edge == one else one
+    return fans
+
+
+def _drop_fan(
+    start: int,
+    sides_of: Mapping[int, tuple[Edge, Edge]],
+    faces_at: Mapping[Edge, Sequence[int]],
+    left: dict[int, None],
+) -> None:
+    """Take the other half of an open fan off the list."""
+    face, edge = start, sides_of[start][0]
+    while True:
+        beyond = [f for f in faces_at[edge] if f != face]
+        if not beyond:
+            return
+        face = beyond[0]
+        left.pop(face, None)
+        one, two = sides_of[face]
+        edge = two if edge == one else one
+
+
+def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
+    """Cut a closed walk of (panel entered, joint crossed) into cycles that visit each panel once."""
+    if len({panel for panel, _ in walk}) == len(walk):
+        around = tuple(joint for _, joint in walk)
+        return [around] if len(set(around)) == len(around) > 1 else []
+    cycles: list[tuple[int, ...]] = []
+    path: list[tuple[int, int]] = []
+    entered: dict[Hashable, int] = {walk[-1][0]: 0}  # the walk starts in the panel it ends in
+    for panel, joint in walk:
+        path.append((panel, joint))
+        if panel in entered:
+            start = entered[panel]
+            part = path[start:]
+            del path[start:]
+            for inner, _ in part:
+                if inner != panel:
+                    entered.pop(inner, None)
+            around = tuple(j for _, j in part)
+            if len(set(around)) == len(around) > 1:
+                cycles.append(around)
+        else:
+            entered[panel] = len(path)
+    return cycles
+
+
+def boundary_cycles(sheet: Sheet, hinged: Hinged) -> list[tuple[int, ...]]:
+    """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
+
+    Along a boundary the creases that end there are passed in order.
+
+    Examples
+    --------
+    Four squares in a ring:
+
+    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+    >>> sides = {(0, 1): [0], (1, 2): [1], (2, 3): [2], (0, 3): [3]}
+    >>> sides |= {(4, 5): [0], (5, 6): [1], (6, 7): [2], (4, 7): [3]}
+    >>> creases = {(1, 5): [0, 1], (2, 6): [1, 2], (3, 7): [2, 3], (0, 4): [3, 0]}
+    >>> joints = {edge: joint for joint, edge in enumerate(creases)}
+    >>> boundary_cycles(Sheet(8, (), "", faces), Hinged(sides | creases, joints, range(4)))
+    [(0, 1, 2, 3)]
+    """
+    edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
+    for index, around in enumerate(sheet.faces):
+        sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
+        for i, vertex in enumerate(around):
+            edges_at[index, vertex] = sides[i - 1], sides[i]
+    cycles = []
+    seen: set[tuple[int, Edge]] = set()
+    for edge, faces in hinged.faces_at.items():
+        for face in faces:
+            if (face, edge) not in seen and hinged.across(edge, face) is None:
+                walk = _along(face, edge, edges_at, hinged, seen)
+                cycles += simple_cycles(walk) if walk else []
+    distinct = {frozenset(cycle): cycle for cycle in reversed(cycles)}
+    return sorted(distinct.values(), key=len)
+
+
+def _along(
+    face: int,
+    edge: Edge,
+    edges_at: Mapping[tuple[int, int], tuple[Edge, Edge]],
+    hinged: Hinged,
+    seen: set[tuple[int, Edge]],
+) -> list[tuple[int, int]]:
+    """Walk along a boundary from one of its sides, and mark the sides that are passed."""
+    walk: list[tuple[int, int]] = []
+    ahead = edge[1]
+    while (face, edge) not in seen:
+        seen.add((face, edge))
+        while True:
+            one, two = edges_at[face, ahead]
+            edge = two if edge == one else one
+            beyond = hinged.across(edge, face)
+            if beyond is None:
+                break
+            face = beyond
+            joint = hinged.joint_of_edge.get(edge)
+            if joint is not None:
+                walk.append((hinged.panel_of_face[face], joint))
+        ahead = edge[0] if edge[1] == ahead else edge[1]
+    return walk

@@ -1,0 +1,256 @@
+"""Hinges between the same two panels: which of them lie on one line, and so are one joint.
+
+Theory: docs/theory/crease-patterns.md, "Split hinges".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, floor, log10
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.arrays import Floats
+from graphs.mechanism.sheet import COLLINEAR, Edge
+
+__all__ = ["BENT", "HingeLines", "lines_of_hinges"]
+
+BENT = 0.03
+"""Hinges farther off one line than this, in units of their lengths, are bent: equal ones by over 3.4 degrees."""
+
+_PLATEAU = 10.0
+"""Tolerances are a plateau if the largest is this many times the smallest."""
+
+_APART = 1.0
+"""What stands for the deviation of hinges that are bent."""
+
+_SHORTEST = 1e-12
+"""Shorter hinges count as this long, in units of the extent of the sheet."""
+
+_AT_ONCE = 50_000
+"""Pairs of hinges that are measured in one go: less than a kilobyte each."""
+
+Indices = npt.NDArray[np.int64]
+
+Groups = frozenset[tuple[int, ...]]
+"""The places of hinges in their bundle, line by line."""
+
+
+@dataclass(frozen=True)
+class HingeLines:
+    """Bundles of hinges, a bundle for two panels, grouped by the lines on which they lie.
+
+    Attributes
+    ----------
+    groups : tuple of tuple of tuple of int
+        Of each bundle its groups; of each group the places of its hinges in the bundle, in order.
+    within : float
+        How far off one line two hinges of a group are at most, in units of their lengths.
+    loosely : int
+        How many joints fewer these groups are than those of a tight tolerance, ``COLLINEAR``.
+    unclear : int
+        Hinges that stay apart from others, but may lie on a line with them.
+    """
+
+    groups: tuple[tuple[tuple[int, ...], ...], ...]
+    within: float = 0.0
+    loosely: int = 0
+    unclear: int = 0
+
+    @property
+    def repairs(self) -> tuple[str, ...]:
+        """What was joined that a tight tolerance leaves apart, in words."""
+        if not self.loosely:
+            return ()
+        unit = 10.0 ** floor(log10(self.within))
+        return (f"hinges within {ceil(self.within / unit) * unit:.0e} of a line joined: {self.loosely}",)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What could not be decided, in words."""
+        return (f"{self.unclear} hinge(s) may or may not be on one line: kept apart",) if self.unclear else ()
+
+
+def lines_of_hinges(
+    coordinates: Sequence[Sequence[float]] | None,
+    bundles: Sequence[Sequence[Edge]],
+    *,
+    rounding: float = 0.0,
+) -> HingeLines:
+    """Group the hinges between the same two panels by the lines on which they lie.
+
+    Parameters
+    ----------
+    coordinates : sequence of (x, y) or (x, y, z), or None
+        Where the vertices are; without it every hinge is on a line of its own.
+    bundles : sequence of sequence of (vertex, vertex)
+        Of each two panels their hinges.
+    rounding : float, optional
+        The rounding error of the coordinates, if known, in units of the extent of them all.
+
+    Returns
+    -------
+    HingeLines
+
+    Notes
+    -----
+    How far two hinges are off one line: that line goes through those two of their ends that are farthest apart;
+    the distance of the ends of each from it, in units of the length of that hinge, the larger of the two. So of
+    hinges that meet it is an angle, half that of the bend if they are equally long, all of it if one is short; of
+    hinges beside each other it is large. Rounding moves ends by some length, and so turns short hinges more. What
+    it explains, if it is known, is taken off the distances.
+
+    The tolerance is the foot of the coarsest plateau, a range between ``COLLINEAR`` and ``BENT`` of a decade or
+    more in which the number of lines does not change; ``COLLINEAR`` if there is none.
+
+    The hinges of a group fit each other two by two. Where a row of hinges fit one to the next, but not the first
+    to the last, they are a curve, and ``COLLINEAR`` holds for them.
+
+    Unclear are hinges apart that all fit each other at ``BENT``, and hinges that rounding may have turned or put
+    in a row: such as are bent, or a curve, but by no more than rounding explains.
+
+    Examples
+    --------
+    Three hinges on a line as far as two decimals go, and one that is bent:
+
+    >>> points = [(0, 0), (10, 3.33), (20, 6.67), (30, 10), (40, 10)]
+    >>> lines = lines_of_hinges(points, [[(0, 1), (1, 2), (2, 3), (3, 4)]])
+    >>> lines.groups
+    (((0, 1, 2), (3,)),)
+    >>> lines.repairs
+    ('hinges within 5e-04 of a line joined: 2',)
+    """
+    groups: list[tuple[tuple[int, ...], ...]] = [tuple((i,) for i in range(len(bundle))) for bundle in bundles]
+    several = [i for i, bundle in enumerate(bundles) if len(bundle) > 1]
+    if coordinates is None or not several:
+        return HingeLines(tuple(groups))
+    measured = _measured(np.asarray(coordinates, dtype=float), [bundles[i] for i in several], rounding)
+    tolerance = _plateau([bundle.tree(bundle.excess)[:, 2] for bundle in measured])
+    within, loosely, unclear = 0.0, 0, 0
+    for i, bundle in zip(several, measured, strict=True):
+        if (most := float(bundle.deviation.max())) <= COLLINEAR:  # one line at any tolerance: by far the most are
+            within = max(within, most)
+            groups[i] = (tuple(range(bundle.size)),)
+            continue
+        tight = bundle.cliques(bundle.deviation, COLLINEAR)
+        lines = _lines(bundle, tolerance, tight)
+        apart = bundle.apart(lines)
+        groups[i] = tuple(sorted(lines))
+        within = max(within, float(bundle.deviation[~apart].max(initial=0.0)))
+        loosely += len(tight) - len(lines)
+        unclear += bundle.unclear(lines, apart, tolerance)
+    return HingeLines(tuple(groups), within, loosely, unclear)
+
+
+@dataclass(frozen=True)
+class _Bundle:
+    """The hinges between two panels, measured two by two: (0, 1), (0, 2), ..., (1, 2), ...
+
+    Attributes
+    ----------
+    size : int
+        How many hinges.
+    pairs : array of int, shape (2, pairs)
+        The places of the two hinges of each pair.
+    deviation, excess : array of shape (pairs,)
+        How far each two are off one line, in units of their lengths; the same, less what rounding explains.
+    """
+
+    size: int
+    pairs: Indices
+    deviation: Floats
+    excess: Floats
+
+    def tree(self, heights: Floats, method: str = "complete") -> Floats:
+        """Return merges of clusters in the order of their heights, as scipy does: two clusters, height, size."""
+        heights = np.where(self.deviation > BENT, _APART, heights)
+        if self.size == 2:
+            return np.array([(0.0, 1.0, heights[0], 2.0)])
+        from scipy.cluster.hierarchy import linkage
+
+        merges: Floats = linkage(heights, method)
+        return merges
+
+    def cliques(self, heights: Floats, tolerance: float) -> Groups:
+        """Group hinges that are within a tolerance of each other, each of each."""
+        return _cut(self.tree(heights), tolerance)
+
+    def rows(self, heights: Floats, tolerance: float) -> Groups:
+        """Group hinges that hang together by steps within a tolerance: those of a curve too."""
+        return _cut(self.tree(heights, "single"), tolerance)
+
+    def apart(self, groups: Groups) -> npt.NDArray[np.bool_]:
+        """Tell of each pair whether it is in two groups."""
+        label = np.empty(self.size, dtype=np.int64)
+        for number, group in enumerate(groups):
+            label[list(group)] = number
+        found: npt.NDArray[np.bool_] = label[self.pairs[0]] != label[self.pairs[1]]
+        return found
+
+    def unclear(self, lines: Groups, apart: npt.NDArray[np.bool_], tolerance: float) -> int:
+        """Return how many hinges are apart from others that may be on their line."""
+        nearly = self.cliques(self.deviation, BENT) & self.rows(self.deviation, BENT)
+        bent_a_little = {hinge for group in nearly - lines for hinge in group}
+        explained = self.pairs[:, apart & (self.excess <= tolerance)]
+        return len(bent_a_little.union(explained.ravel().tolist()))
+
+
+def _lines(bundle: _Bundle, tolerance: float, tight: Groups) -> Groups:
+    """Group the hinges of a bundle; where they fit in a row, but not all each other, take their tight groups."""
+    whole = bundle.cliques(bundle.excess, tolerance) & bundle.rows(bundle.excess, tolerance)
+    there = {hinge for group in whole for hinge in group}
+    return whole | {group for group in tight if there.isdisjoint(group)}
+
+
+def _plateau(merges: Sequence[Floats]) -> float:
+    """Return the foot of the coarsest plateau, given the heights at which lines become one."""
+    heights = np.unique(np.concatenate(merges))
+    steps = [COLLINEAR, *heights[(heights > COLLINEAR) & (heights < BENT)].tolist(), BENT]
+    feet = [below for below, above in pairwise(steps) if above >= _PLATEAU * below]
+    return feet[-1] if feet else COLLINEAR
+
+
+def _cut(tree: Floats, tolerance: float) -> Groups:
+    """Carry out the merges up to a tolerance."""
+    clusters: dict[int, tuple[int, ...]] = {hinge: (hinge,) for hinge in range(len(tree) + 1)}
+    for row, (one, two, height, _) in enumerate(tree.tolist(), len(tree) + 1):
+        if height > tolerance:
+            break
+        clusters[row] = clusters.pop(int(one)) + clusters.pop(int(two))
+    return frozenset(tuple(sorted(cluster)) for cluster in clusters.values())
+
+
+def _measured(points: Floats, bundles: Sequence[Sequence[Edge]], rounding: float) -> list[_Bundle]:
+    """Measure all pairs of hinges, many at once."""
+    spread = points - points.mean(axis=0)
+    ends = (spread / (np.ptp(spread, axis=0).max() or 1.0))[np.array([edge for one in bundles for edge in one])]
+    explained = 2 * np.sqrt(points.shape[1]) * rounding
+    sizes = [len(bundle) for bundle in bundles]
+    of_size = {size: np.array(np.triu_indices(size, 1)) for size in set(sizes)}
+    starts = np.cumsum([0, *sizes]).tolist()
+    first, second = np.hstack([of_size[size] + start for size, start in zip(sizes, starts[:-1], strict=True)])
+    pieces = np.array_split(np.arange(len(first)), len(first) // _AT_ONCE + 1)
+    deviation, excess = np.hstack([_off_line(ends[first[some]], ends[second[some]], explained) for some in pieces])
+    stops = np.cumsum([0, *(size * (size - 1) // 2 for size in sizes)]).tolist()
+    return [
+        _Bundle(size, of_size[size], deviation[start:stop], excess[start:stop])
+        for size, (start, stop) in zip(sizes, pairwise(stops), strict=True)
+    ]
+
+
+def _off_line(one: Floats, two: Floats, explained: float) -> Floats:
+    """Return how far each two hinges are off one line, in units of their lengths; and less what is explained."""
+    four = np.concatenate([one, two], axis=1)
+    apart = np.linalg.norm(four[:, :, None] - four[:, None], axis=3).reshape(-1, 16)
+    farthest = apart.argmax(axis=1)
+    rows = np.arange(len(four))
+    here, there = four[rows, farthest // 4], four[rows, farthest % 4]
+    along = ((there - here) / np.maximum(apart[rows, farthest], _SHORTEST)[:, None])[:, None]
+    arms = four - here[:, None]
+    across = arms - (arms * along).sum(axis=2, keepdims=True) * along
+    off = np.linalg.norm(across, axis=2).reshape(-1, 2, 2).max(axis=2)
+    lengths = np.maximum(apart[:, [1, 11]], _SHORTEST)
+    return np.stack([(off / lengths).max(axis=1), (np.maximum(off - explained, 0.0) / lengths).max(axis=1)])

@@ -1,0 +1,239 @@
+"""Lines welded: ends that nearly meet made one vertex, lines split where they meet, loose ends pruned.
+
+What becomes of the network: :mod:`graphs.convert.tracing`. Theory: docs/theory/crease-patterns.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError
+from graphs.mechanism.sheet import Edge
+
+__all__ = ["Lines", "Network", "either_way", "network_of"]
+
+_RANK = "MVUFJBC"
+"""Of two lines in one place the one whose letter comes first here counts."""
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Straight lines of a planar pattern.
+
+    Attributes
+    ----------
+    ends : array of shape (n, 2, 2)
+        Both ends of each line; any length unit.
+    letters : str
+        The assignment of each, as in FOLD.
+    angles : tuple of float or None, optional
+        The fold angle of each, in degrees as in files.
+    """
+
+    ends: Floats
+    letters: str
+    angles: tuple[float | None, ...] | None = None
+
+    def __post_init__(self) -> None:
+        if self.ends.shape != (len(self.letters), 2, 2):
+            raise InvariantError("lines", f"{len(self.letters)} letters for ends of shape {self.ends.shape}")
+
+    @property
+    def size(self) -> float:
+        """The larger side of the box round the pattern."""
+        points = self.ends.reshape(-1, 2)
+        return float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+
+
+@dataclass
+class Network:
+    """Vertices and edges, after welding and splitting.
+
+    Attributes
+    ----------
+    points : array of shape (n, 2)
+        Where the vertices are; some may have no edge.
+    edges : dict of edge to letter
+        The assignment of each, as in FOLD.
+    tolerance : float
+        At which ends were welded; a length.
+    angles : dict of edge to float or None
+        Fold angles, in degrees as in files.
+    notes : counter of str
+        What was mended, and how often.
+    dangling : int
+        How many lines ended nowhere.
+    """
+
+    points: Floats
+    edges: dict[Edge, str]
+    tolerance: float
+    angles: dict[Edge, float | None] = field(default_factory=dict)
+    notes: Counter[str] = field(default_factory=Counter)
+    dangling: int = 0
+
+
+def network_of(lines: Lines, tolerance: float) -> Network:
+    """Weld ends, split lines where they cross and where an end lies on them, prune what ends nowhere.
+
+    Parameters
+    ----------
+    lines : Lines
+    tolerance : float
+        In the length unit of the lines.
+
+    Examples
+    --------
+    Two lines that cross, the ends of both joined by borders, one of which stops short:
+
+    >>> ends = [[[0, 0], [2, 2]], [[2, 0], [0, 2]], [[0, 0], [2, 0]], [[2.001, 0], [2, 2]], [[2, 2], [0, 2]]]
+    >>> network = network_of(Lines(np.array(ends, dtype=float), "MVBBB"), 0.01)
+    >>> len(network.edges), network.dangling, network.notes["crossing(s) split"]
+    (7, 0, 1)
+    """
+    long = np.linalg.norm(lines.ends[:, 1] - lines.ends[:, 0], axis=1) > tolerance
+    kept = [int(i) for i in np.flatnonzero(long)]
+    letters = [lines.letters[i] for i in kept]
+    angles = [None if lines.angles is None else lines.angles[i] for i in kept]
+    notes = Counter({"line(s) of no length dropped": int((~long).sum())})
+    ends = lines.ends[long]
+    segments = shapely.linestrings(ends)
+    tree = shapely.STRtree(segments)
+    crossings = _crossings(ends, tree, segments, tolerance)
+    points, of_point = _welded(np.concatenate([ends.reshape(-1, 2), crossings]), tolerance)
+    notes["crossing(s) split"] = len(set(of_point[2 * len(ends) :]) - set(of_point[: 2 * len(ends)]))
+    at = _points_on_lines(points, ends, tree, tolerance)
+    ends_of = of_point[: 2 * len(ends)].reshape(-1, 2)
+    edges: dict[Edge, str] = {}
+    angle_of: dict[Edge, float | None] = {}
+    true_ends = set(map(int, ends_of.ravel()))
+    for line, letter in enumerate(letters):
+        a, b = map(int, ends_of[line])
+        inner = [v for v in at[line] if v not in (a, b)]
+        notes["end(s) on a line: the line split"] += sum(v in true_ends for v in inner)
+        direction = points[b] - points[a]
+        path = [a, *sorted(inner, key=lambda v: float((points[v] - points[a]) @ direction)), b]
+        for u, v in pairwise(path):
+            if u == v:
+                continue
+            edge = either_way(u, v)
+            before = edges.get(edge)
+            if before is not None:
+                notes["line(s) drawn twice"] += 1
+            if before is None or _RANK.index(letter) < _RANK.index(before):
+                edges[edge] = letter
+                angle_of[edge] = angles[line]
+    network = Network(points, edges, tolerance, angle_of, notes)
+    _prune(network)
+    _straighten(network)
+    return network
+
+
+def _crossings(ends: Floats, tree: shapely.STRtree, segments: npt.NDArray[np.object_], tolerance: float) -> Floats:
+    """Return the points where two lines cross away from all four ends."""
+    one, two = tree.query(segments, predicate="intersects")
+    one, two = one[one < two], two[one < two]
+    p, r = ends[one, 0], ends[one, 1] - ends[one, 0]
+    q, s = ends[two, 0], ends[two, 1] - ends[two, 0]
+    area = r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0]
+    slanted = np.abs(area) > 1e-12 * np.linalg.norm(r, axis=1) * np.linalg.norm(s, axis=1)
+    p, r, q, s, area = p[slanted], r[slanted], q[slanted], s[slanted], area[slanted]
+    gap = q - p
+    t = (gap[:, 0] * s[:, 1] - gap[:, 1] * s[:, 0]) / area
+    found: Floats = p + t[:, None] * r
+    away = np.ones(len(found), dtype=bool)
+    for end in (p, p + r, q, q + s):
+        away &= np.linalg.norm(found - end, axis=1) > tolerance
+    return found[away]
+
+
+def _welded(points: Floats, tolerance: float) -> tuple[Floats, npt.NDArray[np.int64]]:
+    """Make points that hang together within a tolerance one, at the place of the first; return which is which."""
+    geometry = shapely.points(points)
+    one, two = shapely.STRtree(geometry).query(geometry, predicate="dwithin", distance=tolerance)
+    parts = nx.utils.UnionFind(range(len(points)))
+    for a, b in zip(one[one < two].tolist(), two[one < two].tolist(), strict=True):
+        parts.union(a, b)
+    number: dict[int, int] = {}
+    place = np.array([number.setdefault(parts[i], len(number)) for i in range(len(points))], dtype=np.int64)
+    first = np.full(len(number), len(points))
+    np.minimum.at(first, place, np.arange(len(points)))
+    return points[first], place
+
+
+def _points_on_lines(
+    points: Floats, ends: Floats, tree: shapely.STRtree, tolerance: float
+) -> dict[int, list[int]]:
+    """Return, for each line, the points within a tolerance of it."""
+    at: dict[int, list[int]] = defaultdict(list)
+    which, line = tree.query(shapely.points(points), predicate="dwithin", distance=tolerance)
+    for point, one in zip(which.tolist(), line.tolist(), strict=True):
+        at[one].append(point)
+    return at
+
+
+def _prune(network: Network) -> None:
+    """Take off edges that end nowhere, again and again."""
+    at: dict[int, set[Edge]] = defaultdict(set)
+    for edge in network.edges:
+        for vertex in edge:
+            at[vertex].add(edge)
+    loose = [vertex for vertex, edges in at.items() if len(edges) == 1]
+    while loose:
+        vertex = loose.pop()
+        if len(at[vertex]) != 1:
+            continue
+        (edge,) = at[vertex]
+        del network.edges[edge]
+        network.dangling += 1
+        for end in edge:
+            at[end].discard(edge)
+            if len(at[end]) == 1:
+                loose.append(end)
+    network.notes["line(s) that end nowhere pruned"] = network.dangling
+
+
+def _straighten(network: Network) -> None:
+    """Take out vertices in the middle of a line: two edges of one kind, straight within the tolerance.
+
+    They are left where an end was welded to a line that it only touches, or where two ends were.
+    """
+    at: dict[int, set[int]] = defaultdict(set)
+    for a, b in network.edges:
+        at[a].add(b)
+        at[b].add(a)
+    for vertex in [v for v, others in at.items() if len(others) == 2]:
+        a, b = at[vertex]
+        one, two = either_way(a, vertex), either_way(vertex, b)
+        if b in at[a] or network.edges[one] != network.edges[two]:
+            continue
+        chord = network.points[b] - network.points[a]
+        along = network.points[vertex] - network.points[a]
+        off = abs(chord[0] * along[1] - chord[1] * along[0]) / np.hypot(*chord)
+        if off > network.tolerance or not 0 < along @ chord < chord @ chord:
+            continue
+        network.edges[either_way(a, b)] = network.edges.pop(one)
+        network.angles[either_way(a, b)] = network.angles[one]
+        del network.edges[two]
+        at[a] = at[a] - {vertex} | {b}
+        at[b] = at[b] - {vertex} | {a}
+        network.notes["vertex(es) in the middle of a line taken out"] += 1
+
+
+def either_way(a: int, b: int) -> Edge:
+    """Return an edge as it is named, whichever end comes first.
+
+    Examples
+    --------
+    >>> either_way(5, 2)
+    (2, 5)
+    """
+    return (a, b) if a < b else (b, a)
