@@ -9,7 +9,7 @@ Linkages*. Theory: docs/theory/four-bars.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees, floor, log10
+from math import degrees, floor, fsum, log10
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,8 @@ __all__ = [
     "spherical_differences",
 ]
 
+_SIGNS = np.array([[1, -1, 1, -1], [1, -1, -1, 1], [-1, -1, 1, 1]])
+"""Of g, a, h, b in T1, T2, T3."""
 _SMALLEST = 1e-9
 """Smallest link angle, radians, and smallest length, of the longest, that a loop sum can be told of."""
 
@@ -221,12 +223,14 @@ def _kind(links: Floats, differences: Floats) -> FourBarKind:
         input_,
         output,
         zero,
-        _caution(differences, zeros),
+        _caution(links, zeros),
     )
 
 
-def _caution(differences: Floats, zeros: npt.NDArray[np.bool_]) -> str:
-    told = [f"T{i + 1}" for i in np.flatnonzero(zeros & (differences != 0.0))]
+def _caution(links: Floats, zeros: npt.NDArray[np.bool_]) -> str:
+    """Name the differences that are taken for zero, and are not zero when no digit is lost on the way."""
+    terms = [*(signs * links for signs in _SIGNS), [2.0 * np.pi, *-links]]
+    told = [f"T{i + 1}" for i in np.flatnonzero(zeros) if fsum(terms[i]) != 0.0]
     if not told:
         return ""
     are = "is" if len(told) == 1 else "are"

@@ -50,7 +50,7 @@ class ConicalForm:
                 "circuit": cone.circuit,
                 "signs": list(cone.signs),
                 "k": cone.turns,
-                "caution": cone.caution or None,
+                **({"caution": cone.caution} if cone.caution else {}),
             }
             for cone in self.cones
         ]
@@ -64,7 +64,7 @@ class ConicalForm:
                 "interval_deg": [degrees(end) for end in family.interval],
                 "circuit": family.circuit,
                 "signs": list(family.signs),
-                "caution": family.caution or None,
+                **({"caution": family.caution} if family.caution else {}),
             }
             for family in self.families
         ]

@@ -53,8 +53,8 @@ class MappedLoop:
     half_turns : tuple of int
         Links that span half the circle: their steps have no sign and are listed as +.
     bounds : (float, float)
-        Between these sizes the loop closes within the rounding of its links (to a factor of two): so well is the
-        size known.
+        Between these sizes the loop closes with these signs within the rounding of its links (to a factor of two):
+        so well is the size known.
     caution : str
         Where rounding decides whether there is a circle, or leaves few digits of its size; else empty.
     """

@@ -6,8 +6,6 @@ floats.
 
 from __future__ import annotations
 
-from math import fsum
-
 import flint
 import numpy as np
 
@@ -31,15 +29,6 @@ def at_most(size, links, planar=False):
     """Whether every link fits."""
     least = flint.arb(float(max(links))) / 2
     return bool(size >= least) if planar else bool(flint.arb.pi() / 2 - size >= least)
-
-
-def data_rounding(links, lam):
-    """How far half a last digit of each link takes a loop sum on a cone, to first order."""
-    told = []
-    for link in links:
-        step = float(span(link, lam).mid())
-        told.append(0.5 * np.spacing(link) * np.cos(link / 2) / (float(lam.mid().cos()) * np.cos(step / 2)))
-    return fsum(told)
 
 
 def root(links, signs, turns, low, high, planar=False):
@@ -69,3 +58,36 @@ def loop_on_a_cone(rng, links, lam, spread):
     signs = np.array([1 if float(step.mid()) > 0 else -1 for step in exact])
     mirror = signs[0]
     return np.array(angles), tuple((signs * mirror).tolist()), int(turns * mirror)
+
+
+def signed_sums(angles):
+    """Sums of four link angles with signs, and of all less a turn, exactly, then as floats."""
+    patterns = [
+        (1, 1, 1, -1),
+        (1, 1, -1, 1),
+        (1, 1, -1, -1),
+        (1, -1, 1, 1),
+        (1, -1, 1, -1),
+        (1, -1, -1, 1),
+        (1, -1, -1, -1),
+    ]
+    sums = [sum(s * flint.arb(float(x)) for s, x in zip(signs, angles, strict=True)) for signs in patterns]
+    sums.append(sum(flint.arb(float(x)) for x in angles) - 2 * flint.arb.pi())
+    return np.array([float(one.mid()) for one in sums])
+
+
+def crossed_cone(angles):
+    """The crossed cone of a four-bar in closed form (docs/theory/mapping.md), as a ball; None if there is none."""
+    half = [flint.arb(float(angle)) / 2 for angle in angles]
+    x, y, z, w = half
+    middle = sum(half, flint.arb(0)) / 2
+    product = middle.sin()
+    for angle in half:
+        product *= (middle - angle).cos()
+    for pair in (x + y - z - w, x + z - y - w, y + z - x - w):
+        product *= (pair / 2).sin()
+    a, b, c, d = (2 * angle.sin() for angle in half)
+    numerator = (a * b - c * d) * (a * c - b * d) * (b * c - a * d)
+    if not (numerator > 0 and product >= 0):
+        return None
+    return (256 * product / numerator).sqrt().atan()
