@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import combinations
 from math import degrees, fsum, pi
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +26,7 @@ __all__ = ["FamilyOfCircles", "MappedLoop", "cautions_of", "in_degrees", "mapped
 
 _VAGUE = 1e-6
 """A circle of which fewer digits than this can be told, relatively, has a caution."""
+_NONE = np.zeros(0, dtype=np.intp)
 _HALVINGS = 200
 """The least part of the interval looked at round a circle is 2^-200: sizes are known less well than that."""
 
@@ -166,14 +168,14 @@ def mapped_loop(
     roots = loop_roots(reach, base)
     families = _families(roots, reach, base)
     vanishing = {family.signs for family in families}
-    found = []
+    links = _Links(reach, base, flat_steps)
+    found: dict[tuple[tuple[int, ...], float], MappedLoop] = {}
     for signs, turns, z, double in zip(roots.signs, roots.turns, roots.size, roots.double, strict=True):
-        half = _half_turns(z, reach, base) if double and z == reach.min() else np.zeros(0, dtype=np.intp)
-        if _listed_otherwise(signs, half) or _ends_a_family(signs, half, vanishing):
-            continue
-        spans = 2.0 * half_steps(z, reach, base) if z or flat_steps is None else flat_steps
-        found.append(_on_its_circle(z, signs, int(turns), spans, bool(double), half, reach, base))
-    return tuple(sorted(found, key=lambda one: one.size)), families
+        root = _as_listed(_Root(float(z), signs, int(turns), bool(double), _NONE), links)
+        key = tuple(root.signs.tolist()), root.size
+        if key not in found and not _ends_a_family(root.signs, root.half, vanishing):
+            found[key] = _on_its_circle(root, links)
+    return tuple(sorted(found.values(), key=lambda one: one.size)), families
 
 
 def _families(roots: LoopRoots, reach: Floats, base: Base) -> tuple[FamilyOfCircles, ...]:
@@ -193,62 +195,90 @@ def _families(roots: LoopRoots, reach: Floats, base: Base) -> tuple[FamilyOfCirc
     )
 
 
-def _half_turns(z: float, reach: Floats, base: Base) -> npt.NDArray[np.intp]:
-    """Return which links span half of the circle that ends the interval, as far as rounding can tell."""
-    lacks = np.pi - 2.0 * half_steps(z, reach, base)
-    one_link = np.ones((len(reach), 1))
-    return np.flatnonzero(lacks <= sum_rounding(z, reach[:, np.newaxis], one_link, base))
+class _Root(NamedTuple):
+    """Where a loop closes, with its links of half a turn, whose signs are +."""
+
+    size: float
+    signs: npt.NDArray[np.int8]
+    turns: int
+    double: bool
+    half: npt.NDArray[np.intp]
 
 
-def _on_its_circle(
-    z: float,
-    signs: npt.NDArray[np.int8],
-    turns: int,
-    spans: Floats,
-    double: bool,
-    half: npt.NDArray[np.intp],
-    reach: Floats,
-    base: Base,
-) -> MappedLoop:
-    steps = signs * spans
-    residual = fsum([*steps.tolist(), -2.0 * pi * turns])
-    least, most = _closing_sizes(z, signs, turns, reach, base)
-    low, high = (_size(least, base), _size(most, base))
+@dataclass(frozen=True, slots=True)
+class _Links:
+    """The links of a loop, as loop sums know them."""
+
+    reach: Floats
+    base: Base
+    flat_steps: Floats | None
+
+    def spans(self, size: float) -> Floats:
+        """Return what the links span, without sign."""
+        if size == 0.0 and self.flat_steps is not None:
+            return self.flat_steps
+        return 2.0 * half_steps(size, self.reach, self.base)
+
+    def half_turns(self, size: float) -> npt.NDArray[np.intp]:
+        """Return which links span half of the circle that ends the interval, as far as rounding can tell."""
+        each = np.eye(len(self.reach))
+        return np.flatnonzero(np.pi - self.spans(size) <= sum_rounding(size, self.reach, each, self.base))
+
+    def sharp(self, half: npt.NDArray[np.intp]) -> bool:
+        """Tell whether links of half a turn are as long as the longest, to the last digit."""
+        return bool((self.reach[half] == self.reach.min()).all())
+
+
+def _on_its_circle(root: _Root, links: _Links) -> MappedLoop:
+    steps = root.signs * links.spans(root.size)
+    residual = fsum([*steps.tolist(), -2.0 * pi * root.turns])
+    least, most = _bounds(root, links)
+    ends = sorted((_size(least, links.base), _size(most, links.base)))
     doubt = ""
-    if double and not len(half) and (z or residual):
+    if root.double and not len(root.half) and (root.size or residual):
         doubt = "the loop sum touches 360 k degrees here within rounding: no circle, one, or two"
-    elif (reach[half] != z).any():
+    elif not links.sharp(root.half):
         doubt = "several links span half the circle within rounding"
-    elif z and most - least > _VAGUE * z:
+    elif root.size and most - least > _VAGUE * root.size:
         doubt = "rounding leaves few digits of the size"
     return MappedLoop(
-        _size(z, base),
+        _size(root.size, links.base),
         str(circuits(steps).names()),
-        tuple(signs.tolist()),
-        turns,
+        tuple(root.signs.tolist()),
+        root.turns,
         int(circuits(steps).density),
         tuple(steps.tolist()),
         residual,
-        double,
-        tuple(half.tolist()),
-        (float(np.nextafter(min(low, high), 0.0)), float(np.nextafter(max(low, high), np.inf))),
+        root.double,
+        tuple(root.half.tolist()),
+        (float(np.nextafter(ends[0], 0.0)), float(np.nextafter(ends[1], np.inf))),
         f"{ILL_CONDITIONED}: {doubt}" if doubt else "",
     )
 
 
-def _closing_sizes(
-    z: float, signs: npt.NDArray[np.int8], turns: int, reach: Floats, base: Base
-) -> tuple[float, float]:
+def _bounds(root: _Root, links: _Links) -> tuple[float, float]:
+    """Return the sizes about a root at which its loop closes, with any signs of links of nearly half a turn."""
+    ends = [_closing_sizes(root, links)]
+    if not links.sharp(root.half):
+        for first, last in combinations(range(len(root.half) + 1), 2):
+            signs = root.signs.copy()
+            signs[root.half[first:last]] = -1
+            turns = _whole_turns(signs * links.spans(root.size))
+            ends.append(_closing_sizes(root._replace(signs=signs, turns=turns), links))
+    return min(least for least, _ in ends), max(most for _, most in ends)
+
+
+def _closing_sizes(root: _Root, links: _Links) -> tuple[float, float]:
     """Return the sizes below and above a root from which on its loop sum is not 2 pi k, whatever the rounding."""
-    weights, distinct = put_together(signs, reach)  # equal links cancel exactly
+    weights, distinct = put_together(root.signs, links.reach)  # equal links cancel exactly
     away = distinct[0] * 0.5 ** np.arange(_HALVINGS, -1, -1)
 
     def first_open(sizes: Floats) -> float:
-        over = np.abs(loop_sum(sizes, distinct, weights, base) - 2.0 * np.pi * turns)
-        is_open = over > sum_rounding(sizes, distinct, weights, base)
+        over = np.abs(loop_sum(sizes, distinct, weights, links.base) - 2.0 * np.pi * root.turns)
+        is_open = over > sum_rounding(sizes, distinct, weights, links.base)
         return float(sizes[is_open.argmax() if is_open.any() else -1])
 
-    return first_open(np.maximum(z - away, 0.0)), first_open(np.minimum(z + away, distinct[0]))
+    return first_open(np.maximum(root.size - away, 0.0)), first_open(np.minimum(root.size + away, distinct[0]))
 
 
 def _size(z: float, base: Base) -> float:
@@ -257,10 +287,19 @@ def _size(z: float, base: Base) -> float:
     return float(0.5 / np.sqrt(z)) if z else np.inf
 
 
-def _listed_otherwise(signs: npt.NDArray[np.int8], half: npt.NDArray[np.intp]) -> bool:
-    """Tell whether other signs of half turns, or those of the mirror image, are the ones to list."""
-    rest = np.delete(signs, half)
-    return bool((signs[half] < 0).any() or (0 in half and len(rest) and rest[0] < 0))
+def _as_listed(root: _Root, links: _Links) -> _Root:
+    """Return a root with + for half turns, or its mirror image, so that the first other sign is +."""
+    half = links.half_turns(root.size) if root.double and root.size == links.reach.min() else _NONE
+    if not len(half):
+        return root
+    rest = np.delete(root.signs, half)
+    signs = -root.signs if len(rest) and rest[0] < 0 and 0 in half else root.signs.copy()
+    signs[half] = 1
+    return root._replace(signs=signs, turns=_whole_turns(signs * links.spans(root.size)), half=half)
+
+
+def _whole_turns(steps: Floats) -> int:
+    return round(float(steps.sum()) / (2.0 * pi))
 
 
 def _ends_a_family(

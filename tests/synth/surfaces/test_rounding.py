@@ -241,3 +241,13 @@ def test_roots_do_not_depend_on_how_small_the_other_loops_are():
     both, apart = loop_roots(reach, 1), [loop_roots(one, 1) for one in reach]
     assert both.size.tolist() == [size for one in apart for size in one.size.tolist()]
     assert both.loop.tolist() == [0, 0, 1, 1]
+
+
+def test_longest_links_that_differ_by_a_last_digit():
+    """The crossed cone is nearer to the end than rounding can tell: it is told once, its bounds hold it."""
+    links = np.array([1.5, 0.6 * (1 - 1e-13), 1.5 * (1 - EPS / 2), 0.6])
+    exact = crossed_cone(links)
+    (one,) = [one for one in map_to_cones(links).cones if one.circuit == "crossed"]
+    assert one.bounds[0] < float(exact.mid()) < one.bounds[1]
+    assert one.half_turns == (0, 2)
+    assert "several links" in one.caution
