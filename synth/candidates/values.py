@@ -12,10 +12,9 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from synth.conformed.layers import HALF_TURN
 from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
-from synth.surfaces.circuit import Circuits, circuits, wrapped
+from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles
 from synth.surfaces.cylinder import chords
 

@@ -14,11 +14,10 @@ from enumerate.conical.layers import fewest_layers, layers_of_links
 from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
 from synth.conformed.rates import ConformedChain
+from synth.surfaces.circuit import HALF_TURN
 
-__all__ = ["HALF_TURN", "LinksInLayers", "arc_choices", "layers", "links_in_layers"]
+__all__ = ["LinksInLayers", "arc_choices", "layers", "links_in_layers"]
 
-HALF_TURN = np.pi - 1e-9
-"""Gaps this wide (radians) are half the circle."""
 _MOST_JOINTS = 62
 """Gaps that the bits of a mask have room for."""
 

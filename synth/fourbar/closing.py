@@ -1,4 +1,4 @@
-"""Four-bars, planar and spherical: types, Grashof's condition, supplementary linkages.
+"""Four-bars, planar and spherical: types, Grashof's condition, which links close.
 
 Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and
 (gamma, alpha, eta, beta) on the sphere. All functions take many linkages at a time. Sources: Hyatt et al. 2020,
@@ -9,8 +9,7 @@ Linkages*. Theory: docs/theory/four-bars.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import product
-from math import degrees
+from math import degrees, floor, fsum, log10
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 
 __all__ = [
     "FourBarKind",
@@ -25,17 +25,14 @@ __all__ = [
     "checked_link_angles",
     "checked_link_lengths",
     "grashof_class",
-    "in_a_hemisphere",
     "kind_of_planar",
     "kind_of_spherical",
-    "minimal_supplementary",
     "planar_differences",
     "spherical_differences",
-    "supplementary",
 ]
 
-_FOLDS = 1e-12
-"""A difference this small (of pi, or of the sum of the lengths) is zero: the linkage folds."""
+_SIGNS = np.array([[1, -1, 1, -1], [1, -1, -1, 1], [-1, -1, 1, 1]])
+"""Of g, a, h, b in T1, T2, T3."""
 _SMALLEST = 1e-9
 """Smallest link angle, radians, and smallest length, of the longest, that a loop sum can be told of."""
 
@@ -56,6 +53,10 @@ class FourBarKind:
         such as ``crank and 0-rocker``.
     input, output : {"crank", "rocker", "0-rocker", "pi-rocker"}
         ``crank``: turns fully; ``0-rocker``: passes 0 only, ``pi-rocker``: passes pi only, ``rocker``: neither.
+    rounding : float
+        How far the rounding of the links may take a difference: no more than that is zero.
+    caution : str
+        Which differences are taken for zero though they are not quite; empty if none is.
     """
 
     differences: tuple[float, ...]
@@ -63,11 +64,23 @@ class FourBarKind:
     name: str
     input: str
     output: str
+    rounding: float
+    caution: str
 
     def to_json(self, *, angular: bool) -> dict[str, Any]:
         """Return the kind as plain data; the differences of angles in degrees."""
-        told = [round(degrees(t), 12) if angular else t for t in self.differences]
-        return {"T_deg" if angular else "T": [t + 0.0 for t in told], "grashof": self.grashof, "type": self.name}
+        return {
+            "T_deg" if angular else "T": self.told_differences(angular=angular),
+            "grashof": self.grashof,
+            "type": self.name,
+            "type_caution": self.caution or None,
+        }
+
+    def told_differences(self, *, angular: bool) -> list[float]:
+        """Return the differences, angles in degrees, without the digits that rounding spoils."""
+        unit = degrees(1.0) if angular else 1.0
+        places = -floor(log10(self.rounding * unit)) - 1
+        return [round(t * unit, places) + 0.0 for t in self.differences]
 
 
 def planar_differences(lengths: npt.ArrayLike) -> Floats:
@@ -122,22 +135,26 @@ def spherical_differences(angles: npt.ArrayLike) -> Floats:
     return np.concatenate([planar_differences(angles), last], axis=-1)
 
 
-def grashof_class(differences: npt.ArrayLike, scale: float = np.pi) -> npt.NDArray[np.str_]:
+def grashof_class(differences: npt.ArrayLike, scale: float = 2.0 * np.pi) -> npt.NDArray[np.str_]:
     """Return ``Grashof``, ``non-Grashof`` or ``folding`` by the sign of the product of the differences.
 
     Parameters
     ----------
     differences : float[..., 3 or 4]
     scale : float, optional
-        What is small against it is zero.
+        Sum of the links: what rounding may leave of it is zero. The default is for link angles made of azimuths,
+        which are known to the last digits of a turn.
 
     Examples
     --------
     >>> [str(grashof_class(planar_differences(sides), 10)) for sides in ([4, 3, 5, 1], [9, 5, 4, 3], [4, 3, 5, 2])]
     ['Grashof', 'non-Grashof', 'folding']
     """
-    t = np.asarray(differences, dtype=float)
-    folds = (np.abs(t) <= _FOLDS * scale).any(axis=-1)
+    return _grashof(np.asarray(differences, dtype=float), rounding_of(np.full(4, scale / 4.0)))
+
+
+def _grashof(t: Floats, zero: Floats) -> npt.NDArray[np.str_]:
+    folds = (np.abs(t) <= zero).any(axis=-1)
     grashof = np.sign(t).prod(axis=-1) > 0
     return np.where(folds, "folding", np.where(grashof, "Grashof", "non-Grashof"))
 
@@ -161,8 +178,7 @@ def kind_of_planar(lengths: npt.ArrayLike) -> FourBarKind:
     'rocker-crank'
     """
     sides = checked_link_lengths(lengths, 4)
-    t = planar_differences(sides)
-    return _kind(tuple(t.tolist()), float(sides.sum()), 1.0)
+    return _kind(sides, planar_differences(sides))
 
 
 def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
@@ -184,126 +200,61 @@ def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
     >>> kind.grashof, kind.name
     ('Grashof', 'rocker-crank')
     """
-    t = spherical_differences(checked_link_angles(angles, 4))
-    fourth = float(t[3]) if abs(t[3]) > _FOLDS * np.pi else 1.0
-    return _kind(tuple(t.tolist()), np.pi, fourth)
+    given = checked_link_angles(angles, 4)
+    return _kind(given, spherical_differences(given))
 
 
-def _kind(differences: tuple[float, ...], scale: float, fourth: float) -> FourBarKind:
+def _kind(links: Floats, differences: Floats) -> FourBarKind:
     """Name a type: which ends of its range a link reaches follows from the signs (McCarthy, Table 2.1).
 
     The input passes 0 unless T1 T2 < 0 and pi unless T3 T4 < 0, the output passes pi unless T1 T3 > 0 and 0 unless
-    T2 T4 > 0.
+    T2 T4 > 0. In the plane T4 counts as +.
     """
-    positive = [t >= -_FOLDS * scale for t in differences[:3]]
-    t1, t2, t3 = (1 if sign else -1 for sign in positive)
-    side = 1 if fourth > 0 else -1
-    zeros = [abs(t) <= _FOLDS * scale for t in differences[:3]]
+    zero = float(rounding_of(links))
+    t1, t2, t3, *fourth = (1 if t >= -zero else -1 for t in differences)
+    side = fourth[0] if fourth else 1
+    zeros = np.abs(differences) <= zero
     input_ = _swing(t1 * t2 > 0 or zeros[0] or zeros[1], t3 * side > 0 or zeros[2])
     output = _swing(t2 * side < 0 or zeros[1], t1 * t3 < 0 or zeros[0] or zeros[2])
-    grashof = str(grashof_class(np.array(differences), scale))
+    return FourBarKind(
+        tuple(differences.tolist()),
+        str(_grashof(differences, np.asarray(zero))),
+        _named(input_, output),
+        input_,
+        output,
+        zero,
+        _caution(links, zeros),
+    )
+
+
+def _caution(links: Floats, zeros: npt.NDArray[np.bool_]) -> str:
+    """Name the differences that are taken for zero, and are not zero when no digit is lost on the way."""
+    terms = [*(signs * links for signs in _SIGNS), [2.0 * np.pi, *-links]]
+    told = [f"T{i + 1}" for i in np.flatnonzero(zeros) if fsum(terms[i]) != 0.0]
+    if not told:
+        return ""
+    are = "is" if len(told) == 1 else "are"
+    return f"{ILL_CONDITIONED}: {', '.join(told)} {are} within the rounding of the links, and taken as 0"
+
+
+def _named(input_: str, output: str) -> str:
     names = {
         ("crank", "crank"): "double-crank",
         ("crank", "rocker"): "crank-rocker",
         ("rocker", "crank"): "rocker-crank",
         ("rocker", "rocker"): "double-rocker",
     }
+    if (input_, output) in names:
+        return names[input_, output]
     short = {"0-rocker": "0", "pi-rocker": "pi"}
-    name = names.get((input_, output))
-    if name is None:
-        both = input_ in short and output in short
-        name = f"{short[input_]}-{short[output]} double-rocker" if both else f"{input_} and {output}"
-    return FourBarKind(differences, grashof, name, input_, output)
+    both = input_ in short and output in short
+    return f"{short[input_]}-{short[output]} double-rocker" if both else f"{input_} and {output}"
 
 
 def _swing(passes_zero: bool, passes_pi: bool) -> str:
     if passes_zero:
         return "crank" if passes_pi else "0-rocker"
     return "pi-rocker" if passes_pi else "rocker"
-
-
-# ---- supplementary linkages -------------------------------------------------------------------------------
-
-
-def supplementary(angles: npt.ArrayLike) -> Floats:
-    """Return the 16 linkages that have the same joint lines (Hyatt et al. 2020, section 2.3).
-
-    A joint line has two ends. To take the other end of a joint changes the two links there to their supplements.
-
-    Parameters
-    ----------
-    angles : float[..., 4]
-        Link angles in loop order, radians, between 0 and pi. Joint j is between links j - 1 and j.
-
-    Returns
-    -------
-    float[..., 16, 4]
-        The linkage itself first. Turning all four joints round changes no angle, so there are eight different
-        ones at most; their T4 are plus and minus T1 to T4, and the product T1 T2 T3 T4 is the same for all.
-
-    Examples
-    --------
-    >>> linkages = np.degrees(supplementary(np.radians([85, 120, 95, 45]))).round(9)
-    >>> len(np.unique(linkages, axis=0)), linkages[1].tolist()
-    (8, [85.0, 120.0, 85.0, 135.0])
-    """
-    angles = np.asarray(angles, dtype=float)
-    ends = np.array(list(product((0, 1), repeat=4)))
-    turned = (ends + np.roll(ends, -1, axis=1)) % 2  # link i lies between joints i and i + 1
-    angles = angles[..., np.newaxis, :]
-    return np.where(turned == 1, np.pi - angles, angles)
-
-
-def minimal_supplementary(angles: npt.ArrayLike) -> Floats:
-    """Return the supplementary linkage with the smallest sum of angles: the one whose T4 is largest.
-
-    Parameters
-    ----------
-    angles : float[..., 4]
-
-    Returns
-    -------
-    float[..., 4]
-
-    Examples
-    --------
-    >>> np.degrees(minimal_supplementary(np.radians([170, 160, 150, 140]))).round(9).tolist()
-    [10.0, 20.0, 30.0, 40.0]
-    """
-    every = supplementary(angles)
-    least = every.sum(axis=-1).round(12).argmin(axis=-1)
-    return np.take_along_axis(every, least[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
-
-
-def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell whether the joint axes of spherical four-bars point into one hemisphere (Hyatt et al. 2020, 2.3).
-
-    Parameters
-    ----------
-    axes : float[..., 4, 3]
-        Directions, of any length.
-
-    Notes
-    -----
-    Four vectors lie in an open hemisphere unless a combination of them with weights >= 0 vanishes. In space the
-    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where
-    they do not, in a linkage that lies flat, the answer is no.
-
-    Examples
-    --------
-    >>> corner = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    >>> in_a_hemisphere([[*corner, [-1, -1, -1]], [*corner, [1, 1, 1]]]).tolist()
-    [False, True]
-    """
-    vectors = np.asarray(axes, dtype=float)
-    minors = np.stack(
-        [(-1) ** i * np.linalg.det(np.delete(vectors, i, axis=-2)) for i in range(4)],
-        axis=-1,
-    )
-    size = np.abs(minors).max(axis=-1, keepdims=True)
-    noise = 1e-12 * np.maximum(size, np.linalg.norm(vectors, axis=-1).prod(axis=-1)[..., np.newaxis])
-    some = (minors > noise).any(axis=-1), (minors < -noise).any(axis=-1)
-    return np.asarray(some[0] & some[1])
 
 
 # ---- what is given ----------------------------------------------------------------------------------------
@@ -376,7 +327,7 @@ together; expected lengths of a closed loop [closed loop]
             told = f"length {place + 1} is {length:.12g}, the longest {given.max():.12g}"
             raise InvariantError("link length", told, "lengths within a factor of 1e9", ("lengths", place))
     longest = given.max()
-    if longest - (given.sum() - longest) > 1e-12 * longest:
+    if longest - (given.sum() - longest) > rounding_of(given):
         told = ", ".join(f"{length:.12g}" for length in given[:20])
         raise InvariantError(
             "closed loop",
@@ -397,7 +348,8 @@ def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     Notes
     -----
     They do unless, with the supplements taken of an odd number of them, the sum is less than pi. The least such
-    sum takes the supplements of those over pi / 2, and of one more or one less if these are an even number.
+    sum takes the supplements of those over pi / 2, and of one more or one less if these are an even number: then
+    pi falls out, and small links are compared with small links.
 
     Examples
     --------
@@ -405,10 +357,10 @@ def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     [True, False, False]
     """
     angles = np.asarray(angles, dtype=float)
-    least = np.minimum(angles, np.pi - angles).sum(axis=-1)
+    least = np.minimum(angles, np.pi - angles)
     even = (angles > np.pi / 2).sum(axis=-1) % 2 == 0
-    least = least + np.where(even, np.abs(np.pi - 2 * angles).min(axis=-1), 0.0)
-    return np.asarray(least >= np.pi * (1.0 - 1e-12))
+    spare = least.sum(axis=-1) - np.where(even, 2.0 * least.max(axis=-1), np.pi)
+    return np.asarray(spare >= -rounding_of(angles))
 
 
 def _listed(values: npt.ArrayLike, what: str, links: int | None) -> Floats:

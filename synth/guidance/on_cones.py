@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from synth.fourbar.closing import supplementary
+from synth.fourbar.joint_lines import supplementary
 from synth.guidance.fourbars import GuidedFourBar
 from synth.surfaces.cone import map_to_cones
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
@@ -50,6 +50,7 @@ class ConicalForm:
                 "circuit": cone.circuit,
                 "signs": list(cone.signs),
                 "k": cone.turns,
+                **({"caution": cone.caution} if cone.caution else {}),
             }
             for cone in self.cones
         ]
@@ -63,6 +64,7 @@ class ConicalForm:
                 "interval_deg": [degrees(end) for end in family.interval],
                 "circuit": family.circuit,
                 "signs": list(family.signs),
+                **({"caution": family.caution} if family.caution else {}),
             }
             for family in self.families
         ]

@@ -14,7 +14,10 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 
-__all__ = ["Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
+__all__ = ["HALF_TURN", "Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
+
+HALF_TURN = np.pi - 1e-9
+"""Steps between azimuths that are this wide (radians) are half a turn, and have no sign."""
 
 
 @dataclass(frozen=True, slots=True)

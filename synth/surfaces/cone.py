@@ -21,24 +21,23 @@ from synth.fourbar.closing import (
     FourBarKind,
     checked_link_angles,
     kind_of_spherical,
-    minimal_supplementary,
     spherical_differences,
 )
-from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, in_degrees, mapped_loop
+from synth.fourbar.joint_lines import minimal_supplementary
+from synth.fourbar.rounding import rounding_of
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, in_degrees, mapped_loop
 
 __all__ = [
     "ConeMap",
     "checked_cone_angle",
     "cone_reach",
+    "is_flat",
     "largest_cone_angle",
     "link_angles",
     "map_to_cones",
     "projected_angles",
     "solution_class",
 ]
-
-_FLAT = 1e-12
-"""Cone angles (radians) below this are zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,23 +72,33 @@ class ConeMap:
     why: str
     supplementary: ConeMap | None
 
+    def cautions(self) -> tuple[str, ...]:
+        """Return what of the map rounding decides: of its type and class, its circles and its families."""
+        return cautions_of(self.kind, (*self.flat, *self.cones), self.families)
+
     def to_json(self) -> dict[str, Any]:
         """Return the map as plain data, with the keys that scripts rely on (docs/files.md)."""
         document: dict[str, Any] = {
             "angles_deg": in_degrees(self.angles),
             **({} if self.kind is None else self.kind.to_json(angular=True)),
-            "cones": [{"lambda_deg": degrees(cone.size), **cone.to_json()} for cone in self.cones],
+            "cones": [_in_json(cone) for cone in self.cones],
             "families": [
                 {"lambda_deg": [degrees(x) for x in family.interval], **family.to_json()}
                 for family in self.families
             ],
-            "flat": [{"lambda_deg": 0.0, **loop.to_json()} for loop in self.flat],
+            "flat": [{**_in_json(loop), "lambda_deg": 0.0} for loop in self.flat],
             "why": self.why or None,
+            "cautions": list(self.cautions()),
         }
         if self.kind is not None:
             document["class"] = self.solutions
             document["supplementary"] = None if self.supplementary is None else self.supplementary.to_json()
         return document
+
+
+def _in_json(one: MappedLoop) -> dict[str, Any]:
+    bounds = [degrees(x) for x in one.bounds]
+    return {"lambda_deg": degrees(one.size), "lambda_bounds_deg": bounds, **one.to_json()}
 
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
@@ -180,7 +189,7 @@ def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats
     """
     phi, lam = np.broadcast_arrays(np.asarray(angles, dtype=float), checked_cone_angle(cone_angle))
     beyond = lam - largest_cone_angle(phi)
-    if (beyond > _FLAT).any():
+    if (beyond > rounding_of(np.stack([lam, phi / 2, np.full_like(phi, np.pi / 2)], axis=-1))).any():
         worst = np.unravel_index(beyond.argmax(), beyond.shape)
         told = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
         raise UnsolvableError(
@@ -209,6 +218,17 @@ def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
     30.0
     """
     return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
+
+
+def is_flat(cone_angle: float, longest: float) -> bool:
+    """Tell whether a cone is flat as far as the rounding of the longest link, which ends the cones, can tell.
+
+    Examples
+    --------
+    >>> is_flat(0.0, 1.0), is_flat(1e-12, 1.0)
+    (True, False)
+    """
+    return bool(cone_angle <= rounding_of([longest]))
 
 
 def cone_reach(angles: npt.ArrayLike) -> Floats:
@@ -255,15 +275,15 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
     (0, 2, 'T4 < 0: the links wrap round the sphere')
     """
     given = checked_link_angles(angles)
-    loops, families = mapped_loop(cone_reach(given), 1)
-    cones = tuple(one for one in loops if one.size > _FLAT)
-    flat = tuple(one for one in loops if one.size <= _FLAT)
+    loops, families = mapped_loop(cone_reach(given), 1, given)
+    cones = tuple(one for one in loops if not is_flat(one.size, given.max()))
+    flat = tuple(one for one in loops if is_flat(one.size, given.max()))
     kind = solutions = supplement = None
     four = len(given) == 4
     if four:
         kind, solutions = kind_of_spherical(given), solution_class(given)
     why = "" if cones or families else _why_not(given, bool(flat))
-    if why and four and spherical_differences(given)[3] < 0 and given.max() < np.pi - _FLAT:
+    if why and four and spherical_differences(given)[3] < 0 and not _is_straight(given.max()):
         supplement = map_to_cones(minimal_supplementary(given))
     return ConeMap(tuple(given.tolist()), cones, flat, families, kind, solutions, why, supplement)
 
@@ -291,7 +311,7 @@ def solution_class(angles: npt.ArrayLike) -> str:
     """
     given = np.asarray(angles, dtype=float)
     t = spherical_differences(given)
-    zero = np.abs(t) <= _FLAT * np.pi
+    zero = np.abs(t) <= rounding_of(given)
     if zero[:3].sum() >= 2:
         return "d"
     if zero.any():
@@ -302,11 +322,15 @@ def solution_class(angles: npt.ArrayLike) -> str:
     return "a" if grashof else "b"
 
 
+def _is_straight(angle: float) -> bool:
+    return bool(np.pi - angle <= rounding_of([angle]))
+
+
 def _why_not(angles: Floats, flat: bool) -> str:
     """Say why a loop has no cone."""
     if flat:
         return "the loop closes in a plane only, lambda = 0"
-    if angles.max() >= np.pi - _FLAT:
+    if _is_straight(angles.max()):
         return "a link of 180 degrees fits on no cone but the flat one"
     if len(angles) == 4 and spherical_differences(angles)[3] < 0:
         return "T4 < 0: the links wrap round the sphere"

@@ -21,7 +21,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.arrays import Flags, Floats
+from synth.fourbar.rounding import rounding_of
+from synth.surfaces.loop_sums import sign_patterns
 
 __all__ = ["ConicalQuadrilaterals", "CyclicQuadrilaterals", "circumradii", "cone_angles", "crossed_area"]
 
@@ -34,10 +36,14 @@ class CyclicQuadrilaterals:
     ----------
     open, crossed : float[...]
         Circumradius in the unit of the sides; nan where there is none.
+    ill_conditioned : bool[...]
+        Whether a sum of sides with signs is within their rounding of zero: it decides what there is, and of what
+        size.
     """
 
     open: Floats
     crossed: Floats
+    ill_conditioned: Flags
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +54,14 @@ class ConicalQuadrilaterals:
     ----------
     open, crossed : float[...]
         Cone angle lambda, radians, in [0, pi/2); nan where there is none.
+    ill_conditioned : bool[...]
+        Whether a sum of link angles with signs, or of all less 360 degrees, is within their rounding of zero: it
+        decides what there is, and of what size.
     """
 
     open: Floats
     crossed: Floats
+    ill_conditioned: Flags
 
 
 def _sides(values: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
@@ -68,6 +78,14 @@ def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -
     """Return 16 K^2, the product of the sums of sides with one subtracted (Brahmagupta; Eq. 11)."""
     d = mu * d
     return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
+
+
+def _nearly_zero(links: npt.ArrayLike, *, angular: bool) -> Flags:
+    """Tell whether links with signs, or angles less a turn, sum to less than their rounding."""
+    given = np.asarray(links, dtype=float)
+    turn = 2.0 * np.pi * np.eye(8)[0] if angular else np.zeros(8)  # the first pattern is that of all +
+    sums = given @ sign_patterns(4).T - turn
+    return np.asarray((np.abs(sums) <= rounding_of(given)[..., np.newaxis]).any(axis=-1))
 
 
 def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
@@ -94,6 +112,7 @@ def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
     >>> float(found.open.round(4)), float(found.crossed.round(4))
     (2.5361, 2.5909)
     """
+    near = _nearly_zero(sides, angular=False)
     sides = _sides(sides)
     radii = []
     for mu in (1, -1):
@@ -101,7 +120,7 @@ def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (denominator > 0)
             radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
-    return CyclicQuadrilaterals(*radii)
+    return CyclicQuadrilaterals(radii[0], radii[1], near)
 
 
 def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
@@ -144,7 +163,7 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (product >= 0)
             found.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
-    return ConicalQuadrilaterals(*found)
+    return ConicalQuadrilaterals(found[0], found[1], _nearly_zero(angles, angular=True))
 
 
 def crossed_area(sides: npt.ArrayLike) -> Floats:

@@ -7,7 +7,7 @@ sections 3.1 and 4. Theory: docs/theory/mapping.md.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf
+from math import fsum, inf
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,9 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
-from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, mapped_loop
+from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
+from synth.surfaces.loop_sums import sign_patterns
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, mapped_loop
 
 __all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
 
@@ -36,6 +38,9 @@ class CylinderMap:
         Of four-bars.
     why : str
         Why there is no cylinder; empty where there is one.
+    stretched : tuple of tuples of int
+        Signs with which the lengths sum to zero within their rounding, and not quite: the loop may be on one more
+        circle, too large to be told.
     """
 
     lengths: tuple[float, ...]
@@ -43,18 +48,32 @@ class CylinderMap:
     families: tuple[FamilyOfCircles, ...]
     kind: FourBarKind | None
     why: str
+    stretched: tuple[tuple[int, ...], ...]
+
+    def cautions(self) -> tuple[str, ...]:
+        """Return what of the map rounding decides: of its type, its circles, its families, and beyond them."""
+        large = f"{ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
+        return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
 
     def to_json(self) -> dict[str, Any]:
         """Return the map as plain data, with the keys that scripts rely on (docs/files.md)."""
         return {
             "lengths": list(self.lengths),
             **({} if self.kind is None else self.kind.to_json(angular=False)),
-            "cylinders": [{"radius": cylinder.size, **cylinder.to_json()} for cylinder in self.cylinders],
+            "cylinders": [
+                {
+                    "radius": cylinder.size,
+                    "radius_bounds": [None if x == inf else x for x in cylinder.bounds],
+                    **cylinder.to_json(),
+                }
+                for cylinder in self.cylinders
+            ],
             "families": [
                 {"radius": [None if x == inf else x for x in family.interval], **family.to_json()}
                 for family in self.families
             ],
             "why": self.why or None,
+            "cautions": list(self.cautions()),
         }
 
 
@@ -135,16 +154,24 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
     [(2.54, 'open'), (2.59, 'crossed')]
     """
     given = checked_link_lengths(lengths)
-    scale = given.max()
-    loops, families = mapped_loop(cylinder_reach(given / scale), 0)
-    found = tuple(_scaled(one, scale) for one in loops)
-    many = tuple(
-        FamilyOfCircles((one.interval[0] * scale, np.inf), one.circuit, one.signs, one.turns) for one in families
-    )
+    unit = 2.0 ** np.frexp(given.max())[1]  # a power of two: no digit of the lengths is lost
+    loops, families = mapped_loop(cylinder_reach(given / unit), 0)
+    found = tuple(_scaled(one, unit) for one in loops)
+    many = tuple(replace(one, interval=(one.interval[0] * unit, inf)) for one in families)
     kind = kind_of_planar(given) if len(given) == 4 else None
     why = "" if found or many else "the loop closes stretched out only, at an infinite radius"
-    return CylinderMap(tuple(given.tolist()), found, many, kind, why)
+    stretched = _nearly_stretched(given, {family.signs for family in many})
+    return CylinderMap(tuple(given.tolist()), found, many, kind, why, stretched)
 
 
-def _scaled(one: MappedLoop, scale: float) -> MappedLoop:
-    return replace(one, size=float(one.size * scale))
+def _scaled(one: MappedLoop, unit: float) -> MappedLoop:
+    least, most = one.bounds
+    return replace(one, size=float(one.size * unit), bounds=(float(least * unit), float(most * unit)))
+
+
+def _nearly_stretched(lengths: Floats, families: set[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
+    """Return the signs, but for those of families, with which lengths sum to nearly zero, and not to zero."""
+    patterns = sign_patterns(len(lengths))
+    near = patterns[np.abs(patterns @ lengths) <= rounding_of(lengths)]
+    signs = [tuple(row) for row in near.tolist()]
+    return tuple(one for one in signs if one not in families and fsum(np.multiply(one, lengths)) != 0.0)

@@ -19,16 +19,16 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.mechanism.conical import Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
-from synth.surfaces.circuit import circuits, wrapped
-from synth.surfaces.cone import cone_reach
-from synth.surfaces.loop_sums import LoopRoots, half_steps, loop_roots, sign_patterns
+from synth.fourbar.rounding import ILL_CONDITIONED
+from synth.surfaces.circuit import HALF_TURN, circuits, wrapped
+from synth.surfaces.cone import cone_reach, is_flat
+from synth.surfaces.loop_sums import LoopRoots, half_steps, loop_roots, put_together, sign_patterns, sum_rounding
 from synth.surfaces.several_loops import link_pairs
 
 __all__ = ["CommonCone", "CommonFamily", "common_cones"]
 
-_FLAT = 1e-9
-"""Cones of smaller angle (radians) are flat, and none."""
-_HALF_TURN = np.pi - 1e-9
+_SAME = 1e-12
+"""Sizes to try that differ by less, relatively, are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +48,8 @@ class CommonCone:
         Azimuths, radians; the first joint is at 0.
     residual : float
         Largest closure error of a loop, radians.
+    caution : str
+        Which loops do not tell the cone, since they close within the tolerance when they lie flat too; else empty.
     """
 
     cone_angle: float
@@ -56,6 +58,7 @@ class CommonCone:
     circuits: tuple[str, ...]
     places: Mapping[JointId, float]
     residual: float
+    caution: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,11 +71,14 @@ class CommonFamily:
         lambda, radians; the least, 0, is flat.
     signs : tuple of tuples of int
     turns : tuple of int
+    caution : str
+        Where a loop closes on them within the rounding of its links only; else empty.
     """
 
     interval: tuple[float, float]
     signs: tuple[tuple[int, ...], ...]
     turns: tuple[int, ...]
+    caution: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +102,8 @@ def common_cones(
         Link angles between two joints of one link, radians, between 0 and pi: at least between those that follow
         each other in a loop.
     tolerance : float, optional
-        Largest closure error of a loop, radians.
+        Largest closure error of a loop whose steps are a turn or more, regardless of sign, radians; of a smaller
+        loop it is less in proportion.
 
     Returns
     -------
@@ -128,15 +135,19 @@ def common_cones(
     cones: list[CommonCone] = []
     for size in sizes:
         steps = 2.0 * half_steps(size, reach, 1)
-        patterns = [_closing(cycle, steps, tolerance) for cycle in cycles]
+        patterns = [_closing(cycle, size, reach, tolerance) for cycle in cycles]
         for signs in _agreeing(cycles, patterns, len(given)):
-            if not (signs[steps > _HALF_TURN] < 0).any():  # half a turn has no sign
-                cones.append(_common_cone(chain, pairs, cycles, signs * steps, size, loops))
+            if not (signs[steps > HALF_TURN] < 0).any():  # half a turn has no sign
+                caution = _caution(cycles, signs, reach, tolerance)
+                cones.append(_common_cone(chain, pairs, cycles, signs * steps, size, caution))
     families = []
     everywhere = [np.concatenate([r.family_signs, -r.family_signs]) for r in roots]
     for signs in _agreeing(cycles, everywhere, len(given)):
         of_loops = tuple(tuple(_along(cycle, signs).astype(int).tolist()) for cycle in cycles[:loops])
-        families.append(CommonFamily((0.0, float(np.arctan(np.sqrt(end)))), of_loops, (0,) * loops))
+        exact = all(not _weights(cycle, signs, reach).any() for cycle in cycles)
+        within = f"{ILL_CONDITIONED}: the loops close here within the rounding of their links only"
+        interval = (0.0, float(np.arctan(np.sqrt(end))))
+        families.append(CommonFamily(interval, of_loops, (0,) * loops, "" if exact else within))
     return _without_families(cones, families), tuple(families)
 
 
@@ -192,18 +203,46 @@ def _candidates(roots: Iterable[LoopRoots], end: float) -> list[float]:
     fixed = [r.size for r in lists if not len(r.family_loop)]
     sizes = min(fixed, key=len) if fixed else np.concatenate([r.size for r in lists])
     kept: list[float] = []
+    longest = 2.0 * float(np.arctan2(1.0, np.sqrt(end)))
     for size in sorted(sizes.tolist()):
-        if _FLAT**2 < size <= end * (1 + 1e-9) and not (kept and size - kept[-1] < 1e-12 * (1 + size)):
+        known = kept and size - kept[-1] <= _SAME * size
+        if not is_flat(np.arctan(np.sqrt(size)), longest) and size <= end * (1 + 1e-9) and not known:
             kept.append(min(size, end))
     return kept
 
 
-def _closing(cycle: _Cycle, steps: Floats, tolerance: float) -> npt.NDArray[np.int8]:
+def _closing(cycle: _Cycle, size: float, reach: Floats, tolerance: float) -> npt.NDArray[np.int8]:
     """Return the sign patterns with which a cycle closes on a cone, along the cycle."""
     half = sign_patterns(len(cycle.pairs))
     patterns = np.concatenate([half, -half])
-    sums = patterns @ steps[cycle.pairs]
-    return patterns[np.abs(wrapped(sums)) <= tolerance]
+    return patterns[_closes(patterns, size, reach[cycle.pairs], tolerance)]
+
+
+def _closes(patterns: npt.NDArray[np.int8], size: float, reach: Floats, tolerance: float) -> npt.NDArray[np.bool_]:
+    """Tell which signed steps sum to a multiple of 2 pi, within a tolerance that shrinks with small loops."""
+    steps = 2.0 * half_steps(size, reach, 1)
+    sums = patterns @ steps
+    allowed = tolerance * min(1.0, steps.sum() / (2.0 * np.pi))
+    off = np.abs(sums - 2.0 * np.pi * np.rint(sums / (2.0 * np.pi)))
+    return np.asarray(off <= max(allowed, float(sum_rounding(size, reach, np.ones(len(reach)), 1))))
+
+
+def _weights(cycle: _Cycle, signs: npt.NDArray[np.int8], reach: Floats) -> Floats:
+    """Return the signs of a cycle, those of equal links added up: none is left of one that closes everywhere."""
+    return put_together(_along(cycle, signs), reach[cycle.pairs])[0]
+
+
+def _caution(cycles: Sequence[_Cycle], signs: npt.NDArray[np.int8], reach: Floats, tolerance: float) -> str:
+    """Say which cycles would close flat too, if they do not close everywhere."""
+    told = [
+        str(number + 1)
+        for number, cycle in enumerate(cycles)
+        if _weights(cycle, signs, reach).any()
+        and _closes(_along(cycle, signs)[np.newaxis], 0.0, reach[cycle.pairs], tolerance).any()
+    ]
+    if not told:
+        return ""
+    return f"{ILL_CONDITIONED}: loop {', '.join(told)} closes flat too, within the tolerance, and tells no lambda"
 
 
 def _along(cycle: _Cycle, signs: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
@@ -238,8 +277,9 @@ def _agreeing(
 
 
 def _common_cone(
-    chain: SCGraph, pairs: Mapping[Pair, int], cycles: Sequence[_Cycle], steps: Floats, size: float, loops: int
+    chain: SCGraph, pairs: Mapping[Pair, int], cycles: Sequence[_Cycle], steps: Floats, size: float, caution: str
 ) -> CommonCone:
+    loops = len(chain.loops)
     of_loops = [steps[cycle.pairs] * cycle.turned for cycle in cycles]
     found = [circuits(one) for one in of_loops]
     signed = {pair: float(steps[number]) for pair, number in pairs.items()}
@@ -252,6 +292,7 @@ def _common_cone(
         tuple(str(one.names()) for one in found[:loops]),
         {joint: float(wrapped(places[joint] - places[first])) for joint in chain.joints if joint in places},
         float(max(abs(one.residual) for one in found)),
+        caution,
     )
 
 

@@ -54,6 +54,7 @@ class LinkageMap:
                         [str(a), str(b), angle] for (a, b), angle in angles_on(self.linkage, cone).items()
                     ],
                     "residual_deg": degrees(cone.residual),
+                    "caution": cone.caution or None,
                 }
                 for cone in self.cones
             ],
@@ -62,6 +63,7 @@ class LinkageMap:
                     "lambda_deg": [degrees(x) for x in family.interval],
                     "signs": [list(signs) for signs in family.signs],
                     "k": list(family.turns),
+                    "caution": family.caution or None,
                 }
                 for family in self.families
             ],
@@ -102,7 +104,7 @@ def map_linkage(linkage: ConicalLinkage, tolerance: float = 1e-7) -> LinkageMap:
     ----------
     linkage : ConicalLinkage
     tolerance : float, optional
-        How well its loops must close together, radians.
+        How well its loops must close together, radians; a loop of less than a turn in proportion.
 
     Returns
     -------

@@ -14,7 +14,8 @@ No root is missed. With the reaches in rising order, multiply g by (C_j - z)^(1/
 between s_j and the next, and differentiate: the result has the sign of sum s_i (C_j - C_i) (C_i - z)^(-3/2), one
 sign change fewer. After as many steps as there are sign changes no zero is left; going back, each function is
 monotone (up to a positive factor) between the zeros of the one after it. So g has at most as many zeros as there
-are sign changes, and a loop sum at most one root more, all found by bisection. Theory: docs/theory/loop-sums.md.
+are sign changes, and a loop sum at most one root more, all found by bisection. What a loop sum is told by is its
+own rounding (`sum_rounding`), nothing absolute. Theory: docs/theory/loop-sums.md, docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -28,19 +29,28 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from synth.fourbar.rounding import rounding_of
 
-__all__ = ["MOST_LINKS", "LoopRoots", "half_steps", "loop_roots", "loop_sum", "sign_patterns"]
+__all__ = [
+    "MOST_LINKS",
+    "Base",
+    "LoopRoots",
+    "half_steps",
+    "loop_roots",
+    "loop_sum",
+    "put_together",
+    "sign_patterns",
+    "sum_rounding",
+]
 
 Base = Literal[0, 1]
 
 MOST_LINKS = 16
 """Most links of a loop: it has 2^15 sign patterns then."""
-_SAME = 1e-12
-"""Reaches that differ by less, relatively, are one: their terms cancel exactly."""
-_ZERO = 2e-13
-"""A loop sum this near to a multiple of 360 degrees (radians) at a node is there: double roots, roots at ends."""
 _ROWS = 200_000
 """Sign patterns treated at a time."""
+_MOST_SENSITIVE = 1.0 / np.sqrt(8.0 * np.finfo(float).eps)
+"""Last digits of a link that nearly is half a turn count for so much in its step: there, it is their root."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +70,12 @@ class LoopRoots:
     residual : float[M]
         Loop sum less 2 pi k, radians.
     double : bool[M]
-        Whether the sum touches 2 pi k without crossing it, or is there at an end of the interval.
+        Whether the sum, within its rounding, touches 2 pi k without crossing it, or is there at an end of the
+        interval.
     family_loop, family_signs : int[F], int8[F, n]
-        Sums that vanish for every z (k = 0): links pair off with equal ones of the other sign.
+        Sums that vanish for every z (k = 0).
+    family_exact : bool[F]
+        Whether links pair off with equal ones of the other sign; else the sums vanish within their rounding.
     """
 
     loop: npt.NDArray[np.intp]
@@ -73,6 +86,7 @@ class LoopRoots:
     double: npt.NDArray[np.bool_]
     family_loop: npt.NDArray[np.intp]
     family_signs: npt.NDArray[np.int8]
+    family_exact: npt.NDArray[np.bool_]
 
 
 def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Floats:
@@ -115,6 +129,49 @@ def loop_sum(size: npt.ArrayLike, reach: npt.ArrayLike, signs: npt.ArrayLike, ba
     z = np.asarray(size, dtype=float)[..., np.newaxis]
     total = (np.asarray(signs) * half_steps(z, reach, base)).sum(axis=-1)
     return np.asarray(2.0 * total)
+
+
+def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLike, base: Base) -> Floats:
+    """Return how far the rounding of the links may take loop sums, radians: what is less is zero.
+
+    A last digit of a link changes its step by as much, relatively, while it is small, but the more the nearer it
+    is to half a turn: by tan(half a step), up to the root of a last digit. The longest link is half a turn where
+    the interval ends, whatever its last digit.
+
+    Parameters
+    ----------
+    size : float[...]
+    reach, weights : float[..., n]
+        Weights are the signs, those of equal reaches put together or not.
+    base : {0, 1}
+
+    Examples
+    --------
+    A small linkage has a small rounding, and the end of the interval a large one for its second longest link:
+
+    >>> small, large = (np.tan(np.array([1.0, 0.9, 0.8]) * part / 2) ** -2 for part in (1e-3, 1.0))
+    >>> [float(f"{sum_rounding(0.0, reach, [1, 1, -1], 1):.1g}") for reach in (small, large)]
+    [4e-18, 4e-15]
+    """
+    z = np.asarray(size, dtype=float)[..., np.newaxis]
+    c = np.asarray(reach, dtype=float)
+    steps = 2.0 * half_steps(z, c, base)
+    left = np.maximum(c - z, c / _MOST_SENSITIVE**2)
+    change = 2.0 * np.sqrt(c / (base + c) * (base + z) / left)
+    return rounding_of(np.abs(weights) * np.where(c <= z, steps, np.maximum(steps, change)))
+
+
+def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Floats]:
+    """Return the weights of one loop, the signs of equal links added up, and their reaches in rising order.
+
+    Examples
+    --------
+    >>> [values.tolist() for values in put_together([1, -1, -1, 1], [2.0, 1.0, 2.0, 1.0])]
+    [[0.0, 0.0], [1.0, 2.0]]
+    """
+    distinct, which = np.unique(np.asarray(reach, dtype=float), return_inverse=True)
+    weights: Floats = np.bincount(which, weights=np.asarray(signs, dtype=float)).astype(float)
+    return weights, distinct
 
 
 def sign_patterns(links: int) -> npt.NDArray[np.int8]:
@@ -168,6 +225,7 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
     ]
     joined = [np.concatenate([part[i] for part in parts]) for i in range(6)]
     families = np.concatenate([part[6] for part in parts])
+    families = families[np.lexsort((families[:, 1], families[:, 0]))]
     order = np.lexsort((joined[3], joined[2], joined[1], joined[0]))
     loop, pattern, turns, size, residual, double = (column[order] for column in joined)
     return LoopRoots(
@@ -179,13 +237,17 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
         double.astype(bool),
         families[:, 0],
         patterns[families[:, 1]],
+        families[:, 2].astype(bool),
     )
 
 
 def _roots_of_chunk(
     reaches: Floats, patterns: npt.NDArray[np.int8], first_loop: int, base: Base
 ) -> tuple[npt.NDArray[np.generic], ...]:
-    """Return columns loop, pattern, turns, size, residual, double, and families (loop, pattern) of some loops."""
+    """Return columns loop, pattern, turns, size, residual, double; and loop, pattern, exact of families.
+
+    Families are exact where all weights are 0.
+    """
     loops, n = reaches.shape
     order = np.argsort(reaches, axis=1)
     sorted_reach = np.take_along_axis(reaches, order, axis=1)
@@ -196,32 +258,33 @@ def _roots_of_chunk(
     of = np.stack(
         [np.repeat(np.arange(loops) + first_loop, len(patterns)), np.tile(np.arange(len(patterns)), loops)], 1
     )
-    weights, reach = _merged(signs.astype(float), reach, base)
+    weights = _merged(signs.astype(float), reach)
     vanishing = ~weights.any(axis=1)
     changes = _sign_changes(weights)
     found: list[tuple[npt.NDArray[np.generic], ...]] = []
+    families = [np.column_stack([of[vanishing], np.ones(vanishing.sum(), np.intp)])]
     for count in range(n):
         rows = np.flatnonzero((changes == count) & ~vanishing)
         if len(rows):
             nodes = _nodes(weights[rows], reach[rows], count)
-            for turns, row, size, residual, double in _crossings(nodes, weights[rows], reach[rows], base):
+            sums = _SumsAtNodes.of(nodes, weights[rows], reach[rows], base)
+            nowhere_else = of[rows[sums.vanish]]
+            families.append(np.column_stack([nowhere_else, np.zeros(len(nowhere_else), np.intp)]))
+            for turns, row, size, residual, double in _crossings(sums, base):
                 whole = np.full(len(row), turns)
                 found.append((*of[rows[row]].T, whole, size, residual, double))
     columns = [np.concatenate([part[i] for part in found]) if found else np.zeros(0) for i in range(6)]
-    return (*columns, of[vanishing])
+    return (*columns, np.concatenate(families))
 
 
-def _merged(signs: Floats, reach: Floats, base: Base) -> tuple[Floats, Floats]:
-    """Put the signs of equal reaches together; return weights (0 where a neighbour took them) and reaches."""
-    weights, reach = signs.copy(), reach.copy()
+def _merged(signs: Floats, reach: Floats) -> Floats:
+    """Put the signs of equal reaches together; return weights, 0 where a neighbour took them."""
+    weights = signs.copy()
     for i in range(1, signs.shape[1]):
-        # of angles near 180 degrees the reach is the square of what they lack, and the root tells them apart
-        scale = np.maximum(reach[:, i], np.sqrt(reach[:, i])) if base else reach[:, i]
-        same = reach[:, i] - reach[:, i - 1] <= _SAME * scale
-        reach[:, i] = np.where(same, reach[:, i - 1], reach[:, i])
+        same = reach[:, i] == reach[:, i - 1]
         weights[:, i] += np.where(same, weights[:, i - 1], 0.0)
         weights[:, i - 1] = np.where(same, 0.0, weights[:, i - 1])
-    return weights, reach
+    return weights
 
 
 def _sign_changes(weights: Floats) -> npt.NDArray[np.int64]:
@@ -292,37 +355,55 @@ def _of_tower(z: Floats, level: int, nearest: Floats, weights: Floats, reach: Fl
     return np.asarray((weights * np.sqrt(ratio) * ratio**level).sum(axis=1))
 
 
+@dataclass(frozen=True, slots=True)
+class _SumsAtNodes:
+    """Loop sums of many rows where their monotone pieces meet, and what rounding leaves of them there."""
+
+    nodes: Floats
+    weights: Floats
+    reach: Floats
+    sums: Floats
+    noise: Floats
+    vanish: npt.NDArray[np.bool_]
+    """Rows whose sums are 0 at all nodes within rounding, and so between them."""
+
+    @classmethod
+    def of(cls, nodes: Floats, weights: Floats, reach: Floats, base: Base) -> _SumsAtNodes:
+        sums = np.stack([loop_sum(z, reach, weights, base) for z in nodes.T], axis=1)
+        noise = np.stack([sum_rounding(z, reach, weights, base) for z in nodes.T], axis=1)
+        return cls(nodes, weights, reach, sums, noise, np.asarray((np.abs(sums) <= noise).all(axis=1)))
+
+
 def _crossings(
-    nodes: Floats, weights: Floats, reach: Floats, base: Base
+    at: _SumsAtNodes, base: Base
 ) -> Iterator[tuple[int, npt.NDArray[np.intp], Floats, Floats, npt.NDArray[np.bool_]]]:
     """Yield k, and row, size, residual and double of each root, where monotone pieces of the sums cross 2 pi k."""
-    sums = np.stack([loop_sum(z, reach, weights, base) for z in nodes.T], axis=1)
-    low, high = sums.min(axis=1), sums.max(axis=1)
-    most = weights.shape[1] // 2
+    low, high = (at.sums - at.noise).min(axis=1), (at.sums + at.noise).max(axis=1)
+    most = at.weights.shape[1] // 2
 
     for turns in range(-most, most + 1):
         goal = 2.0 * np.pi * turns
-        rows = np.flatnonzero((low <= goal + _ZERO) & (high >= goal - _ZERO))
+        rows = np.flatnonzero((low <= goal) & (high >= goal) & ~(at.vanish & (turns == 0)))
         if not len(rows):
             continue
-        over = sums[rows] - goal
-        side = np.where(np.abs(over) <= _ZERO, 0.0, np.sign(over))
+        over = at.sums[rows] - goal
+        side = np.where(np.abs(over) <= at.noise[rows], 0.0, np.sign(over))
         row, left = np.nonzero(side[:, :-1] * side[:, 1:] < 0)
         if len(row):
 
             def value(z: Floats, number: Floats, rows: npt.NDArray[np.intp] = rows, goal: float = goal) -> Floats:
-                at = rows[number.astype(np.intp)]
-                return loop_sum(z, reach[at], weights[at], base) - goal
+                of = rows[number.astype(np.intp)]
+                return loop_sum(z, at.reach[of], at.weights[of], base) - goal
 
-            size = _bisected(value, nodes[rows[row], left], nodes[rows[row], left + 1], row)
+            size = _bisected(value, at.nodes[rows[row], left], at.nodes[rows[row], left + 1], row)
             yield turns, rows[row], size, value(size, row.astype(float)), np.zeros(len(row), dtype=bool)
         touching = side == 0
         touching[:, 1:] &= side[:, :-1] != 0  # neighbouring nodes may be the same root
         if base == 0 and turns == 0:
             touching[:, 0] = False  # an infinite radius
-        row, at_node = np.nonzero(touching)
+        row, node = np.nonzero(touching)
         if len(row):
-            yield turns, rows[row], nodes[rows[row], at_node], over[row, at_node], np.ones(len(row), dtype=bool)
+            yield turns, rows[row], at.nodes[rows[row], node], over[row, node], np.ones(len(row), dtype=bool)
 
 
 def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.intp]) -> Floats:

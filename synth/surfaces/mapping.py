@@ -1,25 +1,34 @@
 """What mapping a loop to a cone or a cylinder gives: one circle after the other, and families of them.
 
-Both surfaces share this: `synth.surfaces.cone` and `synth.surfaces.cylinder` say what the circles mean.
+Both surfaces share this: `synth.surfaces.cone` and `synth.surfaces.cylinder` say what the circles mean. Where
+rounding decides whether there is a circle, or leaves few digits of it, the circle says so.
+Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import degrees
-from typing import Any
+from itertools import combinations
+from math import degrees, fsum, pi
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from synth.fourbar.closing import FourBarKind
+from synth.fourbar.rounding import ILL_CONDITIONED
 from synth.surfaces.circuit import circuits
-from synth.surfaces.loop_sums import Base, half_steps, loop_roots
+from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, loop_sum, put_together, sum_rounding
 
-__all__ = ["FamilyOfCircles", "MappedLoop", "in_degrees", "mapped_loop"]
+__all__ = ["FamilyOfCircles", "MappedLoop", "cautions_of", "in_degrees", "mapped_loop"]
 
-_SAME = 1e-12
+_VAGUE = 1e-6
+"""A circle of which fewer digits than this can be told, relatively, has a caution."""
+_NONE = np.zeros(0, dtype=np.intp)
+_HALVINGS = 200
+"""The least part of the interval looked at round a circle is 2^-200: sizes are known less well than that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,11 +49,16 @@ class MappedLoop:
     steps : tuple of float
         Projected angles, radians.
     residual : float
-        Sum of the steps less 2 pi k, radians.
+        Sum of the steps, as they are here, less 2 pi k, radians.
     double : bool
-        Whether the loop sum touches 360 k here, or ends here.
+        Whether the loop sum, within its rounding, touches 360 k here, or ends here.
     half_turns : tuple of int
         Links that span half the circle: their steps have no sign and are listed as +.
+    bounds : (float, float)
+        Between these sizes the loop closes with these signs within the rounding of its links (to a factor of two):
+        so well is the size known.
+    caution : str
+        Where rounding decides whether there is a circle, or leaves few digits of its size; else empty.
     """
 
     size: float
@@ -56,9 +70,11 @@ class MappedLoop:
     residual: float
     double: bool
     half_turns: tuple[int, ...]
+    bounds: tuple[float, float]
+    caution: str
 
     def to_json(self) -> dict[str, Any]:
-        """Return the loop as plain data, but for its size, which a cone and a cylinder name differently."""
+        """Return the loop as plain data, but for size and bounds, which a cone and a cylinder name differently."""
         return {
             "circuit": self.circuit,
             "signs": list(self.signs),
@@ -68,6 +84,7 @@ class MappedLoop:
             "residual_deg": degrees(self.residual),
             "double": self.double,
             "half_turns": list(self.half_turns),
+            "caution": self.caution or None,
         }
 
 
@@ -84,16 +101,37 @@ class FamilyOfCircles:
     signs : tuple of int
     turns : int
         k, always 0.
+    caution : str
+        Where the loop sum vanishes within rounding only; else empty.
     """
 
     interval: tuple[float, float]
     circuit: str
     signs: tuple[int, ...]
     turns: int
+    caution: str
 
     def to_json(self) -> dict[str, Any]:
         """Return the family as plain data, but for its interval."""
-        return {"circuit": self.circuit, "signs": list(self.signs), "k": self.turns}
+        return {
+            "circuit": self.circuit,
+            "signs": list(self.signs),
+            "k": self.turns,
+            "caution": self.caution or None,
+        }
+
+
+def cautions_of(
+    kind: FourBarKind | None, circles: Iterable[MappedLoop], families: Iterable[FamilyOfCircles], *more: str
+) -> tuple[str, ...]:
+    """Return the cautions of a map, each once."""
+    told = [
+        "" if kind is None else kind.caution,
+        *(one.caution for one in circles),
+        *(one.caution for one in families),
+        *more,
+    ]
+    return tuple(dict.fromkeys(filter(None, told)))
 
 
 def in_degrees(values: Iterable[float]) -> list[float]:
@@ -107,7 +145,9 @@ def in_degrees(values: Iterable[float]) -> list[float]:
     return [round(degrees(value), 12) + 0.0 for value in values]
 
 
-def mapped_loop(reach: Floats, base: Base) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:
+def mapped_loop(
+    reach: Floats, base: Base, flat_steps: Floats | None = None
+) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:
     """Return all circles of one loop, and the families.
 
     Parameters
@@ -116,6 +156,9 @@ def mapped_loop(reach: Floats, base: Base) -> tuple[tuple[MappedLoop, ...], tupl
         As in `synth.surfaces.loop_sums`.
     base : {0, 1}
         0 on a cylinder, 1 on a cone.
+    flat_steps : float[n], optional
+        Of cones: what the links span where the circle has size 0, without sign: the link angles as they were
+        given, of which the reach is rounded.
 
     Notes
     -----
@@ -123,47 +166,140 @@ def mapped_loop(reach: Floats, base: Base) -> tuple[tuple[MappedLoop, ...], tupl
     +; where it ends a family it is not listed.
     """
     roots = loop_roots(reach, base)
-    families = {tuple(signs.tolist()) for signs in roots.family_signs}
+    families = _families(roots, reach, base)
+    vanishing = {family.signs for family in families}
+    links = _Links(reach, base, flat_steps)
+    found: dict[tuple[tuple[int, ...], float], MappedLoop] = {}
+    for signs, turns, z, double in zip(roots.signs, roots.turns, roots.size, roots.double, strict=True):
+        root = _as_listed(_Root(float(z), signs, int(turns), bool(double), _NONE), links)
+        key = tuple(root.signs.tolist()), root.size
+        if key not in found and not _ends_a_family(root.signs, root.half, vanishing):
+            found[key] = _on_its_circle(root, links)
+    return tuple(sorted(found.values(), key=lambda one: one.size)), families
+
+
+def _families(roots: LoopRoots, reach: Floats, base: Base) -> tuple[FamilyOfCircles, ...]:
     end = float(reach.min())
-    found = []
-    for signs, turns, z, residual, double in zip(
-        roots.signs, roots.turns, roots.size, roots.residual, roots.double, strict=True
-    ):
-        half = np.flatnonzero((z == end) & (reach - z <= _SAME * np.maximum(reach, np.sqrt(reach))))
-        if _listed_otherwise(signs, half) or _ends_a_family(signs, half, families):
-            continue
-        steps = 2.0 * signs * half_steps(z, reach, base)
-        found.append(
-            MappedLoop(
-                _size(z, base),
-                str(circuits(steps).names()),
-                tuple(signs.tolist()),
-                int(turns),
-                int(circuits(steps).density),
-                tuple(steps.tolist()),
-                float(residual),
-                bool(double),
-                tuple(half.tolist()),
-            )
-        )
     interval = (0.0, _size(end, 1)) if base else (_size(end, 0), np.inf)
-    found.sort(key=lambda one: one.size)
-    return tuple(found), tuple(
+    within = f"{ILL_CONDITIONED}: the loop closes here within the rounding of its links only"
+    exact = dict(zip(map(tuple, roots.family_signs.tolist()), roots.family_exact.tolist(), strict=True))
+    return tuple(
         FamilyOfCircles(
-            interval, str(circuits(2.0 * np.array(s) * half_steps(end / 2, reach, base)).names()), s, 0
+            interval,
+            str(circuits(2.0 * np.array(signs) * half_steps(end / 2, reach, base)).names()),
+            signs,
+            0,
+            "" if exact[signs] else within,
         )
-        for s in sorted(families, reverse=True)
+        for signs in sorted(exact, reverse=True)
     )
 
 
+class _Root(NamedTuple):
+    """Where a loop closes, with its links of half a turn, whose signs are +."""
+
+    size: float
+    signs: npt.NDArray[np.int8]
+    turns: int
+    double: bool
+    half: npt.NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class _Links:
+    """The links of a loop, as loop sums know them."""
+
+    reach: Floats
+    base: Base
+    flat_steps: Floats | None
+
+    def spans(self, size: float) -> Floats:
+        """Return what the links span, without sign."""
+        if size == 0.0 and self.flat_steps is not None:
+            return self.flat_steps
+        return 2.0 * half_steps(size, self.reach, self.base)
+
+    def half_turns(self, size: float) -> npt.NDArray[np.intp]:
+        """Return which links span half of the circle that ends the interval, as far as rounding can tell."""
+        each = np.eye(len(self.reach))
+        return np.flatnonzero(np.pi - self.spans(size) <= sum_rounding(size, self.reach, each, self.base))
+
+    def sharp(self, half: npt.NDArray[np.intp]) -> bool:
+        """Tell whether links of half a turn are as long as the longest, to the last digit."""
+        return bool((self.reach[half] == self.reach.min()).all())
+
+
+def _on_its_circle(root: _Root, links: _Links) -> MappedLoop:
+    steps = root.signs * links.spans(root.size)
+    residual = fsum([*steps.tolist(), -2.0 * pi * root.turns])
+    least, most = _bounds(root, links)
+    ends = sorted((_size(least, links.base), _size(most, links.base)))
+    doubt = ""
+    if root.double and not len(root.half) and (root.size or residual):
+        doubt = "the loop sum touches 360 k degrees here within rounding: no circle, one, or two"
+    elif not links.sharp(root.half):
+        doubt = "several links span half the circle within rounding"
+    elif root.size and most - least > _VAGUE * root.size:
+        doubt = "rounding leaves few digits of the size"
+    return MappedLoop(
+        _size(root.size, links.base),
+        str(circuits(steps).names()),
+        tuple(root.signs.tolist()),
+        root.turns,
+        int(circuits(steps).density),
+        tuple(steps.tolist()),
+        residual,
+        root.double,
+        tuple(root.half.tolist()),
+        (float(np.nextafter(ends[0], 0.0)), float(np.nextafter(ends[1], np.inf))),
+        f"{ILL_CONDITIONED}: {doubt}" if doubt else "",
+    )
+
+
+def _bounds(root: _Root, links: _Links) -> tuple[float, float]:
+    """Return the sizes about a root at which its loop closes, with any signs of links of nearly half a turn."""
+    ends = [_closing_sizes(root, links)]
+    if not links.sharp(root.half):
+        for first, last in combinations(range(len(root.half) + 1), 2):
+            signs = root.signs.copy()
+            signs[root.half[first:last]] = -1
+            turns = _whole_turns(signs * links.spans(root.size))
+            ends.append(_closing_sizes(root._replace(signs=signs, turns=turns), links))
+    return min(least for least, _ in ends), max(most for _, most in ends)
+
+
+def _closing_sizes(root: _Root, links: _Links) -> tuple[float, float]:
+    """Return the sizes below and above a root from which on its loop sum is not 2 pi k, whatever the rounding."""
+    weights, distinct = put_together(root.signs, links.reach)  # equal links cancel exactly
+    away = distinct[0] * 0.5 ** np.arange(_HALVINGS, -1, -1)
+
+    def first_open(sizes: Floats) -> float:
+        over = np.abs(loop_sum(sizes, distinct, weights, links.base) - 2.0 * np.pi * root.turns)
+        is_open = over > sum_rounding(sizes, distinct, weights, links.base)
+        return float(sizes[is_open.argmax() if is_open.any() else -1])
+
+    return first_open(np.maximum(root.size - away, 0.0)), first_open(np.minimum(root.size + away, distinct[0]))
+
+
 def _size(z: float, base: Base) -> float:
-    return float(np.arctan(np.sqrt(z))) if base else float(0.5 / np.sqrt(z))
+    if base:
+        return float(np.arctan(np.sqrt(z)))
+    return float(0.5 / np.sqrt(z)) if z else np.inf
 
 
-def _listed_otherwise(signs: npt.NDArray[np.int8], half: npt.NDArray[np.intp]) -> bool:
-    """Tell whether other signs of half turns, or those of the mirror image, are the ones to list."""
-    rest = np.delete(signs, half)
-    return bool((signs[half] < 0).any() or (0 in half and len(rest) and rest[0] < 0))
+def _as_listed(root: _Root, links: _Links) -> _Root:
+    """Return a root with + for half turns, or its mirror image, so that the first other sign is +."""
+    half = links.half_turns(root.size) if root.double and root.size == links.reach.min() else _NONE
+    if not len(half):
+        return root
+    rest = np.delete(root.signs, half)
+    signs = -root.signs if len(rest) and rest[0] < 0 and 0 in half else root.signs.copy()
+    signs[half] = 1
+    return root._replace(signs=signs, turns=_whole_turns(signs * links.spans(root.size)), half=half)
+
+
+def _whole_turns(steps: Floats) -> int:
+    return round(float(steps.sum()) / (2.0 * pi))
 
 
 def _ends_a_family(

@@ -18,13 +18,10 @@ from graphs.errors import InvariantError
 from graphs.ids import JointId
 from graphs.mechanism.conical import Pair
 from graphs.mechanism.sc import SCGraph
-from synth.surfaces.circuit import Circuits, circuits, wrapped
+from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles
 
 __all__ = ["LoopSteps", "link_pairs", "loop_steps"]
-
-_HALF_TURN = 1e-9
-"""Steps this near to half a turn (radians) are half turns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +44,7 @@ class LoopSteps:
     @property
     def half_turns(self) -> npt.NDArray[np.bool_]:
         """Return which steps are half a turn and have no sign, though they are listed as +: bool[..., n]."""
-        return np.asarray(np.pi - np.abs(self.steps) < _HALF_TURN)
+        return np.asarray(np.abs(self.steps) > HALF_TURN)
 
     def angles(self, cone_angle: npt.ArrayLike) -> Floats:
         """Return the link angles on cones: float[..., n] (Eq. 5).

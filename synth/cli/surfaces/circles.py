@@ -54,8 +54,8 @@ def signs_text(signs: Sequence[int]) -> str:
 def kind_line(kind: FourBarKind, *, angular: bool) -> str:
     """Say in a line what a four-bar is."""
     unit = "°" if angular else ""
-    shown = (degrees(t) if angular else t for t in kind.differences)
-    differences = ", ".join(f"T{i} = {round(t, 9) + 0.0:.6g}{unit}" for i, t in enumerate(shown, start=1))
+    shown = kind.told_differences(angular=angular)
+    differences = ", ".join(f"T{i} = {t:.6g}{unit}" for i, t in enumerate(shown, start=1))
     return f"{kind.grashof}, {kind.name}   ({differences})"
 
 
@@ -66,7 +66,8 @@ def print_cones(found: ConeMap) -> None:
         out.print(kind_line(found.kind, angular=True))
         if found.solutions in ("a", "b", "c", "d"):
             out.print(f"class {found.solutions} of Hyatt et al. 2020, Fig. 10")
-    _print_circles([*found.flat, *found.cones], found.families, angular=True)
+    _print_circles([*found.flat, *found.cones], found.families, flat=found.flat, angular=True)
+    _print_cautions(found)
     if found.why:
         out.print(f"no cone: {found.why}")
     if found.supplementary is not None:
@@ -80,17 +81,28 @@ def print_cylinders(found: CylinderMap) -> None:
     out = console()
     if found.kind is not None:
         out.print(kind_line(found.kind, angular=False))
-    _print_circles(found.cylinders, found.families, angular=False)
+    _print_circles(found.cylinders, found.families, flat=(), angular=False)
+    _print_cautions(found)
     if found.why:
         out.print(f"no cylinder: {found.why}")
 
 
-def _print_circles(loops: Sequence[MappedLoop], families: Sequence[FamilyOfCircles], *, angular: bool) -> None:
+def _print_cautions(found: ConeMap | CylinderMap) -> None:
+    for caution in found.cautions():
+        console().print(f"caution: {caution}", markup=False)
+
+
+def _print_circles(
+    loops: Sequence[MappedLoop], families: Sequence[FamilyOfCircles], *, flat: Sequence[MappedLoop], angular: bool
+) -> None:
     size = "lambda (deg)" if angular else "radius"
     rows = table(size, "circuit", "signs", "k", "steps (deg)", "note", numbers=[size, "k"])
     for one in loops:
-        notes = ["flat, no cone"] * (angular and one.size < 1e-12)
+        notes = ["flat, no cone"] * (one in flat)
         notes += [f"link {link + 1} spans half the circle" for link in one.half_turns]
+        if one.caution:
+            low, high = (degrees(x) if angular else x for x in one.bounds)
+            notes.append(f"ill-conditioned, between {low:.6g} and {high:.6g}")
         rows.add_row(
             f"{degrees(one.size) if angular else one.size:.10g}", one.circuit, signs_text(one.signs),
             str(one.turns), " ".join(f"{degrees(step):.2f}" for step in one.steps), "; ".join(notes),
@@ -99,7 +111,7 @@ def _print_circles(loops: Sequence[MappedLoop], families: Sequence[FamilyOfCircl
         low, high = (degrees(x) if angular else x for x in family.interval)
         rows.add_row(
             f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns), "",
-            "every one of these",
+            "every one of these" + (", ill-conditioned" if family.caution else ""),
         )  # fmt: skip
     if loops or families:
         console().print(rows)

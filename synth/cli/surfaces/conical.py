@@ -26,6 +26,8 @@ def print_linkage(linkage_map: LinkageMap) -> None:
     link_of = link_pairs(chain)
     for cone in linkage_map.cones:
         out.print(f"lambda {degrees(cone.cone_angle):.10g} degrees")
+        if cone.caution:
+            out.print(cone.caution)
         rows = table("loop", "circuit", "signs", "k", numbers=["k"])
         for loop, circuit, signs, turns in zip(chain.loops, cone.circuits, cone.signs, cone.turns, strict=True):
             rows.add_row(_joints_text(loop.joints), circuit, signs_text(signs), str(turns))
@@ -41,6 +43,8 @@ def print_linkage(linkage_map: LinkageMap) -> None:
             for loop, signs, turns in zip(chain.loops, family.signs, family.turns, strict=True)
         )
         out.print(f"every lambda between {low:.10g} and {high:.10g} degrees   ({told})")
+        if family.caution:
+            out.print(family.caution)
     if not linkage_map.cones and not linkage_map.families:
         out.print("no cone is common to all loops")
 

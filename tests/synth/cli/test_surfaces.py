@@ -53,6 +53,27 @@ def test_families_and_the_flat_cone():
     assert "flat, no cone" in run("cone", "map", "--angles", "100,70,90,60").stdout
 
 
+def test_what_rounding_decides_is_said():
+    near = "5.989154148123322,5.9891541483655,101.40900325209661,101.40900325185983"
+    (crossed, _) = told("cone", "map", "--angles", near)["cones"]
+    low, high = crossed["lambda_bounds_deg"]
+    assert low < 9.7642 < high
+    assert "few digits" in crossed["caution"]
+    out = run("cone", "map", "--angles", near).stdout
+    assert re.search(r"ill-conditioned, between 9\.\d+ and 10\.\d+", out)
+    assert "caution: ill-conditioned: rounding leaves few digits of the size" in out
+    found = told("cylinder", "map", "--lengths", "4,3,5,2.0000000000000004")
+    assert "T3" in found["type_caution"]
+    assert any("stretched out" in caution for caution in found["cautions"])
+    assert told("cylinder", "map", "--lengths", "4,3,5,2")["cautions"] == []
+    family = told("cylinder", "map", "--lengths", "5,3,5,3.0000000000000004")["families"][0]
+    assert "within the rounding" in family["caution"]
+    assert (
+        "every one of these, ill-conditioned"
+        in run("cylinder", "map", "--lengths", "5,3,5,3.0000000000000004").stdout
+    )
+
+
 def test_a_linkage_without_a_cone_says_why_and_offers_another():
     found = told("cone", "map", "--angles", "170,160,150,145")
     assert found["cones"] == []

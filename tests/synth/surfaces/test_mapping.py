@@ -263,6 +263,15 @@ def test_a_step_that_is_nearly_half_a_turn_has_a_sign():
     assert abs(one.size - 0.5) < 1e-9
 
 
+@pytest.mark.parametrize("lack", [1e-9, 1e-12])
+def test_a_step_of_which_no_float_can_tell_half_a_turn_has_its_sign(lack):
+    """The circle is the last before the end, to the last digit of its size; the loop sum has proved its sign there."""
+    angles = link_angles(np.add(np.radians([60, -180, 50, 70]), [0, lack, 0, -lack]), 0.5)
+    (one,) = [one for one in map_to_cones(angles).cones if abs(one.size - 0.5) < 1e-9]
+    assert (one.signs, one.turns, one.half_turns) == ((1, -1, 1, 1), 0, ())
+    assert abs(one.residual) < 2 * lack
+
+
 def test_angles_over_180_are_the_other_way_round():
     assert map_to_cones(np.radians([300, 60, 60])).angles == pytest.approx(np.radians([60, 60, 60]))
 
