@@ -76,7 +76,12 @@ def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded
         if exact.mobility != answer.mobility:
             note = f"the exact generic mobility is {exact.mobility}, the count says {answer.mobility}"
             answer = answer.with_notes(warnings=[note])
-    return replace(answer, pose=pose_mobility_of_model(model)) if model.coordinates else answer
+    if not model.coordinates:
+        return answer
+    try:
+        return replace(answer, pose=pose_mobility_of_model(model))
+    except UnsolvableError as error:
+        return answer.with_notes(warnings=[f"no freedoms at the coordinates: {error}"])
 
 
 def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph, exact: int) -> str:
