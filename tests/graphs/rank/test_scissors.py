@@ -87,7 +87,7 @@ def test_rounded_coordinates_still_cross():
 def test_the_order_of_vertices_and_elements_does_not_matter():
     rng = random.Random(1)
     ranked = 0
-    for _ in range(70):
+    for _ in range(40):
         elements = [tuple(rng.sample(range(7), 4)) for _ in range(rng.randint(2, 4))]
         vertices = sorted({v for four in elements for v in four})
         centres = rng.choice([[], SPHERICAL])
@@ -103,4 +103,4 @@ def test_the_order_of_vertices_and_elements_does_not_matter():
                 assert "make one point of vertices" in str(error)
                 found.add(None)
         assert len(found) == 1, elements
-    assert ranked > 60
+    assert ranked > 40

@@ -55,7 +55,7 @@ def test_each_closing_with_the_one_before_it_in_any_order(options, monkeypatch):
     assert len(reduce(shuffled).graph) == 4
 
 
-@pytest.mark.parametrize("number", [500, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [200, pytest.param(10_000, marks=pytest.mark.slow)])
 def test_the_commands_answer_too(number, tmp_path):
     file = tmp_path / "many.json"
     write(on_one_pair(number), file)
