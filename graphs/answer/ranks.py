@@ -127,7 +127,10 @@ def model_with_pose(answer: MobilityAnswer, model: PolyhedronModel) -> MobilityA
     """Add the freedoms of a polyhedron model at its coordinates, if it has any."""
     if not model.coordinates:
         return answer
-    pose = pose_mobility_of_model(model)
+    try:
+        pose = pose_mobility_of_model(model)
+    except UnsolvableError as error:
+        return answer.with_notes(warnings=[f"no freedoms at the coordinates: {error}"])
     return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
 
 

@@ -207,7 +207,7 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     Raises
     ------
     UnsolvableError
-        If it has no coordinates.
+        If it has no coordinates, or the bars of a scissors element do not cross there.
     InvariantError
         If a rod has no length.
     """

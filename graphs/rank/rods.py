@@ -12,12 +12,13 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
 from flint import nmod_mat
 
-from graphs.errors import NumericalError, UnsolvableError
+from graphs.errors import NumericalError, UnsolvableError, shown
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
@@ -48,7 +49,8 @@ def exact_mobility_of_model(
     Raises
     ------
     UnsolvableError
-        If its vertices could not be placed, or a remote centre does not say which rods meet there.
+        If its vertices could not be placed, a remote centre does not say which rods meet there, lines make one
+        point of several vertices, or the bars of a scissors element do not cross.
     NumericalError
         If the primes give different ranks, which all but never happens.
 
@@ -92,17 +94,27 @@ def place_model(model: PolyhedronModel, field: Field) -> dict[VertexId, Place]:
     Raises
     ------
     UnsolvableError
-        If that does not succeed in any of the orders tried.
+        If that does not succeed in any of the orders tried, or the bars of a scissors element then do not cross.
     """
     spans = _spans(model)
-    order = list(model.nodes)
     centres = [point for point in spans if point not in model]
-    for _ in range(_ATTEMPTS):
-        placed = _place_in_order(model, [*centres, *order], spans, field)
-        if placed is not None:
-            return placed
-        order = order[1:] + order[:1]
-    raise UnsolvableError("not realised: the vertices could not be placed as lines, planes and remote centres ask")
+    why = "not realised: the vertices could not be placed as lines, planes and remote centres ask"
+    failure = UnsolvableError(why)
+    for strictly in (True, False):
+        placing = _Placing(model, spans, field, strictly)
+        order = list(model.nodes)
+        for _ in range(_ATTEMPTS):
+            placed = placing.in_order([*centres, *order])
+            if placed is not None:
+                try:
+                    for number in range(len(model.scissors)):
+                        _crossing(number, model, placed, field)
+                except UnsolvableError as error:
+                    failure = error
+                else:
+                    return placed
+            order = order[1:] + order[:1]
+    raise failure
 
 
 def _spans(model: PolyhedronModel) -> dict[Hashable, list[tuple[Hashable, ...]]]:
@@ -114,10 +126,25 @@ def _spans(model: PolyhedronModel) -> dict[Hashable, list[tuple[Hashable, ...]]]
     for one in (*model.on_line, *model.on_plane):
         if one.of != GROUND:
             spans[one.vertex].append(tuple(one.of))
-    for a, b, c, d in model.scissors:
-        for vertex, others in ((a, (b, c, d)), (b, (a, c, d)), (c, (a, b, d)), (d, (a, b, c))):
-            spans[vertex].append(others)
+    for plane in _planes_of_scissors(model):
+        for point in plane:
+            spans[point] += combinations([other for other in plane if other != point], 3)
     return spans
+
+
+def _planes_of_scissors(model: PolyhedronModel) -> list[list[VertexId]]:
+    """Return the vertices in the plane of each element; two planes that share three vertices are one."""
+    planes = [dict.fromkeys(four) for four in model.scissors]
+    apart = False
+    while not apart:
+        apart = True
+        for one, other in combinations(planes, 2):
+            if len(one.keys() & other.keys()) >= 3:
+                one.update(other)
+                planes = [plane for plane in planes if plane is not other]
+                apart = False
+                break
+    return [list(plane) for plane in planes]
 
 
 def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
@@ -141,6 +168,8 @@ def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
     on: dict[frozenset[VertexId], list[Hashable]] = {rod: list(rod) for rod in rods}
     for number, one in enumerate(centre_classes(points)):
         vertices = [several[i - len(lines)] for i in one.loops if i >= len(lines)]
+        if len(vertices) > 1:
+            raise _one_point(model, vertices)
         name: Hashable = vertices[0] if vertices else ("centre", number)
         for rod in one.joints:
             assert isinstance(rod, frozenset)
@@ -149,46 +178,68 @@ def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
     yield from on.values()
 
 
-def _place_in_order(
-    model: PolyhedronModel,
-    order: Sequence[Hashable],
-    spans: Mapping[Hashable, list[tuple[Hashable, ...]]],
-    field: Field,
-) -> dict[VertexId, Place] | None:
-    """Place points one by one, each on what earlier ones span; None if one has no place."""
-    placed: dict[Hashable, list[Any]] = {}
-    for point in order:
-        planes: list[list[Any]] = []
-        for span in spans.get(point, ()):
-            if all(other in placed for other in span):
-                planes += null_vectors([placed[other] for other in span], field)
-        choices = null_vectors(planes, field) if planes else [[int(i == j) for j in range(4)] for i in range(4)]
-        if not choices:
-            return None
-        weights = [field.random() for _ in choices]
-        place = [field.reduce(sum(w * c[k] for w, c in zip(weights, choices, strict=True))) for k in range(4)]
-        if field.is_zero(place[3]):
-            return None
-        scale = field.inverse(place[3])
-        placed[point] = [field.reduce(value * scale) for value in place[:3]] + [1]
-    return (
-        {vertex: (p[0], p[1], p[2]) for vertex, p in placed.items() if vertex in model}
-        if _fits(placed, spans, field)
-        else None
-    )
+def _one_point(model: PolyhedronModel, vertices: Sequence[VertexId]) -> UnsolvableError:
+    elements = [i for i, four in enumerate(model.scissors) if len(set(four) & set(vertices)) > 1]
+    which = f" (scissors {shown(' '.join(map(str, elements)))})" if elements else ""
+    names = shown(" ".join(map(str, vertices)))
+    return UnsolvableError(f"lines that meet in remote centres make one point of vertices {names}{which}")
 
 
-def _fits(
-    placed: Mapping[Hashable, list[Any]], spans: Mapping[Hashable, list[tuple[Hashable, ...]]], field: Field
-) -> bool:
-    """Tell whether every vertex lies in the spans it should: some were placed before what they lie on."""
-    for vertex, here in spans.items():
-        for span in here:
-            planes = null_vectors([placed[point] for point in span], field)
-            for plane in planes:
-                if not field.is_zero(field.reduce(sum(a * b for a, b in zip(plane, placed[vertex], strict=True)))):
-                    return False
-    return True
+@dataclass(frozen=True)
+class _Placing:
+    """How points are placed: each on what earlier ones span.
+
+    Attributes
+    ----------
+    model, spans, field
+    strictly : bool
+        Whether a point lies with span points even where these are dependent, on their line say. Elements of
+        scissors that share vertices may need it otherwise: three on a line are in one plane with any fourth.
+    """
+
+    model: PolyhedronModel
+    spans: Mapping[Hashable, list[tuple[Hashable, ...]]]
+    field: Field
+    strictly: bool
+
+    def in_order(self, order: Sequence[Hashable]) -> dict[Hashable, Place] | None:
+        """Place points one by one; None if one has no place."""
+        field = self.field
+        placed: dict[Hashable, list[Any]] = {}
+        for point in order:
+            planes: list[list[Any]] = []
+            for span in self.spans.get(point, ()):
+                if all(other in placed for other in span):
+                    planes += self._planes_through(span, placed)
+            choices = (
+                null_vectors(planes, field) if planes else [[int(i == j) for j in range(4)] for i in range(4)]
+            )
+            if not choices:
+                return None
+            weights = [field.random() for _ in choices]
+            place = [field.reduce(sum(w * c[k] for w, c in zip(weights, choices, strict=True))) for k in range(4)]
+            if field.is_zero(place[3]):
+                return None
+            scale = field.inverse(place[3])
+            placed[point] = [field.reduce(value * scale) for value in place[:3]] + [1]
+        if not self._fits(placed):
+            return None
+        return {vertex: (p[0], p[1], p[2]) for vertex, p in placed.items() if vertex in self.model}
+
+    def _fits(self, placed: Mapping[Hashable, list[Any]]) -> bool:
+        """Tell whether every vertex lies in the spans it should: some were placed before what they lie on."""
+        field = self.field
+        for vertex, here in self.spans.items():
+            for span in here:
+                for plane in self._planes_through(span, placed):
+                    height = sum(a * b for a, b in zip(plane, placed[vertex], strict=True))
+                    if not field.is_zero(field.reduce(height)):
+                        return False
+        return True
+
+    def _planes_through(self, span: Sequence[Hashable], placed: Mapping[Hashable, list[Any]]) -> list[list[Any]]:
+        planes = null_vectors([placed[other] for other in span], self.field)
+        return planes if self.strictly or len(planes) == 4 - len(span) else []
 
 
 def _random_point(field: Field) -> Place:
@@ -212,6 +263,11 @@ def velocity_constraints(
         (point, coordinate) to coefficient.
     points : int
         Vertices and apexes, those of the ground link left out.
+
+    Raises
+    ------
+    UnsolvableError
+        If the bars of a scissors element do not cross in one point there.
     """
     fixed = model.ground or frozenset()
     where: dict[Hashable, Place] = dict(places)
@@ -230,8 +286,8 @@ def velocity_constraints(
             rows += _along(one.vertex, lines[one.vertex])
         else:
             rows += _straight(one.vertex, tuple(one.of), where)
-    for four in model.scissors:
-        rows += _scissors(four, where, field)
+    for number in range(len(model.scissors)):
+        rows += _scissors(number, model, where, field)
     rows = [{key: field.reduce(value) for key, value in row.items() if key[0] not in fixed} for row in rows]
     return rows, len(where) - len(fixed)
 
@@ -299,15 +355,45 @@ def _along(v: Hashable, direction: Place) -> list[Row]:
     return [{(v, i): direction[j], (v, j): -direction[i]} for i, j in ((1, 2), (2, 0), (0, 1))]
 
 
-def _scissors(four: Sequence[Hashable], where: Mapping[Hashable, Place], field: Field) -> list[Row]:
+def _scissors(number: int, model: PolyhedronModel, where: Mapping[Hashable, Place], field: Field) -> list[Row]:
     """Two bars a-d and b-c of fixed lengths, pivoted where they cross: five constraints."""
-    a, b, c, d = four
-    along_a, along_b = _difference(where[d], where[a]), _difference(where[c], where[b])
-    gap = _difference(where[b], where[a])
-    # where[a] + s along_a = where[b] + t along_b
-    [solution] = null_vectors([[along_a[k], -along_b[k], -gap[k]] for k in range(3)], field)
-    scale = field.inverse(solution[2])
-    s, t = solution[0] * scale, solution[1] * scale
+    a, b, c, d = model.scissors[number]
+    s, t = _crossing(number, model, where, field)
     rows = [_length(a, d, where), _length(b, c, where)]
     rows += [{(a, k): 1 - s, (d, k): s, (b, k): t - 1, (c, k): -t} for k in range(3)]
     return rows
+
+
+def _crossing(
+    number: int, model: PolyhedronModel, where: Mapping[Hashable, Place], field: Field
+) -> tuple[Any, Any]:
+    """Return s and t where the bars of a scissors element cross: a + s (d - a) = b + t (c - b).
+
+    Where rounded coordinates part the bars a little, s and t are those of the points nearest to each other.
+    """
+    a, b, c, d = model.scissors[number]
+    along_a, along_b = _difference(where[d], where[a]), _difference(where[c], where[b])
+    gap = _difference(where[b], where[a])
+    squared = field.reduce(_dot(along_a, along_a) * _dot(along_b, along_b))
+    normal = [field.reduce(value) for value in _cross(along_a, along_b)]
+    size = field.reduce(_dot(normal, normal))
+    if not squared:
+        raise _no_pivot(number, model, "one of its bars has no length")
+    if field.is_zero(field.reduce(size * field.inverse(squared))):
+        raise _no_pivot(number, model, "its bars are parallel or on one line")
+    scale = field.inverse(size)
+    if not field.is_zero(field.reduce(_dot(gap, normal) ** 2 * scale)):
+        raise _no_pivot(number, model, "its bars pass each other")
+    return tuple(field.reduce(_dot(_cross(gap, along), normal) * scale) for along in (along_b, along_a))
+
+
+def _no_pivot(number: int, model: PolyhedronModel, why: str) -> UnsolvableError:
+    a, b, c, d = model.scissors[number]
+    return UnsolvableError(
+        f"scissors element {number} has no pivot: {why}; "
+        f"expected that bars {shown((a, d))} and {shown((b, c))} cross in one point"
+    )
+
+
+def _dot(u: Sequence[Any], v: Sequence[Any]) -> Any:
+    return sum(a * b for a, b in zip(u, v, strict=True))

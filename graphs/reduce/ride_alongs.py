@@ -7,7 +7,7 @@ centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. So
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,13 +17,12 @@ from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
 from graphs.mechanism.sc import SCGraph
+from graphs.reduce.staying import links_of_loops_that_stay
+from graphs.reduce.taking import RULES, Taken, Terms, take_all
 from graphs.reduce.working import Removal, WorkingGraph
 
-__all__ = ["RULES", "Reduction", "ReductionStep", "reduce"]
-
-RULES = ("ride-along", "dyad")
+__all__ = ["Reduction", "ReductionStep", "reduce"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,8 +162,11 @@ def reduce(
 
     Notes
     -----
-    The mobility count stays. Ride-along reduction takes linear time and, up to isomorphism, gives the same
-    graph in whichever order steps are taken; dyad reduction promises neither.
+    The mobility count stays. Ride-along reduction takes linear time and, up to isomorphism, gives the same graph,
+    with the same centres, in whichever order the parts of the mechanism are given. Where a block comes down to
+    a single four-bar and several of its four-bars could be it, one of the most general kind stays: a finite centre
+    before one at infinity, a centre of its own before one that another block has too (docs/theory/reduction.md).
+    Dyad reduction promises neither.
 
     Examples
     --------
@@ -185,104 +187,20 @@ def reduce(
             raise InvariantError("keep", f"{shown(link)} is to be kept and is no link", "one of the links")
     if sc.ground is not None:
         protected.add(sc.ground)
+    terms = Terms(rule, fully, frozenset(protected))
     work = WorkingGraph(sc)
-    take = _take_ride_along if rule == "ride-along" else _take_dyad
-    taken: list[tuple[Removal, JointId | None, tuple[LinkId, LinkId]]] = []
-    waiting = dict.fromkeys(reversed(list(work.joints)))
-    while waiting:
-        middle, _ = waiting.popitem()
-        found = work.path(middle) if middle in work.joints else None
-        if found is None or found[2] in protected or found[3] in protected or found[0] == found[5]:
-            continue
-        if work.loops_in_block[work.block_of[middle]] == 1 and not fully:
-            continue
-        step = take(work, middle)
-        if step is None:
-            continue
-        a, b = found[0], found[5]
-        taken.append((*step, (a, b)))
-        for link in (a, b):
-            if work.degree[link] == 2:
-                waiting |= dict.fromkeys(work.joints_at(link))
-    return Reduction(sc, work.graph(), rule, _steps(taken), tuple(removal for removal, _, _ in taken), work)
+    taken = take_all(work, terms)
+    if rule == "ride-along" and not fully and (stay := links_of_loops_that_stay(work, taken, terms.protected)):
+        work = WorkingGraph(sc)
+        taken = take_all(work, Terms(rule, fully, terms.protected | stay))
+    return Reduction(sc, work.graph(), rule, _steps(taken), tuple(one.removal for one in taken), work)
 
 
-def _steps(
-    taken: list[tuple[Removal, JointId | None, tuple[LinkId, LinkId]]],
-) -> tuple[ReductionStep, ...]:
+def _steps(taken: Sequence[Taken]) -> tuple[ReductionStep, ...]:
     """Add to each step the one it sits on: the first that takes off one of its two bases."""
-    taker = {link: i for i, (removal, _, _) in enumerate(taken) for link in removal.links}
+    taker = {link: i for i, one in enumerate(taken) for link in one.removal.links}
     steps = []
     for removal, joint, onto in taken:
         later = [taker[link] for link in onto if link in taker]
         steps.append(ReductionStep(removal.links, onto, removal.joints, joint, min(later, default=None)))
     return tuple(steps)
-
-
-def _take_ride_along(work: WorkingGraph, middle: JointId) -> tuple[Removal, JointId] | None:
-    """Take off the ride-along whose two links a joint joins, if it is one."""
-    found = work.path(middle)
-    assert found is not None
-    a, before, _, _, after, b = found
-    between = work.original[a][b] if work.original.has_edge(a, b) else ()
-    for joint in sorted(between, key=str):
-        cycle = frozenset((before, middle, after, joint))
-        dropped = work.member_through(cycle, middle)
-        if dropped is None:
-            continue
-        reopened = None
-        if dropped in work.closing:
-            reopened = _independent_member(work, cycle, middle)
-            if reopened is None:
-                continue
-        others = sorted(work.through[middle] - {dropped})
-        return work.remove(middle, dropped, [(index, cycle) for index in others], reopened), joint
-    return None
-
-
-def _independent_member(work: WorkingGraph, cycle: frozenset[JointId], middle: JointId) -> int | None:
-    """Return an independent loop through a joint that takes part in the sum that gives a closing loop."""
-    independent = [i for i in range(len(work.loops)) if work.alive[i] and i not in work.closing]
-    passing = [i for i in independent if i in work.through[middle]]
-    if len(passing) == 1:
-        return passing[0]
-    summands = in_span_of(cycle, [work.loops[i] for i in independent])
-    return (
-        None if summands is None else next((independent[i] for i in summands if independent[i] in passing), None)
-    )
-
-
-def _take_dyad(work: WorkingGraph, middle: JointId) -> tuple[Removal, None] | None:
-    """Take off the dyad whose two links a joint joins, if a loop through it has a centre."""
-    passing = [i for i in work.centred_through(middle) if i not in work.closing]
-    if not passing:
-        return None
-    dropped = min(passing, key=lambda i: (len(work.loops[i]), i))
-    deltas: list[tuple[int, frozenset[JointId]]] = []
-    for index in sorted(work.through[middle] - {dropped}):
-        merged = _one_cycle(work, index, dropped, [d for d, _ in deltas])
-        if merged is None:
-            return None
-        deltas.append((index, frozenset(work.loops[index] ^ merged)))
-    block = work.block_of[middle]
-    removal = work.remove(middle, dropped, deltas)
-    work.renumber_block(block)
-    return removal, None
-
-
-def _one_cycle(work: WorkingGraph, index: int, dropped: int, done: list[int]) -> set[JointId] | None:
-    """Return the sum of two loops as one cycle; if it falls apart, a part that is independent of the rest."""
-    merged = work.loops[index] ^ work.loops[dropped]
-    parts = [set(part) for part in cut_into_cycles(sorted(merged, key=str), work.joints)]
-    if len(parts) == 1:
-        return parts[0]
-    if index in work.closing:
-        return None
-    skip = {index, dropped, *done}
-    rest = [
-        tuple(x) for i, x in enumerate(work.loops) if work.alive[i] and i not in work.closing and i not in skip
-    ]
-    for part in sorted(parts, key=len, reverse=True):
-        if dependent_loop([*rest, tuple(part)]) is None:
-            return part
-    return None

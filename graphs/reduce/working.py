@@ -6,7 +6,7 @@ Loops are sets of joints here, so that changing a long loop costs as much as wha
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -71,6 +71,8 @@ class WorkingGraph:
             for joint in around:
                 self.through[joint].add(index)
         self.class_of = {loop: k for k, one in enumerate(sc.centre_classes()) for loop in one.loops}
+        self._members = [one.loops for one in sc.centre_classes()]
+        self._passing = Counter((j, k) for loop, k in self.class_of.items() for j in self.loops[loop])
         self._full = [self._is_full(one.loops, one.joints) for one in sc.centre_classes()]
         self.block_of: dict[JointId, int] = {}
         self.loops_in_block: list[int] = []
@@ -125,23 +127,31 @@ class WorkingGraph:
         """Return the loops with a centre that pass a joint; round a binary path they are of one class."""
         return sorted(index for index in self.through[joint] if index in self.class_of)
 
+    def member_at_once(self, cycle: frozenset[JointId], middle: JointId) -> tuple[bool, int | None]:
+        """Say whether `member_through` knows its answer without an elimination, and if so the answer."""
+        passing = self.centred_through(middle)
+        if not passing:
+            return True, None
+        for index in passing:
+            if self.loops[index] == cycle:
+                return True, index
+        which = self.class_of[passing[0]]
+        if any(not self._passing[joint, which] for joint in cycle):
+            return True, None
+        if self._full[which] and len(passing) == 1:
+            return True, passing[0]  # the sum holds an odd number of the loops through the joint: this one
+        return False, None
+
     def member_through(self, cycle: frozenset[JointId], middle: JointId) -> int | None:
         """Return a loop through a joint that takes part in a sum of loops of one class giving a cycle.
 
         None if the cycle is no such sum.
         """
+        known, member = self.member_at_once(cycle, middle)
+        if known:
+            return member
         passing = self.centred_through(middle)
-        if not passing:
-            return None
-        for index in passing:
-            if self.loops[index] == cycle:
-                return index
-        which = self.class_of[passing[0]]
-        if any(all(self.class_of.get(i) != which for i in self.through[joint]) for joint in cycle):
-            return None
-        if self._full[which] and len(passing) == 1:
-            return passing[0]  # the sum holds an odd number of the loops through the joint: this one
-        members = [i for i, k in self.class_of.items() if k == which and self.alive[i]]
+        members = [i for i in self._members[self.class_of[passing[0]]] if self.alive[i]]
         summands = in_span_of(cycle, [self.loops[i] for i in members])
         if summands is None:
             return None
@@ -200,25 +210,37 @@ class WorkingGraph:
             self.closing ^= {removal.dropped, removal.reopened}
 
     def _toggle(self, index: int, delta: frozenset[JointId]) -> None:
-        self.loops[index] ^= delta
         for joint in delta:
-            self.through[joint] ^= {index}
+            self._pass(index, joint, joint not in self.loops[index])
+        self.loops[index] ^= delta
 
     def _set_alive(self, index: int, alive: bool) -> None:
         self.alive[index] = alive
         for joint in self.loops[index]:
-            if alive:
-                self.through[joint].add(index)
-            else:
-                self.through[joint].discard(index)
+            self._pass(index, joint, alive)
+
+    def _pass(self, index: int, joint: JointId, passes: bool) -> None:
+        """Note that a loop passes a joint from now on, or does not."""
+        if passes:
+            self.through[joint].add(index)
+        else:
+            self.through[joint].discard(index)
+        if index in self.class_of:
+            self._passing[joint, self.class_of[index]] += 1 if passes else -1
 
     # ---- result -------------------------------------------------------------------------------------
 
-    def graph(self) -> SCGraph:
-        """Return what is left as an SC graph with the classes of the original."""
+    def kept_loops(self) -> tuple[list[int], list[int]]:
+        """Return the independent loops that are left, and the closing ones that are none of these."""
         independent = [i for i in range(len(self.loops)) if self.alive[i] and i not in self.closing]
         held = {frozenset(self.loops[i]) for i in independent}
+        held.add(frozenset())  # a closing loop that was the cycle itself is nothing without it
         closing = [i for i in sorted(self.closing) if self.alive[i] and frozenset(self.loops[i]) not in held]
+        return independent, closing
+
+    def graph(self) -> SCGraph:
+        """Return what is left as an SC graph with the classes of the original."""
+        independent, closing = self.kept_loops()
         kept = [*independent, *closing]
         loops = [replace(self.labels[i], joints=tuple(sorted(self.loops[i], key=str))) for i in kept]
         loops = self._with_classes(kept, loops)

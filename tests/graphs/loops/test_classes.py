@@ -51,17 +51,7 @@ def test_spatial_loops_are_in_no_class():
 def test_classes_are_the_finest_closed_partition(sc):
     """Merging by pairs until nothing changes, in the plainest way, gives the same classes."""
     loops = (*sc.loops, *sc.closing)
-    parts = [({i}, set(loop.joints), loop.centre) for i, loop in enumerate(loops) if loop.has_centre]
-    while True:
-        for one, two in combinations(parts, 2):
-            enough = 1 if one[2] is two[2] is Centre.INFINITE else 2
-            if len(one[1] & two[1]) >= enough:
-                parts = [p for p in parts if p is not one and p is not two]
-                parts.append((one[0] | two[0], one[1] | two[1], one[2]))
-                break
-        else:
-            break
-    assert {frozenset(p[0]) for p in parts} == {frozenset(one.loops) for one in sc.centre_classes()}
+    assert merged_pair_by_pair(loops) == {frozenset(one.loops) for one in sc.centre_classes()}
 
 
 @given(sc_graphs)
@@ -73,3 +63,46 @@ def test_order_of_loops_does_not_matter(sc):
         return {one.joints for one in centre_classes(loops)}
 
     assert joints(sc.loops) == joints(shuffled)
+
+
+def merged_pair_by_pair(loops):
+    """The partition by the rule itself: any two classes that share enough joints merge, until none do."""
+    parts = [({i}, set(loop.joints), loop.centre) for i, loop in enumerate(loops) if loop.has_centre]
+    while True:
+        for one, two in combinations(parts, 2):
+            enough = 1 if one[2] is two[2] is Centre.INFINITE else 2
+            if len(one[1] & two[1]) >= enough:
+                parts = [p for p in parts if p is not one and p is not two]
+                parts.append((one[0] | two[0], one[1] | two[1], one[2]))
+                break
+        else:
+            return {frozenset(p[0]) for p in parts}
+
+
+def test_crowded_joints_give_the_same_classes():
+    """Dozens of loops on one joint or two, chains of forced coincidences among them."""
+    rng = random.Random(16)
+    merged = 0
+    for _ in range(60):
+        joints = rng.randint(30, 120)
+        loops = [
+            Loop(
+                (*rng.choice([("a",), ("a",), ("a", "b"), ("b",)]), *rng.sample(range(joints), rng.randint(1, 2)))
+            )
+            for _ in range(rng.randint(20, 60))
+        ]
+        classes = centre_classes(loops)
+        assert {frozenset(one.loops) for one in classes} == merged_pair_by_pair(loops)
+        assert all(one.joints == {j for i in one.loops for j in loops[i].joints} for one in classes)
+        merged += sum(len(one.loops) > 1 for one in classes)
+        merged -= len(classes) == 1
+    assert merged > 60
+
+
+def test_ten_thousand_loops_on_one_joint():
+    """No pair of them is looked at: fifty million would take minutes and gigabytes."""
+    loops = [Loop(("base", 3 * k, 3 * k + 1, 3 * k + 2)) for k in range(10_000)]
+    assert len(centre_classes(loops)) == 10_000
+    sharing = [Loop((*loop.joints, "second")) for loop in loops]
+    assert len(centre_classes(sharing)) == 1
+    assert len(centre_classes([*loops, Loop((0, 1, 3, 4))])) == 10_000 - 1

@@ -5,6 +5,7 @@ import networkx as nx
 import pytest
 from hypothesis import given
 from oracle import numeric_mobility
+from random_addenda import random_addenda, relabelled
 from strategies import randoms, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
@@ -14,7 +15,8 @@ from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.reduce.ride_alongs import RULES, reduce
+from graphs.reduce.ride_alongs import reduce
+from graphs.reduce.taking import RULES
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 
@@ -33,89 +35,6 @@ def strip(rows, columns=2):
             for j in range(columns)
         ]
     ).sc_graph()
-
-
-def random_addenda(rng: random.Random, *, size: int = 12) -> SCGraph:
-    """A core with ride-alongs on it and on each other, loops of other lengths, flaps, cut links, mixed bases."""
-    links, joints, loops = [0], {}, []
-
-    def chain(a, b, number, closing, centre):
-        """Append a chain of links between a and b; it closes a loop with the given joints."""
-        path, before = [], a
-        for _ in range(number):
-            link = len(links)
-            links.append(link)
-            path.append(len(joints))
-            joints[path[-1]] = (before, link)
-            before = link
-        path.append(len(joints))
-        joints[path[-1]] = (before, b)
-        loops.append(([*closing, *path], centre))
-
-    for _ in range(rng.randint(1, 2)):  # cores that share one link: a cut link
-        start, n = rng.choice(links), rng.randint(3, 5)
-        first = len(links)
-        links.extend(range(first, first + n - 1))
-        around = [start, *range(first, first + n - 1)]
-        ids = []
-        for a, b in zip(around, [*around[1:], start], strict=True):
-            ids.append(len(joints))
-            joints[ids[-1]] = (a, b)
-        loops.append((ids, rng.choice(["finite", "finite", "none"])))
-    for _ in range(rng.randint(0, size)):
-        what = rng.random()
-        joint = rng.choice(list(joints))
-        a, b = joints[joint]
-        if what < 0.7:
-            chain(a, b, 2, [joint], "finite")
-        elif what < 0.85:
-            chain(a, b, rng.randint(1, 4), [joint], rng.choice(["finite", "none"]))
-        else:  # a flap
-            link = len(links)
-            links.append(link)
-            joints[len(joints)] = (rng.choice(links[:-1]), link)
-    ground = rng.choice([None, None, rng.choice(links)])
-    sc = SCGraph(links, joints, [Loop(tuple(j), c) for j, c in loops], ground=ground)
-    return shuffled_basis(sc, rng)
-
-
-def shuffled_basis(sc: SCGraph, rng: random.Random) -> SCGraph:
-    """Replace loops by sums with loops of their class, where these are cycles."""
-    from graphs.loops.loop import cyclic_order
-
-    current = list(sc.loops)
-    for _ in range(rng.randint(0, 4)):
-        classes = sc.centre_classes()
-        many = [one for one in classes if len(one.loops) > 1]
-        if not many:
-            break
-        one = rng.choice(many)
-        i, k = rng.sample(one.loops, 2)
-        total = set(current[i].joints) ^ set(current[k].joints)
-        try:
-            cyclic_order(Loop(tuple(total)), sc.joints)
-        except InvariantError:
-            continue
-        trial = [*current]
-        trial[i] = Loop(tuple(total), current[i].centre, current[i].name, current[i].at)
-        changed = sc.with_loops(trial)
-        if {c.joints for c in changed.centre_classes()} == {c.joints for c in classes}:
-            current = trial
-    return sc.with_loops(current)
-
-
-def relabelled(sc: SCGraph, rng: random.Random) -> SCGraph:
-    """The same mechanism with links, joints and loops renamed and in another order."""
-    links = dict(zip(sc.nodes, rng.sample(range(len(sc)), len(sc)), strict=True))
-    joints = dict(zip(sc.joints, rng.sample(range(len(sc.joints)), len(sc.joints)), strict=True))
-    other = sc.relabel(links, joints)
-    order = list(other.loops)
-    rng.shuffle(order)
-    ids = list(other.joints)
-    rng.shuffle(ids)
-    return SCGraph(
-        sorted(other.nodes), {j: other.joints[j] for j in ids}, order, closing=other.closing, ground=other.ground
-    )
 
 
 def check_one(rng: random.Random, *, fully: bool) -> int:
@@ -259,6 +178,17 @@ def test_a_closed_surface_stays_closed():
             assert reduction.graph.is_closed
             assert mobility(reduction.graph) == mobility(turned)
             assert reduction.undo().is_identical(turned)
+
+
+def test_a_closing_loop_goes_with_the_last_cycle_of_its_block():
+    """Two four-bars on one joint and the loop around both: fully reduced, one joint and no loop is left."""
+    joints = [(0, 1), (0, 2), (2, 3), (3, 1), (0, 4), (4, 5), (5, 1)]
+    around = Loop((1, 2, 3, 4, 5, 6))
+    sc = SCGraph(6, joints, [Loop((0, 1, 2, 3)), Loop((0, 4, 5, 6))], closing=[around])
+    whole = reduce(sc, fully=True)
+    assert (len(whole.graph), whole.graph.loops, whole.graph.closing) == (2, (), ())
+    assert whole.undo().is_identical(sc)
+    assert len(reduce(sc).graph.loops) == 1
 
 
 @pytest.mark.parametrize("rule", RULES)
