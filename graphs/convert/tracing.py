@@ -223,4 +223,5 @@ def _sheet(network: Network, faces: list[tuple[int, ...]], title: str, notes: tu
         title,
         notes,
         None if not any(network.angles.values()) else tuple(network.angles[edge] for edge in network.edges),
+        spread=network.spread,
     )

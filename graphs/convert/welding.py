@@ -71,6 +71,8 @@ class Network:
         What was mended, and how often.
     dangling : int
         How many lines ended nowhere.
+    spread : float
+        How far ends were apart that are one vertex now, in the mean (root of squares); a length.
     """
 
     points: Floats
@@ -79,6 +81,7 @@ class Network:
     angles: dict[Edge, float | None] = field(default_factory=dict)
     notes: Counter[str] = field(default_factory=Counter)
     dangling: int = 0
+    spread: float = 0.0
 
 
 def network_of(lines: Lines, tolerance: float) -> Network:
@@ -108,7 +111,8 @@ def network_of(lines: Lines, tolerance: float) -> Network:
     segments = shapely.linestrings(ends)
     tree = shapely.STRtree(segments)
     crossings = _crossings(ends, tree, segments, tolerance)
-    points, of_point = _welded(np.concatenate([ends.reshape(-1, 2), crossings]), tolerance)
+    loose = np.concatenate([ends.reshape(-1, 2), crossings])
+    points, of_point = _welded(loose, tolerance)
     notes["crossing(s) split"] = len(set(of_point[2 * len(ends) :]) - set(of_point[: 2 * len(ends)]))
     at = _points_on_lines(points, ends, tree, tolerance)
     ends_of = of_point[: 2 * len(ends)].reshape(-1, 2)
@@ -131,10 +135,17 @@ def network_of(lines: Lines, tolerance: float) -> Network:
             if before is None or _RANK.index(letter) < _RANK.index(before):
                 edges[edge] = letter
                 angle_of[edge] = angles[line]
-    network = Network(points, edges, tolerance, angle_of, notes)
+    moved = (loose - points[of_point])[: 2 * len(ends)]
+    network = Network(points, edges, tolerance, angle_of, notes, spread=_spread(moved, of_point[: len(moved)]))
     _prune(network)
     _straighten(network)
     return network
+
+
+def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
+    """Return how far ends that share a vertex with others were moved to it, in the mean."""
+    shared = np.bincount(vertices)[vertices] > 1
+    return float(np.sqrt((moved[shared] ** 2).sum(axis=1).mean())) if shared.any() else 0.0
 
 
 def _crossings(ends: Floats, tree: shapely.STRtree, segments: npt.NDArray[np.object_], tolerance: float) -> Floats:

@@ -1,7 +1,7 @@
 """How precise coordinates are: what a file of them can tell apart.
 
-A file says it in the digits that it writes, in numbers that fit in single precision, and in points that ought to
-lie in one plane and nearly do. Theory: docs/theory/pose.md.
+A file says it in the digits that it writes, in numbers that fit in single precision, in points that ought to
+coincide, and in points that ought to lie in one plane and nearly do. Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
@@ -124,12 +124,13 @@ def precision_of_sheet(sheet: Sheet) -> Precision:
         raise ValueError("the sheet has no coordinates")
     points = np.asarray(sheet.coordinates, dtype=float)
     written = precision_of(sheet.coordinates)
+    welded = Precision(sheet.spread / (extent_of(points) or 1.0), "ends that were welded")
     seen = [
         Precision(off_panel_planes(sheet), "panels off their planes"),
         Precision(off_plane(points), "vertices off one plane"),
     ]
     meant = [one for one in seen if one.size <= _MEANT_FLAT]
-    return max([written, *meant], key=lambda precision: precision.size)
+    return max([written, welded, *meant], key=lambda precision: precision.size)
 
 
 def off_plane(points: Floats) -> float:

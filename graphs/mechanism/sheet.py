@@ -72,6 +72,8 @@ class Sheet:
         What was mended on reading.
     fold_angles : tuple of float or None, optional
         One for each edge, in degrees as in files; None where an edge has none.
+    spread : float, optional
+        How far points were apart that were made one vertex, in the mean, in the length unit of the coordinates.
     frames : Frames, optional
         The frames of the file it was read from; two sheets are equal whatever theirs are.
 
@@ -97,6 +99,7 @@ class Sheet:
     repairs: tuple[str, ...] = ()
     fold_angles: tuple[float | None, ...] | None = None
     frames: Frames | None = field(default=None, compare=False)
+    spread: float = field(default=0.0, compare=False)
 
     def __post_init__(self) -> None:
         for i, (a, b) in enumerate(self.edges):

@@ -102,7 +102,7 @@ GEOMETRY = {
     # Loops round holes and cuts that are planar, spherical, and left spatial; M by the count.
     "ossvg_shell6.svg": (0, 0, 1, -1842),
     "ossvg_triPerfTess.svg": (0, 0, 55, 66),
-    "ossvg_geometricPopup.svg": (40, 1, 9, -76),
+    "ossvg_geometricPopup.svg": (50, 0, 0, -49),
     "ossvg_popupSimple.svg": (9, 0, 0, 1),
     "ev_kresling_n6_m1_open.fold": (0, 0, 1, 6),
 }

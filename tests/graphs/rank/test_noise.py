@@ -9,6 +9,8 @@ from noisy import SIZE, disturbed, exact_freedoms, random_sheet
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.tracing import trace_sheet
+from graphs.convert.welding import Lines
 from graphs.errors import InvariantError
 from graphs.mechanism.precision import precision_of, precision_of_sheet
 from graphs.mechanism.sc import SCGraph
@@ -58,8 +60,6 @@ def pop_up(end):
     lines = [((0, 5), (3, 5), "V"), ((7, 5), (10, 5), "V"), ((3, 3), (7, 3), "M"), ((3, 4), (7, end), "V"), ((3, 6), (7, 6), "M"),
              ((3, 3), (3, 6), "C"), ((7, 3), (7, 6), "C"), ((0, 0), (10, 0), "B"), ((10, 0), (10, 10), "B"), ((10, 10), (0, 10), "B"),
              ((0, 10), (0, 0), "B")]  # fmt: skip
-    from graphs.convert.tracing import Lines, trace_sheet
-
     return trace_sheet(
         Lines(np.array([line[:2] for line in lines], dtype=float), "".join(c for *_, c in lines)), tolerance=1e-12
     )
@@ -230,3 +230,18 @@ def test_a_singular_conformed_position_with_noise():
     told = motion.undecided == 0
     assert (motion.freedoms[told] + motion.nearly[told] >= 2).all()
     assert np.isnan(motion.rates[~told]).all()
+
+
+def test_lines_drawn_apart_show_the_noise():
+    """A square of pleats, every line drawn apart by a millionth: noise, as far as ends that were welded tell."""
+    rng = np.random.default_rng(2)
+    ends = [((i, j), (i + 1, j)) for i in range(4) for j in range(5)] + [
+        ((i, j), (i, j + 1)) for i in range(5) for j in range(4)
+    ]
+    letters = "".join("B" if a[k] == b[k] in (0, 4) else "V" for a, b in ends for k in [int(a[0] == b[0]) ^ 1])
+    drawn = np.array(ends, dtype=float) + rng.normal(size=(len(ends), 2, 2)) * 4e-6
+    sheet = trace_sheet(Lines(drawn, letters))
+    assert precision_of_sheet(sheet).source == "ends that were welded"
+    assert 1e-6 < precision_of_sheet(sheet).size < 1e-5
+    exact = trace_sheet(Lines(np.array(ends, dtype=float), letters))
+    assert pose_mobility(sheet).dof == pose_mobility(exact).dof

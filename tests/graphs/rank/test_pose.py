@@ -122,6 +122,8 @@ ROUNDED = {
     "osbo_huffmanRectangularWeave.fold": 156,  # 101 more are noise: 420 vertices are flat
     "osbo_huffmanWaterbomb.fold": None,  # 33 near the noise
     "ossvg_triPerfTess.svg": None,  # coordinates of one decimal, narrow triangles
+    "ossvg_shell6.svg": None,  # ends that were welded lay 4e-05 of the extent apart
+    "ossvg_geometricPopup.svg": None,  # 2e-04; all its creases are parallel within that
 }
 
 
