@@ -85,4 +85,4 @@ def _pose_line(answer: MobilityAnswer) -> str:
 def _is_only_flat(answer: MobilityAnswer) -> bool:
     """Tell whether a sheet owes freedoms to lying flat."""
     pose, over = answer.pose, answer.overconstraint
-    return pose is not None and pose.flat and bool(pose.flat_vertices) and (over is None or over > 0)
+    return pose is not None and pose.flat and bool(pose.flat_loops) and (over is None or over > 0)

@@ -157,9 +157,9 @@ def _precision(pose: PoseMobility) -> str:
 def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
     """Caution where creases lie in one plane, if anything is gained by it."""
     gained = pose.dof is None or (answer.mobility is not None and pose.dof > answer.mobility)
-    if not pose.flat_vertices or not gained:
+    if not pose.flat_loops or not gained:
         return []
     if pose.flat:
         return ["flat state: the sheet has more infinitesimal freedoms as drawn than when folded"]
-    flat = f"{pose.flat_vertices} vertex(es) with all creases in one plane"
+    flat = f"{pose.flat_loops} loop(s) with all axes in one plane"
     return [f"{flat}: more infinitesimal freedoms as drawn than when folded"]

@@ -72,8 +72,8 @@ class PoseMobility:
         Whether all vertices lie in one plane, as far as their precision tells.
     precision : Precision
         Of the coordinates: what singular values are judged by.
-    flat_vertices : int
-        Centres of loops whose axes lie in one plane, which gives them a freedom more than when folded.
+    flat_loops : int
+        Loops with a centre whose axes lie in one plane, which gives them a freedom more than when folded.
     """
 
     dof: int | None
@@ -81,7 +81,7 @@ class PoseMobility:
     spectrum: Spectrum
     flat: bool
     precision: Precision
-    flat_vertices: int = 0
+    flat_loops: int = 0
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on; a report adds h, the overconstraint against its count."""
@@ -94,7 +94,7 @@ class PoseMobility:
             "near_noise": list(self.spectrum.undecided),
             "precision": self.precision.size,
             "flat": self.flat,
-            "flat_vertices": self.flat_vertices,
+            "flat_loops": self.flat_loops,
         }
 
 
@@ -139,7 +139,7 @@ def pose_mobility(
     places = _places_of_rows(points, mechanism, closure)
     evidence = _spectrum(matrix, places, error * precision.size, error * nearly)
     found = _mobility(evidence, len(closure.joints), len(closure.rows), points, precision)
-    return replace(found, flat_vertices=_flat_vertices(points, mechanism, precision))
+    return replace(found, flat_loops=_flat_loops(points, mechanism, precision))
 
 
 def pose_mobility_of_axes(
@@ -273,18 +273,16 @@ def _nearly(points: Floats, found: SheetMechanism, off_panels: float) -> float:
     return max([small, *(2 * off for off in (off_panels, off_plane(points)) if off <= _SPREAD)])
 
 
-def _flat_vertices(points: Floats, found: SheetMechanism, precision: Precision) -> int:
-    """Count the loops about a vertex whose axes lie in one plane, as far as the precision tells."""
-    flat = 0
+def _flat_loops(points: Floats, found: SheetMechanism, precision: Precision) -> int:
+    """Count the loops with a centre whose axes lie in one plane, as far as the precision tells."""
     hinges: dict[JointId, tuple[int, int]] = dict(found.hinges.items())
-    for loop in found.sc.loops[: len(found.loop_vertices)]:
-        arms = np.array([points[b] - points[a] for a, b in map(hinges.__getitem__, loop.joints)])
-        sizes = np.linalg.norm(arms, axis=1)
-        if len(arms) < 4 or not sizes.all():
+    flat = 0
+    for loop in found.sc.centred_loops:
+        if len(loop.joints) < 3:
             continue
-        u, values, _ = np.linalg.svd((arms / sizes[:, None]), full_matrices=False)
-        error = precision.size + _FLAT
-        flat += bool(values[2] <= 6 * np.sqrt(2) * error * np.linalg.norm(u[:, 2] / sizes))
+        ends = points[np.array([hinges[joint] for joint in loop.joints]).ravel()]
+        values = np.linalg.svd(ends - ends.mean(axis=0), compute_uv=False)
+        flat += bool(values[2] <= 2 * precision.size * len(ends) ** 0.5 + _FLAT * values[0])
     return flat
 
 

@@ -109,8 +109,8 @@ FAN = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
 def test_a_flat_vertex_of_a_sheet_that_is_not_flat_is_told_of():
     answer = synth.mobility(Sheet(6, (), "", (*FAN, (1, 2, 5)), RAISED))
     assert (answer.pose.dof, answer.overconstraint, answer.pose.flat) == (3, 1, False)
-    assert answer.pose.flat_vertices == 1
-    assert any("1 vertex(es) with all creases in one plane" in note for note in answer.warnings)
+    assert answer.pose.flat_loops == 1
+    assert any("1 loop(s) with all axes in one plane" in note for note in answer.warnings)
 
 
 def test_no_caution_where_nothing_is_gained():
@@ -245,3 +245,10 @@ def test_lines_drawn_apart_show_the_noise():
     assert 1e-6 < precision_of_sheet(sheet).size < 1e-5
     exact = trace_sheet(Lines(np.array(ends, dtype=float), letters))
     assert pose_mobility(sheet).dof == pose_mobility(exact).dof
+
+
+def test_no_pattern_is_too_large_for_its_freedoms():
+    answer = synth.mobility(grid(27))
+    assert answer.joints > 1400
+    assert answer.exact is None
+    assert (answer.pose.dof, answer.pose.spectrum.certainty) == (52, "numerical")
