@@ -1,4 +1,4 @@
-"""Start to answer on big crease patterns: `synth mobility --no-exact --no-pose` against `json.load` of the same file.
+"""Start to answer on big crease patterns, ranks and pose left out, against `json.load` of the same file.
 
     python benchmarks/big_mesh.py
 
