@@ -13,15 +13,8 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError, InvariantError, OpenError
 from graphs.files.atomic import write_text
-from graphs.files.bare import (
-    as_sc,
-    edge_list_text,
-    graph6_text,
-    graphml_text,
-    read_edge_list,
-    read_graph6,
-    read_graphml,
-)
+from graphs.files.bare import as_sc, graph6_text, graphml_text, read_graph6, read_graphml
+from graphs.files.edge_lists import edge_list_text, read_edge_list
 from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
@@ -248,6 +241,7 @@ READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
     ".s6": _read_graph6,
     ".graphml": _read_graphml,
     ".edges": _read_edges,
+    ".csv": _read_edges,
     ".txt": _read_edges,
 }
 """Extension to the reader: path to (place in the file, mechanism)."""
