@@ -10,29 +10,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-import numpy as np
-
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.mechanism.plane import flattened, in_one_plane
 from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
-    "COLLINEAR",
     "FLAT",
     "HINGES",
     "Edge",
     "Frames",
     "Sheet",
     "flat_places",
-    "in_one_plane",
     "sheet_from_model",
     "sides_of_face",
 ]
 
-COLLINEAR = 1e-6
-"""Points are in one line or plane if they lie this close to it, in units of their extent.
-
-It is the tight tolerance: of hinges, coarser ones are tried too (``graphs.convert.hinges``).
-"""
 HINGES = "MVU"
 """Edge assignments that are hinges: mountain, valley, unassigned."""
 FLAT = "FJ"
@@ -150,12 +142,12 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
 
 
 def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
-    """Return the coordinates of a sheet in the plane, for a format that is flat.
+    """Return the coordinates of a sheet as they are seen in its plane, for a format that is flat.
 
     Raises
     ------
     UnsolvableError
-        If the sheet has none, or does not lie in a plane z = constant.
+        If the sheet has none, or does not lie in a plane.
 
     Examples
     --------
@@ -164,24 +156,10 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     """
     if sheet.coordinates is None:
         raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
-    if len({place[2] for place in sheet.coordinates if len(place) > 2}) > 1:
+    flat = flattened(sheet.coordinates, sheet.faces)
+    if flat is None:
         raise UnsolvableError(f"{what} is flat, and the sheet is not")
-    return [(place[0], place[1]) for place in sheet.coordinates]
-
-
-def in_one_plane(points: Sequence[Sequence[float]]) -> bool:
-    """Tell whether points lie in one plane, but for a millionth of their extent.
-
-    Examples
-    --------
-    >>> in_one_plane([(0, 0, 1), (1, 0, 1), (0, 1, 1), (5, 5, 1)])
-    True
-    """
-    places = np.asarray(points, dtype=float)
-    if places.size == 0 or places.shape[1] < 3:
-        return True
-    sizes = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
-    return bool(len(sizes) < 3 or sizes[2] <= COLLINEAR * sizes[0])
+    return [(x, y) for x, y in flat.places.tolist()]
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:

@@ -90,7 +90,7 @@ TEXTS = {
     "no extension": ("mechanism", b"x", "the name has no extension"),
     "fold: no object": ("a.fold", b"[]", "a list; expected a FOLD document"),
     "fold: no faces": ("a.fold", b"{}", "faces_vertices: missing; expected faces, or edges with coordinates"),
-    "fold: not flat": ("a.fold", b'{"vertices_coords": [[0,0,0],[1,0,1]], "edges_vertices": [[0,1]]}',
+    "fold: not flat": ("a.fold", b'{"vertices_coords": [[0,0,0],[1,0,1],[0,1,0],[0,0,1]], "edges_vertices": [[0,1]]}',
                        "faces_vertices: missing, and the pattern is not flat; expected the faces"),
     "fold: no length": ("a.fold", b'{"vertices_coords": [[1,1],[1,1]], "edges_vertices": [[0,1]]}',
                         "the pattern has no line of any length; expected lines"),
@@ -99,6 +99,18 @@ TEXTS = {
     "cp: word": ("a.cp", b"1 0 0 1 x\n", "line 1: '1 0 0 1 x'; expected four numbers after the type"),
     "cp: infinite": ("a.cp", b"1 0 0 1 inf\n", "line 1: a number that is not finite, or too large"),
     "cp: a point": ("a.cp", b"1 0 0 0 0\n", "the pattern has no line of any length"),
+    "opx: no XML": ("a.opx", b"<java", "not XML; expected an ORIPA file"),
+    "opx: no line": ("a.opx", b"<java/>", "no object of class oripa.OriLineProxy; expected an ORIPA file"),
+    "opx: entities": ("a.opx", b'<!DOCTYPE a [<!ENTITY b "c">]><java/>', "a document type definition; expected an"),
+    "opx: type": ("a.opx", b'<a><object class="oripa.OriLineProxy"><void property="type"><int>9</int></void></object>'
+                  b"</a>", "oripa.OriLineProxy 0: type '9'; expected a type from 0 to 4"),
+    "opx: word": ("a.opx", b'<a><object class="oripa.OriLineProxy"><void property="y1"><double>x</double></void>'
+                  b"</object></a>", "oripa.OriLineProxy 0 y1: 'x'; expected a number"),
+    "opx: infinite": ("a.opx", b'<a><object class="oripa.OriLineProxy"><void property="x0"><double>-Infinity</double>'
+                      b"</void></object></a>", "oripa.OriLineProxy 0 x0: a number that is not finite, or too large"),
+    "opx: no value": ("a.opx", b'<a><object class="oripa.OriLineProxy"><void property="x0"/></object></a>',
+                      "a property of 0 values; expected one"),
+    "opx: points": ("a.opx", b'<a><object class="oripa.OriLineProxy"/></a>', "the pattern has no line of any length"),
     "obj: word": ("a.obj", b"v 0 0 x\n", "line 1: 'v 0 0 x'; expected three numbers"),
     "obj: infinite": ("a.obj", b"v 0 0 inf\n", "line 1: 'v 0 0 inf'; expected three numbers"),
     "obj: no faces": ("a.obj", b"v 0 0 0\n", "no faces; expected lines 'f a b c ...'"),
