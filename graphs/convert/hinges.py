@@ -14,8 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.mechanism.plane import COLLINEAR
-from graphs.mechanism.sheet import Edge
+from graphs.mechanism.sheet import COLLINEAR, Edge
 
 __all__ = ["BENT", "HingeLines", "lines_of_hinges"]
 

@@ -73,7 +73,7 @@ def traced_anew(sheet: Sheet) -> Sheet | None:
 
     if sheet.coordinates is None or any(abs(x) >= MOST for place in sheet.coordinates for x in place):
         return None
-    flat = flattened(sheet.coordinates, sheet.faces)
+    flat = flattened(sheet)
     if flat is None or _overlap(flat.places, sheet.faces):
         return None
     listed = {frozenset(edge) for edge in sheet.edges}

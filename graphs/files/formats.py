@@ -291,7 +291,7 @@ def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 
 def _how_it_stood(sheet: Sheet) -> tuple[str, ...]:
     """Say how a flat sheet stood in space, where it had to be turned to be drawn."""
-    flat = flattened(sheet.coordinates or (), sheet.faces)
+    flat = flattened(sheet)
     return (f"how it stood in space: {flat.turned}",) if flat is not None and flat.turned else ()
 
 

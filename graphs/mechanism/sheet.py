@@ -10,21 +10,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.mechanism.plane import flattened, in_one_plane
+from graphs.errors import InvariantError, shown
 from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
+    "COLLINEAR",
     "FLAT",
     "HINGES",
     "Edge",
     "Frames",
     "Sheet",
-    "flat_places",
     "sheet_from_model",
     "sides_of_face",
 ]
 
+COLLINEAR = 1e-6
+"""Points are in one line or plane if they lie this close to it, in units of their extent.
+
+It is the tight tolerance: of hinges, coarser ones are tried too (``graphs.convert.hinges``).
+"""
 HINGES = "MVU"
 """Edge assignments that are hinges: mountain, valley, unassigned."""
 FLAT = "FJ"
@@ -112,7 +116,9 @@ class Sheet:
         creases = sum(letter in HINGES for letter in self.assignments)
         lies = "no coordinates"
         if self.coordinates is not None:
-            lies = "flat" if in_one_plane(self.coordinates) else "folded"
+            from graphs.mechanism.plane import lies_flat  # which knows sheets
+
+            lies = "flat" if lies_flat(self) else "folded"
         return f"<Sheet: {len(self.faces)} faces, {creases} creases, {self.vertices} vertices, {lies}>"
 
 
@@ -139,27 +145,6 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
     coordinates = tuple(model.coordinates[v] for v in model.nodes) if model.coordinates else None
     assignments = "".join("B" if number == 1 else "U" for number in sides.values())
     return Sheet(len(model), edges, assignments, faces, coordinates)
-
-
-def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
-    """Return the coordinates of a sheet as they are seen in its plane, for a format that is flat.
-
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has none, or does not lie in a plane.
-
-    Examples
-    --------
-    >>> flat_places(Sheet(1, (), "", (), ((1.0, 2.0, 0.0),)), "a picture")
-    [(1.0, 2.0)]
-    """
-    if sheet.coordinates is None:
-        raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
-    flat = flattened(sheet.coordinates, sheet.faces)
-    if flat is None:
-        raise UnsolvableError(f"{what} is flat, and the sheet is not")
-    return [(x, y) for x, y in flat.places.tolist()]
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:

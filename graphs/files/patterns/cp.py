@@ -12,7 +12,8 @@ from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.mechanism.plane import flat_places
+from graphs.mechanism.sheet import Sheet
 
 __all__ = ["cp_text", "sheet_from_cp"]
 

@@ -152,7 +152,7 @@ def _traced(sheet: Sheet, check: Checker) -> Sheet:
         raise FileError(
             check.path, "vertices_coords", "a number too large to trace faces", f"less than {MOST:.0e}"
         )
-    flat = flattened(sheet.coordinates)
+    flat = flattened(sheet)
     if flat is None:
         raise FileError(check.path, "faces_vertices", "missing, and the pattern is not flat", "the faces")
     ends = flat.places[np.array(sheet.edges)]

@@ -9,8 +9,8 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from graphs.mechanism.plane import COLLINEAR, flattened
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.plane import flattened
+from graphs.mechanism.sheet import COLLINEAR, Sheet
 
 __all__ = ["with_simple_faces"]
 
@@ -33,9 +33,9 @@ def with_simple_faces(sheet: Sheet) -> Sheet:
     ...
     graphs.errors.InvariantError: face 0 crosses itself at (0.5, 0.5); expected sides that do not cross [face]
     """
-    if sheet.coordinates is None or all(len(face) == 3 for face in sheet.faces):
+    if all(len(face) == 3 for face in sheet.faces):
         return sheet
-    flat = flattened(sheet.coordinates, sheet.faces)
+    flat = flattened(sheet)
     if flat is None:
         return sheet
     for face in _not_convex(flat.places, sheet.faces):

@@ -24,7 +24,8 @@ from graphs.files.check import Checker
 from graphs.files.patterns.strokes import COLOURS, described_strokes, kind_of_stroke, letter_of_stroke
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.mechanism.plane import flat_places
+from graphs.mechanism.sheet import Sheet
 
 __all__ = ["sheet_from_svg", "svg_text"]
 

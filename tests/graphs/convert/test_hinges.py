@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.hinges import lines_of_hinges
-from graphs.mechanism.plane import COLLINEAR
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import COLLINEAR, Sheet
 
 ROUNDINGS = {
     "not at all": lambda places: places,

@@ -8,6 +8,7 @@ import pytest
 from graphs.answer.mechanisms import mobility
 from graphs.files.formats import read, write
 from graphs.mechanism.plane import flattened
+from graphs.mechanism.sheet import Sheet
 
 FAN = {
     "vertices_coords": [[0, 0], [3, 0], [3, 2], [0, 2], [1, 1]],
@@ -17,11 +18,15 @@ FAN = {
 }
 TILTS = {
     "xy": (lambda x, y: (x, y, 7.0), ""),
-    "a little off xy": (lambda x, y: (x, y, 1e-9 * x * y), "flattened: points were a little off the xy plane"),
+    "a little off xy": (lambda x, y: (x, y, 2e-6 * x * y), "flattened: points were a little off the xy plane"),
     "xz": (lambda x, y: (x, 5.0, y), "turned from the xz plane into the xy plane"),
     "yz": (lambda x, y: (-2.0, x, y), "turned from the yz plane into the xy plane"),
     "slanted": (lambda x, y: (0.6 * x + 1, y, 0.8 * x), "turned from a slanted plane into the xy plane"),
 }
+
+
+def sheet_of(points, faces=()):
+    return Sheet(len(points), (), "", tuple(map(tuple, faces)), tuple(points))
 
 
 def distances(points):
@@ -38,12 +43,12 @@ def area(points, face):
 def test_distances_and_the_side_that_is_seen_are_kept(name):
     tilt, told = TILTS[name]
     points = [tilt(*p) for p in FAN["vertices_coords"]]
-    flat = flattened(points, FAN["faces_vertices"])
+    flat = flattened(sheet_of(points, FAN["faces_vertices"]))
     assert flat.turned == told
     assert distances(flat.places) == pytest.approx(distances(FAN["vertices_coords"]))
     assert all(area(flat.places, face) > 0 for face in FAN["faces_vertices"])
     if told.startswith("turned"):
-        other_side = flattened(points, [face[::-1] for face in FAN["faces_vertices"]])
+        other_side = flattened(sheet_of(points, [face[::-1] for face in FAN["faces_vertices"]]))
         assert all(area(other_side.places, face) < 0 for face in FAN["faces_vertices"])
 
 
@@ -74,5 +79,20 @@ def test_faces_are_traced_in_any_plane(name, tmp_path):
 
 
 def test_numbers_of_any_size_lie_in_a_plane():
-    assert flattened([(0, 0, 0), (1e300, 0, 1e300), (0, 1e300, 0), (1e300, 1e300, 0)]) is None
-    assert flattened([(0, 0, 0), (1e200, 0, 1e200), (0, 1e200, 0)]).turned.startswith("turned")
+    bent = sheet_of([(0, 0, 0), (1e300, 0, 1e300), (0, 1e300, 0), (1e300, 1e300, 0)])
+    assert flattened(bent) is None
+    assert repr(bent).endswith("folded>")
+    assert flattened(sheet_of([(0, 0, 0), (1e200, 0, 1e200), (0, 1e200, 0)])).turned.startswith("turned")
+    assert flattened(Sheet(3, (), "", ((0, 1, 2),))) is None
+
+
+def test_rounded_coordinates_are_flat_here_as_they_are_to_the_pose(tmp_path):
+    """A slanted fan with two decimals is off its plane by a thousandth; one that is folded more is folded."""
+    for fold, flat in ((0.0, True), (0.1, False)):
+        points = [
+            tuple(round(z, 2) for z in (0.61 * x + 1, 0.97 * y, 0.83 * x + 0.23 * y + fold * (x > 2)))
+            for x, y in FAN["vertices_coords"]
+        ]
+        (tmp_path / "a.fold").write_text(json.dumps(FAN | {"vertices_coords": points}))
+        sheet = read(tmp_path / "a.fold")
+        assert (mobility(sheet).pose.flat, flattened(sheet) is not None) == (flat, flat)
