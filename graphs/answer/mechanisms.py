@@ -54,8 +54,9 @@ def mobility(
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a crease pattern too.
     pose : int, optional
-        Freedoms as this frame of a FOLD file lies; by default as the pattern was read, or if that has no
-        coordinates, as the first frame that has. False leaves it out.
+        The frame of a FOLD file that is asked about, counts, ranks and freedoms as it lies; by default the
+        pattern as it was read, or if that has no coordinates, the first frame that has. False leaves the
+        freedoms out.
     geometry : bool, optional
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
 
@@ -126,14 +127,16 @@ def _of_sheet(
     sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | Literal[False] | None, geometry: bool
 ) -> MobilityAnswer:
     """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
-    drawn = sheet if sheet.frames is None else sheet.frames.first_placed()
+    drawn = _lying(sheet, None if pose is False else pose)
     dual = mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
     answer = MobilityAnswer.of(mobility_report(dual.sc))
     answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
     notes = []
+    if pose:
+        notes.append(f"all numbers are those of frame {pose}")
     if flaps := answer.counts["flaps"]:
         notes.append(f"{flaps} flap(s), panels with one hinge: a freedom each")
-    if "F" in sheet.assignments:
+    if "F" in drawn.assignments:
         other = mechanism_of_sheet(drawn, hinge_flat=not hinge_flat, geometry=geometry).sc
         if len(other) != len(dual.sc):
             way = "merged" if hinge_flat else "hinged"
@@ -144,17 +147,15 @@ def _of_sheet(
         answer = with_exact(answer, dual.sc, demanded=bool(exact))
     if pose is False:
         return answer
-    lying = _lying(sheet, pose)
-    placed = dual if lying is drawn else mechanism_of_sheet(lying, hinge_flat=hinge_flat)
-    return with_pose(answer, lying, placed, demanded=pose is not None)
+    return with_pose(answer, drawn, dual, demanded=pose is not None)
 
 
 def _lying(sheet: Sheet, pose: int | None) -> Sheet:
-    """Return the sheet in the pose that is asked for."""
+    """Return the sheet that is asked about: a frame, or the first that has coordinates."""
     if sheet.frames is None:
         if pose:
             raise InvariantError("frames", "has no frames", "a .fold file")
         return sheet
     if pose is not None:
         return sheet.frames.frame(pose)
-    return sheet if sheet.coordinates is not None else sheet.frames.first_placed()
+    return sheet.frames.first_placed()

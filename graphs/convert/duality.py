@@ -89,6 +89,8 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     faces_at, assignment, notes = _edges_of_faces(sheet)
     panel_of_face, panels = _merge_flat(sheet, faces_at, assignment, hinges)
     joint_of_edge, joints, idle, lines = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
+    if len(panels) == 1 and not joints:
+        notes.warnings.append("one panel: no crease joins it to another")
     if idle:
         notes.warnings.append(f"{idle} crease(s) end inside a panel and fold nothing")
     hinged = Hinged(faces_at, joint_of_edge, panel_of_face)
@@ -188,6 +190,9 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
             assignment[edge] = ("U" if len(here) == 2 else "B", len(sheet.edges) + unlisted)
             unlisted += len(here) == 2
         cuts += len(here) == 2 and assignment[edge][0] in "BC"
+    loose = sum(letter in HINGES and edge not in faces_at for edge, (letter, _) in assignment.items())
+    if loose:
+        notes.warnings.append(f"{loose} crease line(s) on no face dropped")
     if unlisted:
         notes.repairs.append(
             f"{unlisted} side(s) between two faces not listed as edges: taken as unassigned creases"

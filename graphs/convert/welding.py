@@ -18,7 +18,7 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Edge
 
-__all__ = ["Lines", "Network", "either_way", "network_of"]
+__all__ = ["Lines", "Network", "crossings", "either_way", "network_of"]
 
 _RANK = "MVUFJBC"
 """Of two lines in one place the one whose letter comes first here counts."""
@@ -108,10 +108,8 @@ def network_of(lines: Lines, tolerance: float) -> Network:
     angles = [None if lines.angles is None else lines.angles[i] for i in kept]
     notes = Counter({"line(s) of no length dropped": int((~long).sum())})
     ends = lines.ends[long]
-    segments = shapely.linestrings(ends)
-    tree = shapely.STRtree(segments)
-    crossings = _crossings(ends, tree, segments, tolerance)
-    loose = np.concatenate([ends.reshape(-1, 2), crossings])
+    tree = shapely.STRtree(shapely.linestrings(ends))
+    loose = np.concatenate([ends.reshape(-1, 2), crossings(ends, tolerance)])
     points, of_point = _welded(loose, tolerance)
     notes["crossing(s) split"] = len(set(of_point[2 * len(ends) :]) - set(of_point[: 2 * len(ends)]))
     at = _points_on_lines(points, ends, tree, tolerance)
@@ -148,8 +146,23 @@ def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
     return float(np.sqrt((moved[shared] ** 2).sum(axis=1).mean())) if shared.any() else 0.0
 
 
-def _crossings(ends: Floats, tree: shapely.STRtree, segments: npt.NDArray[np.object_], tolerance: float) -> Floats:
-    """Return the points where two lines cross away from all four ends."""
+def crossings(ends: Floats, tolerance: float) -> Floats:
+    """Return the points where two lines cross away from all four ends.
+
+    Parameters
+    ----------
+    ends : array of shape (n, 2, 2)
+        Both ends of each line.
+    tolerance : float
+        Closer than this to an end they do not cross; in the length unit of the lines.
+
+    Examples
+    --------
+    >>> crossings(np.array([[[0, 0], [2, 2]], [[2, 0], [0, 2]], [[0, 0], [2, 0]]], dtype=float), 0.01).tolist()
+    [[1.0, 1.0]]
+    """
+    segments = shapely.linestrings(ends)
+    tree = shapely.STRtree(segments)
     one, two = tree.query(segments, predicate="intersects")
     one, two = one[one < two], two[one < two]
     p, r = ends[one, 0], ends[one, 1] - ends[one, 0]

@@ -1,4 +1,4 @@
-"""Bare link-joint graphs: graph6 and sparse6 (nauty), GraphML, and edge lists.
+"""Bare link-joint graphs: graph6 and sparse6 (nauty), and GraphML; edge lists: :mod:`graphs.files.edge_lists`.
 
 Such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
 centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, loops and centres are lost.
@@ -22,10 +22,8 @@ from graphs.mechanism.sc import SCGraph
 
 __all__ = [
     "as_sc",
-    "edge_list_text",
     "graph6_text",
     "graphml_text",
-    "read_edge_list",
     "read_graph6",
     "read_graphml",
 ]
@@ -129,60 +127,6 @@ def graphml_text(sc: SCGraph) -> str:
     named.add_nodes_from(map(str, sc.nodes))
     named.add_edges_from((str(a), str(b), str(joint)) for joint, (a, b) in sc.joints.items())
     return "\n".join(nx.generate_graphml(named)) + "\n"
-
-
-def read_edge_list(path: Path) -> nx.MultiGraph:
-    """Read lines ``link link [joint id]``; ``#`` starts a comment, blanks or a comma part the names.
-
-    Names that are all integers become integers.
-
-    Raises
-    ------
-    FileError
-        With the line.
-    """
-    rows: list[list[str]] = []
-    for number, line in enumerate(read_text(path).splitlines(), start=1):
-        words = re.split(r"[\s,;]+", line.split("#", 1)[0].strip())
-        if words == [""]:
-            continue
-        if len(words) not in (2, 3):
-            raise FileError(path, f"line {number}", f"{len(words)} word(s)", "two links, and perhaps a joint id")
-        rows.append(words)
-    if not rows:
-        raise FileError(path, "", "no joints", "lines with two links each")
-    whole = all(re.fullmatch(r"-?\d{1,18}", word) for words in rows for word in words[:2])
-    ids = [words[2] if len(words) == 3 else str(i) for i, words in enumerate(rows)]
-    if len(set(ids)) < len(ids):
-        again = next(one for one in ids if ids.count(one) > 1)
-        raise FileError(path, "", f"the joint id {shown(again)} occurs twice", "distinct ids")
-    plain = all(len(words) == 2 for words in rows)
-    graph = nx.MultiGraph()
-    for i, words in enumerate(rows):
-        a, b = (int(word) if whole else word for word in words[:2])
-        graph.add_edge(a, b, key=i if plain else ids[i])
-    return graph
-
-
-def edge_list_text(sc: SCGraph) -> str:
-    r"""Return one line ``link link joint`` a joint.
-
-    Raises
-    ------
-    UnsolvableError
-        If a name holds blanks, commas or ``#``, or a link has no joint.
-
-    Examples
-    --------
-    >>> edge_list_text(SCGraph(["A", "B"], {"a": ("A", "B")}))
-    'A B a\n'
-    """
-    for name in (*sc.nodes, *sc.joints):
-        if not re.fullmatch(r"[^\s,;#]+", str(name)):
-            raise UnsolvableError(f"an edge list cannot hold the name {shown(name)}")
-    if lonely := [link for link in sc.nodes if not sc.degree(link)]:
-        raise UnsolvableError(f"an edge list cannot hold link {shown(lonely[0])}, which has no joint")
-    return "".join(f"{a} {b} {joint}\n" for joint, (a, b) in sc.joints.items())
 
 
 def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:

@@ -15,13 +15,12 @@ from graphs.errors import FileError, InvariantError, OpenError
 from graphs.files.atomic import write_text
 from graphs.files.bare import (
     as_sc,
-    edge_list_text,
     graph6_text,
     graphml_text,
-    read_edge_list,
     read_graph6,
     read_graphml,
 )
+from graphs.files.edge_lists import edge_list_text, read_edge_list
 from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
@@ -29,6 +28,7 @@ from graphs.files.text import load_json
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.plane import flattened
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 
@@ -228,6 +228,12 @@ def _read_cp(path: Path) -> Iterator[tuple[str, Mechanism]]:
     yield "", sheet_from_cp(path)
 
 
+def _read_opx(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    from graphs.files.patterns.opx import sheet_from_opx
+
+    yield "", sheet_from_opx(path)
+
+
 def _read_svg(path: Path) -> Iterator[tuple[str, Mechanism]]:
     from graphs.files.patterns.svg import sheet_from_svg
 
@@ -243,11 +249,13 @@ READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
     ".fold": _read_fold,
     ".svg": _read_svg,
     ".cp": _read_cp,
+    ".opx": _read_opx,
     ".obj": _read_obj,
     ".g6": _read_graph6,
     ".s6": _read_graph6,
     ".graphml": _read_graphml,
     ".edges": _read_edges,
+    ".csv": _read_edges,
     ".txt": _read_edges,
 }
 """Extension to the reader: path to (place in the file, mechanism)."""
@@ -271,13 +279,20 @@ def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 
     sheet = to_sheet(mechanism)
     unknown = ("that creases are unassigned: they are written as valleys",) if "U" in sheet.assignments else ()
-    return cp_text(sheet), ("which lines bound which face", *unknown)
+    return cp_text(sheet), ("which lines bound which face", *unknown, *_how_it_stood(sheet))
 
 
 def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     from graphs.files.patterns.svg import svg_text
 
-    return svg_text(to_sheet(mechanism)), ("which lines bound which face",)
+    sheet = to_sheet(mechanism)
+    return svg_text(sheet), ("which lines bound which face", *_how_it_stood(sheet))
+
+
+def _how_it_stood(sheet: Sheet) -> tuple[str, ...]:
+    """Say how a flat sheet stood in space, where it had to be turned to be drawn."""
+    flat = flattened(sheet)
+    return (f"how it stood in space: {flat.turned}",) if flat is not None and flat.turned else ()
 
 
 def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:

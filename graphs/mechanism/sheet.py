@@ -10,9 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-import numpy as np
-
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, shown
 from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
@@ -22,8 +20,6 @@ __all__ = [
     "Edge",
     "Frames",
     "Sheet",
-    "flat_places",
-    "in_one_plane",
     "sheet_from_model",
     "sides_of_face",
 ]
@@ -120,7 +116,9 @@ class Sheet:
         creases = sum(letter in HINGES for letter in self.assignments)
         lies = "no coordinates"
         if self.coordinates is not None:
-            lies = "flat" if in_one_plane(self.coordinates) else "folded"
+            from graphs.mechanism.plane import lies_flat  # which knows sheets
+
+            lies = "flat" if lies_flat(self) else "folded"
         return f"<Sheet: {len(self.faces)} faces, {creases} creases, {self.vertices} vertices, {lies}>"
 
 
@@ -147,41 +145,6 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
     coordinates = tuple(model.coordinates[v] for v in model.nodes) if model.coordinates else None
     assignments = "".join("B" if number == 1 else "U" for number in sides.values())
     return Sheet(len(model), edges, assignments, faces, coordinates)
-
-
-def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
-    """Return the coordinates of a sheet in the plane, for a format that is flat.
-
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has none, or does not lie in a plane z = constant.
-
-    Examples
-    --------
-    >>> flat_places(Sheet(1, (), "", (), ((1.0, 2.0, 0.0),)), "a picture")
-    [(1.0, 2.0)]
-    """
-    if sheet.coordinates is None:
-        raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
-    if len({place[2] for place in sheet.coordinates if len(place) > 2}) > 1:
-        raise UnsolvableError(f"{what} is flat, and the sheet is not")
-    return [(place[0], place[1]) for place in sheet.coordinates]
-
-
-def in_one_plane(points: Sequence[Sequence[float]]) -> bool:
-    """Tell whether points lie in one plane, but for a millionth of their extent.
-
-    Examples
-    --------
-    >>> in_one_plane([(0, 0, 1), (1, 0, 1), (0, 1, 1), (5, 5, 1)])
-    True
-    """
-    places = np.asarray(points, dtype=float)
-    if places.size == 0 or places.shape[1] < 3:
-        return True
-    sizes = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
-    return bool(len(sizes) < 3 or sizes[2] <= COLLINEAR * sizes[0])
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:

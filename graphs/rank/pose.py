@@ -20,6 +20,7 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId
+from graphs.mechanism.plane import flat_within
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import (
     Precision,
@@ -51,7 +52,7 @@ _DENSE = 500
 _SHORT = 5e-3
 """A nearly mobile mechanism has an error of this part of a typical crease at most."""
 _FLAT = 1e-5
-"""Points that are this close to one plane, in units of the extent, lie in it."""
+"""Axes that are this close to one plane, in units of their length, lie in it."""
 _SPREAD = 1e-2
 """Points that are this close to a plane, in units of the extent, may be meant to lie in it."""
 
@@ -248,7 +249,7 @@ def _mobility(
         None if rank is None else unknowns - rank,
         None if rank is None else equations - rank,
         evidence,
-        off_plane(points) <= max(_FLAT, 2 * precision.size),
+        off_plane(points) <= flat_within(precision),
         precision,
     )
 

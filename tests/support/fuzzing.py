@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from oripa import opx_text
+
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import to_sc
 from graphs.count.report import mobility_report
@@ -48,6 +50,10 @@ def seeds(data: Path, folder: Path) -> dict[str, list[bytes]]:
         b'<rect width="9" height="8" stroke="black"/><path d="M0 4h9m-4-4c1 3 3 1 0 8A2 3 4 0 1 9 9z"/>'
         b'<polyline points="1,2 3,4 5,1" stroke="rgb(0,0,255)"/><circle r="3" stroke="blue"/></g></svg>'
     )
+    lines = ((1, 0, 0, 9, 0), (1, 9, 0, 9, 8), (1, 9, 8, 0, 8), (1, 0, 8, 0, 0), (2, 0, 0, 9, 8), (3, 9, 0, 0, 8))
+    made[".opx"].append(opx_text(lines).encode())
+    made[".edges"].append(b"0 1 {'weight': 3}\n1 2 {}\n2 3 {}\n3 0 {}\n")
+    made[".csv"].append(b',source,target,weight\n0,0,1,1.0\n1,1,2,1.0\n2,"2",3,1.0\n3,3,0,1.0\n')
     return made
 
 

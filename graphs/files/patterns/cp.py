@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from graphs.convert.tracing import MOST, trace_sheet
+from graphs.convert.tracing import MOST
 from graphs.convert.welding import Lines
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
+from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.mechanism.plane import flat_places
+from graphs.mechanism.sheet import Sheet
 
 __all__ = ["cp_text", "sheet_from_cp"]
 
@@ -25,7 +27,7 @@ def sheet_from_cp(path: Path) -> Sheet:
     Raises
     ------
     FileError
-        With the line.
+        With the line; or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
     """
     ends, letters = [], []
     for number, line in enumerate(read_text(path).splitlines(), start=1):
@@ -44,7 +46,7 @@ def sheet_from_cp(path: Path) -> Sheet:
         ends.append(((x1, y1), (x2, y2)))
         letters.append(_LETTERS[words[0]])
     lines = np.array(ends, dtype=float).reshape(-1, 2, 2)
-    return Checker(path).build(lambda: trace_sheet(Lines(lines, "".join(letters))))
+    return traced_sheet(Lines(lines, "".join(letters)), Checker(path), border="border lines (type 1)")
 
 
 def cp_text(sheet: Sheet) -> str:
@@ -53,7 +55,7 @@ def cp_text(sheet: Sheet) -> str:
     Raises
     ------
     UnsolvableError
-        If the sheet has no coordinates, or does not lie in a plane z = constant.
+        If the sheet has no coordinates, or does not lie in a plane.
 
     Examples
     --------

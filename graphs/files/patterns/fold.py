@@ -12,10 +12,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from graphs.convert.loose_creases import creases_on_no_face, joins_faces, traced_anew
 from graphs.errors import FileError
 from graphs.files.check import MOST_NODES, Checker
 from graphs.files.patterns.fold_frames import resolved_frame
+from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import json_text, load_json
+from graphs.mechanism.plane import flattened
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet
 
 __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
@@ -116,38 +121,59 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
     assignments, repairs = _assignments(value, len(edges), check)
     title = value.get("frame_title", value.get("file_title", ""))
     sheet = check.build(
-        lambda: Sheet(
-            vertices,
-            tuple((a, b) for a, b in edges),
-            assignments,
-            faces,
-            coordinates or None,
-            title if isinstance(title, str) else "",
-            (*notes, *repairs),
-            _fold_angles(value, len(edges), check),
+        lambda: with_simple_faces(
+            Sheet(
+                vertices,
+                tuple((a, b) for a, b in edges),
+                assignments,
+                faces,
+                coordinates or None,
+                title if isinstance(title, str) else "",
+                (*notes, *repairs),
+                _fold_angles(value, len(edges), check),
+            )
         ),
         lambda part: f"{part[0]}_vertices[{part[1]}]",
     )
-    return sheet if faces else _traced(sheet, check)
+    if not faces:
+        return _traced(sheet, check)
+    return _with_all_creases(sheet, check) if "edges_assignment" in value else sheet
 
 
 def _traced(sheet: Sheet, check: Checker) -> Sheet:
     """Trace the faces of a pattern that comes without; it must be flat."""
-    import numpy as np
-
-    from graphs.convert.tracing import MOST, trace_sheet
+    from graphs.convert.tracing import MOST  # tracing loads shapely
     from graphs.convert.welding import Lines
+    from graphs.files.patterns.traced import traced_sheet
 
     if not sheet.edges or sheet.coordinates is None:
         raise FileError(check.path, "faces_vertices", "missing", "faces, or edges with coordinates to trace them")
-    points = np.array(sheet.coordinates, dtype=float)
-    if not np.all(np.abs(points) < MOST) or np.ptp(points[:, 2:], axis=0).any():
+    if any(abs(x) >= MOST for place in sheet.coordinates for x in place):
+        raise FileError(
+            check.path, "vertices_coords", "a number too large to trace faces", f"less than {MOST:.0e}"
+        )
+    flat = flattened(sheet)
+    if flat is None:
         raise FileError(check.path, "faces_vertices", "missing, and the pattern is not flat", "the faces")
-    ends = points[np.array(sheet.edges), :2]
-    found = check.build(
-        lambda: trace_sheet(Lines(ends, sheet.assignments), title=sheet.title), lambda part: part[0]
-    )
-    return replace(found, repairs=("faces traced", *sheet.repairs, *found.repairs))
+    ends = flat.places[np.array(sheet.edges)]
+    lines = Lines(ends, sheet.assignments, sheet.fold_angles)
+    found = traced_sheet(lines, check, title=sheet.title)
+    turned = (flat.turned,) if flat.turned else ()
+    return replace(found, repairs=("faces traced", *turned, *sheet.repairs, *found.repairs))
+
+
+def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
+    """Trace a pattern anew if creases of it lie on no face, where that can be done."""
+    loose = creases_on_no_face(sheet)
+    if not loose:
+        return sheet
+    found = check.build(lambda: traced_anew(sheet))
+    if found is not None and joins_faces(found):
+        return replace(found, repairs=(f"{loose} crease line(s) on no face: faces traced anew", *found.repairs))
+    if not joins_faces(sheet):
+        wrong = f"{loose} crease line(s) on no face, and none between two faces"
+        raise FileError(check.path, "faces_vertices", wrong, "faces that have the creases as sides")
+    return sheet
 
 
 def fold_text(sheet: Sheet) -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
+from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import read_text
 from graphs.mechanism.sheet import Sheet
 
@@ -58,13 +59,15 @@ def sheet_from_obj(path: Path) -> Sheet:
     letters = "".join(letter for letter, _ in known.values())
     angles = tuple(angle for _, angle in known.values())
     return Checker(path).build(
-        lambda: Sheet(
-            len(places),
-            tuple(known),
-            letters,
-            tuple(faces),
-            tuple(places),
-            fold_angles=angles if any(angle is not None for angle in angles) else None,
+        lambda: with_simple_faces(
+            Sheet(
+                len(places),
+                tuple(known),
+                letters,
+                tuple(faces),
+                tuple(places),
+                fold_angles=angles if any(angle is not None for angle in angles) else None,
+            )
         ),
         lambda part: f"line {lines[int(str(part[1]))]}" if part[0] == "faces" else "",
     )

@@ -1,11 +1,11 @@
-"""Crease patterns as SVG in origami colours.
+"""Crease patterns as SVG in origami colours (:mod:`graphs.files.patterns.strokes`).
 
-Mountain red, valley blue, border black, cut green, flat (facet) yellow, unassigned magenta: the colours of Origami
-Simulator. Shapes, transforms and styles are read by svgelements; curves become polylines.
+Shapes, transforms and styles are read by svgelements; curves become polylines.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
@@ -17,42 +17,20 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from graphs.convert.tracing import MOST, trace_sheet
+from graphs.convert.tracing import MOST
 from graphs.convert.welding import Lines
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
+from graphs.files.patterns.strokes import COLOURS, described_strokes, kind_of_stroke, letter_of_stroke
+from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.mechanism.plane import flat_places
+from graphs.mechanism.sheet import Sheet
 
-__all__ = ["letter_of_colour", "sheet_from_svg", "svg_text"]
+__all__ = ["sheet_from_svg", "svg_text"]
 
-_COLOURS = {
-    "M": (255, 0, 0),
-    "V": (0, 0, 255),
-    "B": (0, 0, 0),
-    "C": (0, 255, 0),
-    "F": (255, 255, 0),
-    "U": (255, 0, 255),
-}
-_NEAR = 120
-"""A stroke farther than this from every origami colour (in RGB) is no crease."""
 _PIECES = 8
 """Straight pieces of a curved segment."""
-
-
-def letter_of_colour(red: int, green: int, blue: int) -> str | None:
-    """Return the assignment that a stroke colour stands for, or None.
-
-    Examples
-    --------
-    >>> letter_of_colour(230, 10, 10), letter_of_colour(128, 128, 128)
-    ('M', None)
-    """
-    found, distance = min(
-        ((letter, abs(red - r) + abs(green - g) + abs(blue - b)) for letter, (r, g, b) in _COLOURS.items()),
-        key=lambda item: item[1],
-    )
-    return found if distance <= _NEAR else None
 
 
 def sheet_from_svg(path: Path) -> Sheet:
@@ -61,15 +39,16 @@ def sheet_from_svg(path: Path) -> Sheet:
     Raises
     ------
     FileError
+        Or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
     """
     ends: list[Any] = []
     letters: list[str] = []
     angles: list[float | None] = []
-    other = 0
+    unread: Counter[str] = Counter()
     for shape in _stroked_shapes(path):
-        letter = letter_of_colour(shape.stroke.red, shape.stroke.green, shape.stroke.blue)
+        letter = letter_of_stroke(shape)
         if letter is None:
-            other += 1
+            unread[kind_of_stroke(shape)] += 1
             continue
         try:
             with np.errstate(all="ignore"):  # what is not finite is refused below
@@ -82,9 +61,14 @@ def sheet_from_svg(path: Path) -> Sheet:
     array = np.array(ends, dtype=float).reshape(-1, 2, 2) * (1, -1)  # y points down in SVG
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "a coordinate that is not finite, or too large", "coordinates")
-    sheet = Checker(path).build(lambda: trace_sheet(Lines(array, "".join(letters), tuple(angles))))
-    left_out = (f"{other} shape(s) in other colours left out",) if other else ()
-    return replace(sheet, repairs=(*sheet.repairs, *left_out))
+    left_out = described_strokes(unread)
+    sheet = traced_sheet(
+        Lines(array, "".join(letters), tuple(angles)),
+        Checker(path),
+        border="border lines (black strokes)",
+        unread=f"; {left_out}" if left_out else "",
+    )
+    return replace(sheet, repairs=(*sheet.repairs, *([left_out] if left_out else [])))
 
 
 def _stroked_shapes(path: Path) -> Iterator[Any]:
@@ -149,7 +133,7 @@ def svg_text(sheet: Sheet) -> str:
         rows.append(f"<title>{escape(sheet.title)}</title>")
     angles = sheet.fold_angles or (None,) * len(sheet.edges)
     for (a, b), letter, angle in zip(sheet.edges, sheet.assignments, angles, strict=True):
-        red, green, blue = _COLOURS["F" if letter == "J" else letter]
+        red, green, blue = COLOURS["F" if letter == "J" else letter]
         ends = [(places[v][0] - left, high - places[v][1]) for v in (a, b)]
         opacity = ""
         if angle is not None and letter in "MV" and abs(angle) < 180:

@@ -31,9 +31,7 @@ _LONGEST_PATH = 4096
     help="Compute the exact generic rank (by default, of what is not too large).",
 )
 @click.option("--hinge-flat", is_flag=True, help="Make hinges of the flat (F) edges of a crease pattern too.")
-@click.option(
-    "--pose", type=click.IntRange(min=0), metavar="FRAME", help="Freedoms as this frame of a FOLD file lies."
-)
+@click.option("--pose", type=click.IntRange(min=0), metavar="FRAME", help="Ask about this frame of a FOLD file.")
 @click.option(
     "--no-geometry",
     is_flag=True,
@@ -52,11 +50,11 @@ def mobility(
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
     FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
-    (.fold, .svg, .cp, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges). One file gives the whole
-    report, several give a table.
+    (.fold, .svg, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
+    gives the whole report, several give a table.
 
     Counts are formulas. Beside them stand the exact generic mobility, and the freedoms of a crease pattern as it
-    lies, by --pose in another frame (0 is the key frame).
+    lies. By --pose all numbers are those of another frame (0 is the key frame).
 
     \b
     Example:

@@ -136,7 +136,7 @@ def test_svg_shapes_transforms_and_colours(tmp_path):
     )
     sheet = read(path)
     assert (len(sheet.faces), Counter(sheet.assignments)) == (4, {"B": 8, "M": 2, "V": 2})
-    assert "1 shape(s) in other colours left out" in sheet.repairs
+    assert "1 shape(s) with strokes not understood left out: 1 #808080" in sheet.repairs
     mechanism = mechanism_of_sheet(sheet)
     assert (mechanism.interior_vertices, len(mechanism.sc)) == (1, 4)
 

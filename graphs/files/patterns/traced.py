@@ -1,0 +1,67 @@
+"""Drawn lines traced, and refused where no pattern comes of them.
+
+What is left of a drawing without a border, or with its creases in the colour of borders, is a panel or some that
+nothing joins: it would have a mobility, and not that of what was meant.
+"""
+
+from __future__ import annotations
+
+from graphs.convert.loose_creases import joins_faces
+from graphs.convert.tracing import trace_sheet
+from graphs.convert.welding import Lines
+from graphs.errors import FileError
+from graphs.files.check import Checker
+from graphs.mechanism.sheet import HINGES, Sheet
+
+__all__ = ["traced_sheet"]
+
+_BORDERS = "BC"
+
+
+def traced_sheet(lines: Lines, check: Checker, *, title: str = "", border: str = "", unread: str = "") -> Sheet:
+    """Trace the lines of a file.
+
+    Parameters
+    ----------
+    lines : Lines
+    check : Checker
+        Of the file, for messages.
+    title : str, optional
+    border : str, optional
+        What a border is in this format. Without it a drawing needs none: its lines may have no assignment.
+    unread : str, optional
+        What was in the drawing and is not among the lines, for messages.
+
+    Raises
+    ------
+    FileError
+        If there is no border, or no face, or no crease between two faces although creases were drawn, or several
+        faces and no crease. One face with nothing in it is a panel.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from pathlib import Path
+    >>> ends = np.array([[[0, 0], [1, 0]], [[1, 0], [0, 1]], [[0, 1], [0, 0]]], dtype=float)
+    >>> traced_sheet(Lines(ends, "MMM"), Checker(Path("a.cp")), border="border lines (type 1)")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.cp: no border among 3 line(s); expected border lines (type 1)
+    """
+    count = len(lines.letters)
+    bordered = any(letter in _BORDERS for letter in lines.letters)
+    if unread and not lines.size:
+        raise FileError(check.path, "", f"the pattern has no line of any length{unread}", "lines")
+    if border and lines.size and not bordered:
+        raise FileError(check.path, "", f"no border among {count} line(s){unread}", border)
+    sheet = check.build(lambda: trace_sheet(lines, title=title), lambda part: part[0])
+    if not sheet.faces:
+        raise FileError(check.path, "", f"{count} line(s) enclose no face{unread}", "a border that is closed")
+    # Where nothing is a border, what is unassigned may be one.
+    creases = sum(letter in (HINGES if bordered else "MV") for letter in lines.letters)
+    if creases and not joins_faces(sheet):
+        found = f"none of {creases} crease line(s) lies between two faces"
+        raise FileError(check.path, "", found + unread, "creases that reach the border or each other")
+    if len(sheet.faces) > 1 and set(lines.letters) <= set(_BORDERS):
+        raise FileError(check.path, "", f"{len(sheet.faces)} faces and no crease{unread}", "mountains or valleys")
+    return sheet

@@ -1,0 +1,139 @@
+"""The plane that a sheet lies in, however it stands in space, and the sheet as it is seen in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import UnsolvableError
+from graphs.mechanism.precision import Precision, extent_of, off_plane, precision_of_sheet
+from graphs.mechanism.sheet import Sheet
+
+__all__ = ["Flattened", "flat_places", "flat_within", "flattened", "lies_flat"]
+
+_FLAT = 1e-5
+"""Points that are this close to one plane, in units of the extent, lie in it."""
+_WHOLE = 1e15
+"""Numbers as large have no decimals to be rounded."""
+_PLANES = ("yz", "xz", "xy")
+
+
+@dataclass(frozen=True)
+class Flattened:
+    """A sheet in the plane.
+
+    Attributes
+    ----------
+    places : array of shape (n, 2)
+        Distances and the side that is seen are kept.
+    turned : str
+        What was done to bring the vertices there; empty where they lay in a plane z = constant.
+    """
+
+    places: Floats
+    turned: str
+
+
+def flat_within(precision: Precision) -> float:
+    """Return how far off one plane points may be that lie in it, in units of their extent.
+
+    Examples
+    --------
+    >>> flat_within(Precision(1e-16, "double precision")), flat_within(Precision(1e-3, "2 decimals"))
+    (1e-05, 0.002)
+    """
+    return max(_FLAT, 2 * precision.size)
+
+
+def lies_flat(sheet: Sheet) -> bool:
+    """Tell whether a sheet lies in one plane, as far as its coordinates are precise.
+
+    Examples
+    --------
+    >>> lies_flat(Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 1, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1))))
+    True
+    """
+    return flattened(sheet) is not None
+
+
+def flattened(sheet: Sheet) -> Flattened | None:
+    """Return a sheet as it is seen in its plane; None if it does not lie in one, or has no coordinates.
+
+    Seen is the side on which most faces turn counter-clockwise. A sheet without faces, or in a plane z = constant,
+    is seen against the positive axis.
+
+    Examples
+    --------
+    A square in the plane y = 1, its face seen from the side of smaller y:
+
+    >>> square = flattened(Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 1, 0), (2, 1, 0), (2, 1, 2), (0, 1, 2))))
+    >>> square.places.tolist(), square.turned
+    ([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]], 'turned from the xz plane into the xy plane')
+    """
+    if sheet.coordinates is None:
+        return None
+    places = np.asarray(sheet.coordinates, dtype=float)
+    if places.size == 0 or places.shape[1] < 3 or len(set(places[:, 2].tolist())) == 1:
+        return Flattened(places.reshape(len(places), -1)[:, :2], "")
+    size = float(np.abs(places).max())
+    unit = places / size  # products of coordinates stay finite
+    tolerance = _FLAT if size > _WHOLE else flat_within(precision_of_sheet(sheet))
+    if off_plane(unit) > tolerance:
+        return None
+    normal = _normal(unit, tolerance)
+    upright = abs(normal) == 1
+    if upright[2]:
+        return Flattened(places[:, :2], "flattened: points were a little off the xy plane")
+    if (facing := float(_area_vector(unit, sheet.faces) @ normal)) != 0:
+        normal = normal * np.sign(facing)
+    along = np.eye(3)[1 if abs(normal[0]) > 0.9 else 0]
+    along = along - (along @ normal) * normal
+    along /= np.linalg.norm(along)
+    seen: Floats = places @ np.column_stack([along, np.cross(normal, along)])
+    came_from = f"the {_PLANES[int(upright.argmax())]} plane" if upright.any() else "a slanted plane"
+    return Flattened(seen + 0.0, f"turned from {came_from} into the xy plane")
+
+
+def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
+    """Return the coordinates of a sheet as they are seen in its plane, for a format that is flat.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has none, or does not lie in a plane.
+
+    Examples
+    --------
+    >>> flat_places(Sheet(1, (), "", (), ((1.0, 2.0, 0.0),)), "a picture")
+    [(1.0, 2.0)]
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
+    flat = flattened(sheet)
+    if flat is None:
+        raise UnsolvableError(f"{what} is flat, and the sheet is not")
+    return [(x, y) for x, y in flat.places.tolist()]
+
+
+def _normal(places: Floats, tolerance: float) -> Floats:
+    """Return the unit normal whose largest component is positive; an axis where the plane stands on one."""
+    for axis in (2, 1, 0):
+        if np.ptp(places[:, axis]) <= tolerance * extent_of(places):
+            upright: Floats = np.eye(3)[axis]
+            return upright
+    arms = places - places.mean(axis=0)
+    normal: Floats = np.linalg.eigh(arms.T @ arms)[1][:, 0]
+    normal = normal * np.sign(normal[np.abs(normal).argmax()])
+    return normal
+
+
+def _area_vector(places: Floats, faces: Sequence[Sequence[int]]) -> Floats:
+    """Return the sum of the areas of faces, as vectors."""
+    total = np.zeros(3)
+    for face in faces:
+        corners = places[list(face)] - places[face[0]]
+        total += np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+    return total
