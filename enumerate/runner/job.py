@@ -6,7 +6,7 @@ thousands of rows; a *sink* takes the rows of unit after unit.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -63,8 +63,8 @@ class Counting:
 class Sink(Protocol):
     """Where rows go."""
 
-    def start(self, job: Job) -> int:
-        """Prepare for a job; return how many of its units are there already."""
+    def start(self, job: Job) -> Collection[int]:
+        """Prepare for a job; return the numbers of its units that are there already."""
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Keep the rows of a unit, all or none of them."""

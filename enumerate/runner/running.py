@@ -7,21 +7,18 @@ the run. Only a fixed number of units is in the air at any time: memory does not
 
 from __future__ import annotations
 
-import os
-import signal
-import socket
-import threading
 import time
 from collections import deque
-from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import Future
 from contextlib import closing, contextmanager
 from typing import Any
 
-from enumerate.machine_code.notice import heard_by, to_workers
+from enumerate.runner.cluster import Cluster
 from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Job, Progress, Row, Sink, Unit
+from enumerate.runner.stopping import Interrupted, interruptible
+from enumerate.runner.workers import LocalWorkers, Workers, timed
 from graphs.errors import StoreError
 
 __all__ = ["Interrupted", "rows_of", "run", "total_of", "tuples_of"]
@@ -36,8 +33,8 @@ _PATIENCE = 3
 """How often workers may die on one unit before the run gives up."""
 
 
-class Interrupted(Exception):
-    """The user stopped the run; all units handed to the sink are safe."""
+_LOOK = 1.0
+"""Seconds between two looks whether a unit that is waited for can still come."""
 
 
 def run(
@@ -65,20 +62,15 @@ def run(
     Raises
     ------
     Interrupted
-        If the user pressed Ctrl-C: what was handed to the sink stays there.
+        If the user pressed Ctrl-C, or the process was asked to end. What was handed to a store stays there.
     StoreError
-        If the sink cannot take the rows, workers die again and again, or the cluster is not reached.
+        If the sink cannot take the rows, workers die again and again, or the cluster is not reached, or lost.
     """
-    try:
-        stored = sink.start(job)
-        with _interruptible() as stopped:
-            units = job.units()
-            weights = sum(unit.weight for unit in units[:stored])
-            progress = Progress(
-                len(units), stored, weights, sum(unit.weight for unit in units), skipped_weight=weights
-            )
+    with interruptible() as check, _hired(scheduler) as cluster:
+        try:
+            units, progress = _begun(job, sink)
             begin = time.monotonic()
-            for number, rows, seconds in _results(job, units, stored, workers, scheduler, stopped):
+            for number, rows, seconds in _results(job, units, workers, cluster, check):
                 sink.take(number, rows, seconds)
                 progress.done += 1
                 progress.rows += len(rows)
@@ -86,11 +78,31 @@ def run(
                 progress.seconds = time.monotonic() - begin
                 if report is not None:
                     report(progress)
-        sink.finish()
-    except BaseException:  # Ctrl-C and the like too: nothing half written stays
-        sink.abort()
-        raise
+            sink.finish()
+        except BaseException:  # Ctrl-C and the like too: nothing half written stays
+            sink.abort()
+            raise
     return progress
+
+
+def _begun(job: Job, sink: Sink) -> tuple[dict[int, Unit], Progress]:
+    """Open the sink; return the units that it has not, by their numbers, and how far it is."""
+    there = sink.start(job)
+    units = job.units()
+    left = {number: unit for number, unit in enumerate(units) if number not in there}
+    total = sum(unit.weight for unit in units)
+    done = total - sum(unit.weight for unit in left.values())
+    return left, Progress(len(units), len(units) - len(left), done, total, skipped_weight=done)
+
+
+@contextmanager
+def _hired(scheduler: str | None) -> Iterator[Cluster | None]:
+    """Give the cluster of a scheduler, if one is named: before anything is written."""
+    if scheduler is None:
+        yield None
+        return
+    with _closing(Cluster(scheduler)) as cluster:
+        yield cluster
 
 
 def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
@@ -119,155 +131,77 @@ def total_of(job: Job, *, workers: int = 1) -> int:
 
 def tuples_of(job: Job, *, workers: int = 1) -> Iterator[Row]:
     """Yield the rows of a job as they are, in order. Arguments: `rows_of`."""
-    with closing(_results(job, job.units(), 0, workers, None, lambda: None)) as results:
+    with closing(_results(job, dict(enumerate(job.units())), workers, None, lambda: None)) as results:
         for _, rows, _ in results:
             yield from rows
 
 
-@contextmanager
-def _interruptible() -> Iterator[Callable[[], None]]:
-    """Turn the first Ctrl-C into `Interrupted`, raised between units; a second one interrupts at once."""
-    asked = threading.Event()
-
-    def check() -> None:
-        if asked.is_set():
-            raise Interrupted
-
-    def ask(number: int, frame: object) -> None:
-        if asked.is_set():
-            raise KeyboardInterrupt
-        asked.set()
-
-    if threading.current_thread() is not threading.main_thread():
-        yield check
-        return
-    before = signal.signal(signal.SIGINT, ask)
-    try:
-        yield check
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
 def _results(
-    job: Job,
-    units: Sequence[Unit],
-    stored: int,
-    workers: int,
-    scheduler: str | None,
-    check: Callable[[], None],
+    job: Job, units: dict[int, Unit], workers: int, cluster: Cluster | None, check: Callable[[], None]
 ) -> Generator[tuple[int, list[Row], float]]:
     """Yield number, rows and seconds of each unit, in order."""
-    left = units[stored:]
-    small = len(left) <= 1 or sum(unit.weight for unit in left) < _SMALL
-    if scheduler is None and (workers <= 1 or small):
-        for number in range(stored, len(units)):
+    small = len(units) <= 1 or sum(unit.weight for unit in units.values()) < _SMALL
+    if cluster is None and (workers <= 1 or small):
+        for number, unit in units.items():
             check()
-            yield number, *_timed(job, units[number].payload)
-        return
-    with closing(_Pool(workers) if scheduler is None else _Cluster(scheduler)) as pool:
-        waiting: deque[tuple[int, Any]] = deque()
-        following, deaths = stored, 0
-        while following < len(units) or waiting:
-            check()
-            try:
-                while following < len(units) and len(waiting) < _AHEAD * pool.workers:
-                    waiting.append((following, pool.submit(job, units[following].payload)))
-                    following += 1
-                number, future = waiting[0]
-                rows, seconds = _wait(future, check)
-            except pool.deaths:
-                deaths += 1
-                if deaths >= _PATIENCE:
-                    raise StoreError(
-                        f"worker processes died {deaths} times at unit {stored}; is there enough memory?"
-                    ) from None
-                pool.restart()
-                following = stored
-                waiting.clear()
-                continue
-            waiting.popleft()
-            stored, deaths = number + 1, 0
-            yield number, rows, seconds
+            yield number, *timed(job, unit.payload)
+    elif cluster is not None:
+        yield from _in_order(job, units, cluster, check)
+    else:
+        with _closing(LocalWorkers(workers)) as processes:
+            yield from _in_order(job, units, processes, check)
 
 
-def _wait(future: Any, check: Callable[[], None]) -> Any:
-    """Return a future's result; look up now and then whether the user wants to stop."""
-    while True:
+def _in_order(
+    job: Job, units: dict[int, Unit], workers: Workers, check: Callable[[], None]
+) -> Generator[tuple[int, list[Row], float]]:
+    """Yield what others work out, in order; begin again with the first unit that is missing where workers die."""
+    numbers = list(units)
+    given = done = deaths = 0
+    waiting: deque[Future[tuple[list[Row], float]]] = deque()
+    while done < len(numbers):
         check()
         try:
-            return future.result(timeout=0.2)
+            while given < len(numbers) and len(waiting) < _AHEAD * workers.number:
+                waiting.append(workers.submit(job, units[numbers[given]].payload))
+                given += 1
+            rows, seconds = _waited_for(waiting[0], workers, check)
+        except workers.deaths:
+            check()  # whoever stops a run may stop its workers too
+            deaths += 1
+            if deaths >= _PATIENCE:
+                raise StoreError(
+                    f"worker processes died {deaths} times at unit {numbers[done]}; is there enough memory?"
+                ) from None
+            workers.restart()
+            given = done
+            waiting.clear()
+            continue
+        waiting.popleft()
+        done, deaths = done + 1, 0
+        yield numbers[done - 1], rows, seconds
+
+
+def _waited_for(
+    future: Future[tuple[list[Row], float]], workers: Workers, check: Callable[[], None]
+) -> tuple[list[Row], float]:
+    """Return a future's result as soon as it is there."""
+    while True:
+        try:
+            return future.result(timeout=_LOOK)
         except TimeoutError:
             if future.done():  # it ended just now, or the unit itself raised this
                 return future.result()
+        check()
+        workers.check()
 
 
-def _timed(job: Job, payload: Any) -> tuple[list[Row], float]:
-    begin = time.perf_counter()
-    rows = job.work(payload)
-    return rows, time.perf_counter() - begin
-
-
-class _Pool:
-    """Local worker processes; dead ones can be replaced."""
-
-    deaths: tuple[type[BaseException], ...] = (BrokenProcessPool,)
-
-    def __init__(self, workers: int) -> None:
-        self.workers = workers
-        self._executor = self._make()
-
-    def _make(self) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(self.workers, initializer=_become_worker, initargs=(os.getpid(), to_workers()))
-
-    def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
-        return self._executor.submit(_timed, job, payload)
-
-    def restart(self) -> None:
-        self._executor.shutdown(wait=False, cancel_futures=True)
-        self._executor = self._make()
-
-    def close(self) -> None:
-        self._executor.shutdown(cancel_futures=True)
-
-
-class _Cluster:
-    """The workers of a Dask cluster, which replaces dead ones, or gives their units to others, by itself."""
-
-    def __init__(self, scheduler: str) -> None:
-        try:
-            from distributed import Client, KilledWorker
-        except ImportError:
-            raise StoreError("--scheduler needs Dask: pip install 'synthedra[dask]'") from None
-        make: Any = Client
-        try:  # a client that finds no scheduler takes its time and prints a traceback
-            host, _, port = scheduler.removeprefix("tcp://").rpartition(":")
-            socket.create_connection((host, int(port)), timeout=10).close()
-            self._client = make(scheduler, timeout="10s", set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise StoreError(
-                f"no Dask scheduler at {scheduler!r}: {error}; expected an address such as tcp://127.0.0.1:8786"
-            ) from None
-        self.deaths: tuple[type[BaseException], ...] = (KilledWorker,)
-        self.workers = max(len(self._client.scheduler_info(n_workers=-1)["workers"]), 1)
-
-    def submit(self, job: Job, payload: Any) -> Any:
-        return self._client.submit(_timed, job, payload, pure=False)
-
-    def restart(self) -> None:
-        """Nothing is to be done: the cluster's workers are not ours."""
-
-    def close(self) -> None:
-        self._client.close()
-
-
-def _become_worker(parent: int, shared: Any) -> None:
-    """Leave Ctrl-C to the parent, and do not outlive it; tell the user what only one process should."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    heard_by(shared)
-
-    def watch() -> None:
-        while os.getppid() == parent:
-            time.sleep(0.5)
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
+@contextmanager
+def _closing(workers: Any) -> Iterator[Any]:
+    """Let workers go at the end; at once, if it is not the end of their work."""
+    at_once = True
+    try:
+        yield workers
+        at_once = False
+    finally:
+        workers.close(at_once=at_once)

@@ -7,12 +7,12 @@ enter it in ``SINKS``.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from enumerate.runner.columns import Column, ListColumn, row_as_dict, stored
-from enumerate.runner.job import Job, Row, Sink
+from enumerate.runner.job import Job, Row, Sink, Unit
 from enumerate.runner.store import SqliteSink
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
@@ -28,9 +28,9 @@ __all__ = ["SINKS", "CountSink", "RowSink", "SortedSink", "mechanism_text", "sin
 class _MemorySink:
     """A sink with nothing to open, close or remove."""
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Nothing is there already."""
-        return 0
+        return ()
 
     def finish(self) -> None:
         """Nothing is left to do."""
@@ -46,7 +46,7 @@ class RowSink(_MemorySink):
         self._function = function
         self._columns: tuple[str, ...] = ()
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Note the columns."""
         self._columns = tuple(job.columns)
         return super().start(job)
@@ -67,6 +67,25 @@ class CountSink(_MemorySink):
         self.total += sum(row[0] for row in rows)
 
 
+class _Sorted:
+    """A job whose rows come sorted, all in one unit: to a store, another job than the one it is made of."""
+
+    def __init__(self, job: Job, column: str) -> None:
+        self._job, self._column = job, column
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._job, name)
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, and how its rows are sorted."""
+        return {**self._job.key, "sort": self._column}
+
+    def units(self) -> Sequence[Unit]:
+        """One."""
+        return [Unit(None)]
+
+
 class SortedSink:
     """A sink that keeps all rows, and hands them to another when they are complete, sorted by one column.
 
@@ -82,8 +101,9 @@ class SortedSink:
         self._rows: list[Row] = []
         self._seconds = 0.0
         self._place = 0
+        self._there = False
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Look the column up.
 
         Raises
@@ -96,7 +116,8 @@ class SortedSink:
         if name not in names:
             raise InvariantError("sort", f"no column {shown(name)}", " ".join(names))
         self._place = names.index(name)
-        return self._inner.start(job)
+        self._there = 0 in self._inner.start(_Sorted(job, self._column))
+        return range(len(job.units())) if self._there else ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Keep the rows."""
@@ -104,10 +125,11 @@ class SortedSink:
         self._seconds += seconds
 
     def finish(self) -> None:
-        """Sort and hand over."""
+        """Sort and hand over, unless they are there already."""
         place = self._place
         self._rows.sort(key=lambda row: row[place], reverse=self._column.startswith("-"))
-        self._inner.take(0, self._rows, self._seconds)
+        if not self._there:
+            self._inner.take(0, self._rows, self._seconds)
         self._inner.finish()
 
     def abort(self) -> None:
@@ -123,11 +145,11 @@ class _FileSink:
         self._columns: tuple[str, ...] = ()
         self._file: Beside | None = None
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         self._columns = tuple(job.columns)
         self._file = Beside(self._path)
-        return 0
+        return ()
 
     def _write(self, lines: Iterable[str]) -> None:
         assert self._file is not None
@@ -147,7 +169,7 @@ class _FileSink:
 class Graph6Sink(_FileSink):
     """graph6: one canonical form a line, and nothing else."""
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         if job.columns.get("code") is not str and "order" in job.columns:
             raise StoreError(f"{self._path}: graph6 has no place for angles; name a .jsonl or .sqlite file")
@@ -178,7 +200,7 @@ class ParquetSink(_FileSink):
         self._writer: Any = None
         self._mixed: set[int] = set()
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Open the file.
 
         Raises
@@ -196,7 +218,7 @@ class ParquetSink(_FileSink):
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
         self._mixed = {i for i, kind in enumerate(job.columns.values()) if _is_mixed(kind)}
         self._writer = parquet.ParquetWriter(self._file.stream, self._schema)
-        return 0
+        return ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write the rows."""
@@ -267,7 +289,7 @@ class FolderSink:
         self._folder: FolderBeside | None = None
         self._number = 0
 
-    def start(self, job: Job) -> int:
+    def start(self, job: Job) -> Collection[int]:
         """Make a folder beside the place of this one.
 
         Raises
@@ -278,7 +300,7 @@ class FolderSink:
         self._folder = FolderBeside(self._path)
         self._columns = tuple(job.columns)
         self._text = getattr(job, "mechanism_text", mechanism_text)
-        return 0
+        return ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write a file a row."""
@@ -311,8 +333,16 @@ SINKS: dict[str, Callable[[Path], Sink]] = {
 """Extension to the sink; a name without an extension is a folder."""
 
 
-def sink_for(path: str | Path, *, resume: bool = False) -> Sink:
+def sink_for(path: str | Path, *, resume: bool = False, tell: Callable[[str], None] | None = None) -> Sink:
     """Return the sink that a name calls for.
+
+    Parameters
+    ----------
+    path : str or Path
+    resume : bool
+        Go on with a store.
+    tell : callable, optional
+        Takes a line on the state of a store that the user should know (`SqliteSink`).
 
     Raises
     ------
@@ -324,7 +354,7 @@ def sink_for(path: str | Path, *, resume: bool = False) -> Sink:
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".sqlite":
-        return SqliteSink(path, resume=resume)
+        return SqliteSink(path, resume=resume, tell=tell)
     if suffix not in SINKS:
         known = " ".join(sorted(filter(None, [*SINKS, ".sqlite"])))
         raise FileError(path, "", f"files ending in {suffix!r} are not known", f"one of {known}, or a folder")

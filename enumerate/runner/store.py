@@ -1,16 +1,16 @@
 """The store of an enumeration: one SQLite file, every unit with its rows in one transaction.
 
-Tables: ``meta(key, value)`` says what was enumerated; ``unit(id, state, rows, seconds)`` which units are there;
-``type`` holds the rows, each with the unit it came from, lists as JSON text. During a run the file is in WAL mode:
-it can be read meanwhile, and survives the death of the run at any moment. A complete store is one plain file.
+What is in it: `enumerate.runner.store_units`. During a run the file is in WAL mode: it can be read meanwhile, and
+survives the death of the run at any moment. A complete store is one plain file, as soon as nobody else reads it.
+A store is looked through before a run goes on with it, and each unit when it is read
+(`enumerate.runner.store_repair`).
 """
 
 from __future__ import annotations
 
-import json
-import re
 import sqlite3
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import warnings
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
@@ -19,14 +19,20 @@ from typing import Any
 
 from enumerate.runner.columns import Column, ListColumn, stored, unstored
 from enumerate.runner.job import Job, Row
+from enumerate.runner.store_repair import examined, rebuilt
+from enumerate.runner.store_units import FORMAT, VERSION, UnitTable, make_tables, meta_in, named, reading
 from graphs.errors import StoreError
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]
 
-_FORMAT = "synthedra/store"
-_VERSION = 2
 _REMEMBERED = 4096
 """Lists of a column whose JSON text is kept: many rows share theirs."""
+
+_PATIENCE = 30.0
+"""Seconds for which a lock of another process is waited for while the store grows."""
+
+_PATIENCE_AT_END = 200
+"""Milliseconds for which readers are waited for when the store is complete: only its files depend on them."""
 
 
 class SqliteSink:
@@ -37,16 +43,27 @@ class SqliteSink:
     path : str or Path
     resume : bool
         Go on with a store of the same job. Without it an existing file is refused.
+    tell : callable, optional
+        Takes a line on what the user should know: the store was damaged, or is not one file. Without it, a
+        warning.
     """
 
-    def __init__(self, path: str | Path, *, resume: bool = False) -> None:
+    def __init__(
+        self, path: str | Path, *, resume: bool = False, tell: Callable[[str], None] | None = None
+    ) -> None:
         self.path, self._resume = Path(path), resume
+        self._tell = tell or _warn
         self._connection: sqlite3.Connection | None = None
-        self._insert = ""
+        self._units: UnitTable | None = None
+        self._rows: dict[int, int] = {}
+        self._complete = False
+        self._next, self._first = 0, 1
         self._lists: list[tuple[int, Callable[[Any], str]]] = []
 
-    def start(self, job: Job) -> int:
-        """Make the file, or look into it; return how many units it holds.
+    def start(self, job: Job) -> Collection[int]:
+        """Make the file, or look through it; return the numbers of the units that it holds.
+
+        What is damaged is taken out, and told.
 
         Raises
         ------
@@ -59,79 +76,74 @@ class SqliteSink:
             raise StoreError(f"{self.path}: exists already; continue it with --resume, or name another file")
         if not self.path.parent.is_dir():
             raise StoreError(f"{self.path}: there is no folder {str(self.path.parent)!r}")
-        with _named(self.path):
-            self._connection = sqlite3.connect(self.path, isolation_level=None)
-            [tables] = self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
-        if tables:
-            self._check(job)
-        with _named(self.path):
-            self._connection.execute("PRAGMA journal_mode=WAL")
-            self._connection.execute("PRAGMA synchronous=NORMAL")
-            self._make_tables(job)
-            self._lists = _texts_of_lists(job.columns)
-            marks = ", ".join("?" * (len(job.columns) + 1))
-            self._insert = f"INSERT INTO type (unit, {_quoted(job.columns)}) VALUES ({marks})"
-            return int(self._connection.execute("SELECT count(*) FROM unit").fetchone()[0])
+        if exists and _has_tables(self.path):
+            self._look_through(job)
+        with named(self.path):
+            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=_PATIENCE)
+            self._units = UnitTable(self._connection, list(job.columns))
+            if not self._complete:  # else there is nothing to write
+                self._connection.execute("PRAGMA journal_mode=WAL")
+                self._connection.execute("PRAGMA synchronous=NORMAL")
+                with self._transaction():
+                    make_tables(self._connection, _meta_of(job))
+            self._rows = dict(self._connection.execute("SELECT id, rows FROM unit ORDER BY id"))
+        self._lists = _texts_of_lists(job.columns)
+        return self._rows.keys()
 
-    def _check(self, job: Job) -> None:
+    def _look_through(self, job: Job) -> None:
         meta = read_meta(self.path)
         if meta["job"] != job.key:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
             raise StoreError(f"{self.path}: holds another run ({theirs}); name another file")
-
-    def _make_tables(self, job: Job) -> None:
-        assert self._connection is not None
-        meta = {
-            "format": _FORMAT,
-            "version": _VERSION,
-            "synthedra": version("synthedra"),
-            "columns": list(job.columns),
-            "lists": [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)],
-            "job": job.key,
-            "complete": False,
-        }
-        with self._transaction() as cursor:
-            cursor.execute("CREATE TABLE IF NOT EXISTS meta (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID")
-            cursor.execute(
-                "CREATE TABLE IF NOT EXISTS unit (id INTEGER PRIMARY KEY, state TEXT, rows INTEGER, seconds REAL)"
-            )
-            cursor.execute(f"CREATE TABLE IF NOT EXISTS type (unit INTEGER, {_quoted(job.columns)})")
-            cursor.executemany(
-                "INSERT OR IGNORE INTO meta VALUES (?, ?)",
-                [(key, json.dumps(value)) for key, value in meta.items()],
-            )
+        units = len(job.units())
+        findings = examined(self.path, units)
+        self._complete = findings.sound and meta["complete"]
+        if not findings.sound:
+            rebuilt(self.path, findings)
+            whole = len(findings.whole)
+            self._tell(f"{self.path}: was damaged; {whole} of {units} units are whole, the others are made again")
 
     @contextmanager
-    def _transaction(self) -> Iterator[sqlite3.Cursor]:
+    def _transaction(self) -> Iterator[None]:
         assert self._connection is not None
         with self._connection:  # commits at the end, or takes back what was written, whatever is raised
-            cursor = self._connection.cursor()
-            cursor.execute("BEGIN IMMEDIATE")
-            yield cursor
+            self._connection.execute("BEGIN IMMEDIATE")
+            yield
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Store a unit and its rows in one transaction.
+        """Store a unit and its rows in one transaction; they come in the order of their numbers.
 
         Raises
         ------
         StoreError
             If they cannot be written; the file is as it was before.
         """
-        with _named(self.path), self._transaction() as cursor:
-            cursor.executemany(self._insert, ((number, *self._told(row)) for row in rows))
-            cursor.execute("INSERT INTO unit VALUES (?, 'done', ?, ?)", (number, len(rows), round(seconds, 6)))
+        assert self._units is not None
+        first = self._first_row_of(number)
+        with named(self.path), self._transaction():
+            self._units.add(number, first, map(self._told, rows), round(seconds, 6))
+        self._rows[number] = len(rows)
 
-    def _told(self, row: Row) -> Sequence[Any]:
+    def _first_row_of(self, number: int) -> int:
+        """Return the number of the first row of a unit: all units before it are there."""
+        while self._next < number:
+            self._first += self._rows.get(self._next, 0)
+            self._next += 1
+        return self._first
+
+    def _told(self, row: Row) -> Row:
         """Return the values of a row with lists as JSON text."""
         if not self._lists:
             return row
         values = list(row)
         for place, text in self._lists:
             values[place] = text(values[place])
-        return values
+        return tuple(values)
 
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
+
+        Others who read it do not hinder that; only then its files stay as they are during a run, which is told.
 
         Raises
         ------
@@ -139,17 +151,33 @@ class SqliteSink:
             If rows are missing.
         """
         assert self._connection is not None
-        with _named(self.path):
-            [units, last, promised] = self._connection.execute(
+        with named(self.path):
+            if not self._complete:
+                self._mark_complete(self._connection)
+            self._make_one_file(self._connection)
+            self._connection.close()
+
+    def _mark_complete(self, connection: sqlite3.Connection) -> None:
+        with self._transaction():
+            [units, last, promised] = connection.execute(
                 "SELECT count(*), max(id), sum(rows) FROM unit"
             ).fetchone()
-            [rows] = self._connection.execute("SELECT count(*) FROM type").fetchone()
-            if units and (units != last + 1 or rows != promised):
+            [rows, greatest] = connection.execute("SELECT count(*), max(rowid) FROM type").fetchone()
+            if units and (units != last + 1 or not rows == promised == (greatest or 0)):
                 raise StoreError(f"{self.path}: holds {rows} rows, its units say {promised}")
-            with self._transaction() as cursor:
-                cursor.execute("UPDATE meta SET value = 'true' WHERE key = 'complete'")
-            self._connection.execute("PRAGMA journal_mode=DELETE")
-            self._connection.close()
+            connection.execute("UPDATE meta SET value = 'true' WHERE key = 'complete'")
+
+    def _make_one_file(self, connection: sqlite3.Connection) -> None:
+        connection.execute(f"PRAGMA busy_timeout={_PATIENCE_AT_END}")
+        try:
+            connection.execute("PRAGMA journal_mode=DELETE")
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode & 0xFF not in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+                raise
+            self._tell(
+                f"{self.path}: is complete; another process has it open: {self.path.name}-wal belongs to it; "
+                "--resume makes it one file"
+            )
 
     def abort(self) -> None:
         """Close the file; what it holds stays."""
@@ -165,11 +193,8 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     StoreError
         If the file is not a store that this version reads.
     """
-    with _reading(Path(path)) as connection:
-        meta = {key: json.loads(value) for key, value in connection.execute("SELECT key, value FROM meta")}
-    if meta.get("format") != _FORMAT or meta.get("version") != _VERSION:
-        raise StoreError(f"{path}: is not a store of version {_VERSION}")
-    return meta
+    with reading(Path(path)) as connection:
+        return meta_in(connection, Path(path))
 
 
 def read_rows(path: str | Path) -> Iterator[Row]:
@@ -178,41 +203,44 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     Raises
     ------
     StoreError
-        If the file is not a store.
+        If the file is not a store, or a unit is not as it was written: rows before it have been yielded.
     """
-    meta = read_meta(path)
-    columns, lists = meta["columns"], set(meta["lists"])
+    path = Path(path)
     read = lru_cache(_REMEMBERED)(unstored)
-    with _reading(Path(path)) as connection:
-        for row in connection.execute(f"SELECT {_quoted(columns)} FROM type ORDER BY rowid"):
-            yield tuple(read(value) if name in lists else value for name, value in zip(columns, row, strict=True))
+    with reading(path) as connection:
+        meta = meta_in(connection, path)
+        columns, lists = meta["columns"], set(meta["lists"])
+        units = UnitTable(connection, columns)
+        for number in units.numbers():
+            rows = units.rows(number)
+            if rows is None:
+                raise StoreError(f"{path}: is damaged at unit {number}; the same run with --resume mends it")
+            for row in rows:
+                yield tuple(
+                    read(value) if name in lists else value for name, value in zip(columns, row, strict=True)
+                )
 
 
-@contextmanager
-def _reading(path: Path) -> Iterator[sqlite3.Connection]:
-    if not path.is_file():
-        raise StoreError(f"{path}: no such file")
-    connection = None
-    try:
-        connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
-        yield connection
-    except sqlite3.Error as error:
-        raise StoreError(f"{path}: cannot be read as a store: {error}") from None
-    finally:
-        if connection is not None:
-            connection.close()
+def _warn(line: str) -> None:
+    warnings.warn(line, stacklevel=2)
 
 
-@contextmanager
-def _named(path: Path) -> Iterator[None]:
-    """Turn what SQLite says into one line that names the file."""
-    try:
-        yield
-    except sqlite3.IntegrityError:
-        raise StoreError(f"{path}: another run is writing to it") from None
-    except sqlite3.Error as error:
-        hint = "; what was stored stays: make room and --resume" if re.search("full|I/O", str(error)) else ""
-        raise StoreError(f"{path}: {error}{hint}") from None
+def _has_tables(path: Path) -> bool:
+    """Return whether there is anything in a database: a run may have died before it made the tables."""
+    with reading(path) as connection:
+        return bool(connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0])
+
+
+def _meta_of(job: Job) -> dict[str, Any]:
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "synthedra": version("synthedra"),
+        "columns": list(job.columns),
+        "lists": [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)],
+        "job": job.key,
+        "complete": False,
+    }
 
 
 def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[Any], str]]]:
@@ -225,7 +253,3 @@ def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[
         for place, kind in enumerate(columns.values())
         if isinstance(kind, ListColumn)
     ]
-
-
-def _quoted(columns: Iterable[str]) -> str:
-    return ", ".join(f'"{column}"' for column in columns)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +77,7 @@ class PictureSink:
         self._folder: FolderBeside | None = None
         self._number = 0
 
-    def start(self, job: Any) -> int:
+    def start(self, job: Any) -> Collection[int]:
         """Make a folder beside the place of this one.
 
         Raises

@@ -7,15 +7,19 @@ from pathlib import Path
 import click
 
 from enumerate.machine_code.notice import on_compiling
+from enumerate.runner.stopping import interruptible
 from synth.cli.main import main
+from synth.cli.streams import guard_output
 
 __all__ = ["run"]
 
 
 def run() -> None:
     """Run the command; say so once if code has to be compiled, which takes longer than most answers."""
+    guard_output()
     on_compiling(_say_compiling)
-    main(prog_name="synth")
+    with interruptible():
+        main(prog_name="synth")
 
 
 def _say_compiling(folder: Path | None) -> None:

@@ -31,6 +31,10 @@ _COMMANDS = {
 """Name of a subcommand to where it is."""
 
 
+_INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells count."""
+
+
 class _LazyGroup(click.Group):
     """A group that finds its subcommands by name."""
 
@@ -45,14 +49,22 @@ class _LazyGroup(click.Group):
         assert isinstance(command, click.Command)
         return command
 
-    def invoke(self, ctx: click.Context) -> Any:
+    def main(self, *args: Any, **options: Any) -> Any:
+        """Run, and end with one line and a status where something is in the way; help is printed here too."""
         from graphs.errors import SynthedraError
 
         try:
-            return super().invoke(ctx)
+            return super().main(*args, **options)
         except SynthedraError as error:
             click.echo(str(error), err=True)
             sys.exit(2)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt as stop:  # click would end with 1, which is an answer
+            click.echo("stopped", err=True)
+            sys.exit(getattr(stop, "status", _INTERRUPTED))
 
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
@@ -68,5 +80,6 @@ def main() -> None:
       synth reconstruct mechanism.json -o model.json
       synth dyads --orientations orientations.json
 
-    Exit status: 0 done, 1 the answer is no, 2 bad input or usage.
+    Exit status: 0 done, 1 the answer is no, 2 bad input or usage, or output that cannot be written;
+    128 + n stopped by signal n (130: Ctrl-C).
     """

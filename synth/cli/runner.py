@@ -21,7 +21,6 @@ __all__ = ["LimitsType", "RunOptions", "cores", "run_count", "run_rows", "runner
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
-_INTERRUPTED = 130
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -121,7 +120,8 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
     from enumerate.runner.sinks import RowSink, sink_for
 
     if options.output is not None:
-        progress = _run(job, wrapped(sink_for(options.output, resume=options.resume)), options)
+        sink = sink_for(options.output, resume=options.resume, tell=_told)
+        progress = _run(job, wrapped(sink), options)
         if not options.quiet and sys.stderr.isatty():
             click.echo(f"{progress.rows} rows in {progress.seconds:.1f} s: {plain(options.output)}", err=True)
         return
@@ -145,13 +145,17 @@ def _run(job: Job, sink: Sink, options: RunOptions) -> Progress:
     meter = _Meter(options.quiet or not sys.stderr.isatty())
     try:
         return run(job, sink, workers=options.workers, scheduler=options.scheduler, report=meter.show)
-    except Interrupted:
+    except Interrupted as stop:
         meter.clear()
         stored = options.output is not None and options.output.lower().endswith(".sqlite")
         click.echo("stopped; go on with --resume" if stored else "stopped; nothing was written", err=True)
-        sys.exit(_INTERRUPTED)
+        sys.exit(stop.status)
     finally:
         meter.clear()
+
+
+def _told(line: str) -> None:
+    click.echo(line, err=True)
 
 
 class _Meter:

@@ -1,0 +1,134 @@
+"""What of a store is whole, and a store made of nothing else.
+
+A store that is damaged is never written to: its units that are as they were written go into a new file, which
+takes its place. The rows keep their numbers, so that units which are made again fill the gaps.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from enumerate.runner.store_units import COMPLAINTS, UnitTable, is_damage, make_tables, meta_in, named, reading
+from graphs.errors import OpenError
+
+__all__ = ["Findings", "examined", "rebuilt"]
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What was found in a store.
+
+    Attributes
+    ----------
+    meta : dict
+        What it says of itself.
+    whole : tuple of int
+        Numbers of the units that are as they were written, rising.
+    sound : bool
+        The file is a good database and holds these units, nothing else, and all of them if it says that it is
+        complete.
+    """
+
+    meta: dict[str, Any]
+    whole: tuple[int, ...]
+    sound: bool
+
+
+def examined(path: Path, units: int) -> Findings:
+    """Look at every page and every unit of a store.
+
+    Parameters
+    ----------
+    path : Path
+    units : int
+        How many units the job has.
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be read as a store at all.
+    """
+    with reading(path) as connection:
+        meta = meta_in(connection, path)
+        table = UnitTable(connection, meta["columns"])
+        whole = tuple(number for number in range(units) if _rows(table, number) is not None)
+        sound = _is_good(connection) and _holds_only(connection, table, whole)
+    return Findings(meta, whole, sound and (len(whole) == units or not meta["complete"]))
+
+
+def _rows(table: UnitTable, number: int) -> Sequence[Any] | None:
+    """Return the rows of a unit; None if it is lost or altered."""
+    try:
+        return table.rows(number)
+    except COMPLAINTS as error:
+        if not is_damage(error):
+            raise
+        return None
+
+
+def _is_good(connection: sqlite3.Connection) -> bool:
+    try:
+        return connection.execute("PRAGMA quick_check(1)").fetchall() == [("ok",)]
+    except COMPLAINTS as error:
+        if not is_damage(error):
+            raise
+        return False
+
+
+def _holds_only(connection: sqlite3.Connection, table: UnitTable, whole: tuple[int, ...]) -> bool:
+    """Return whether a good database has the units named, their rows, and no others."""
+    if table.numbers() != list(whole):
+        return False
+    [promised] = connection.execute("SELECT total(rows) FROM unit").fetchone()
+    [rows] = connection.execute("SELECT count(*) FROM type").fetchone()
+    return bool(promised == rows)
+
+
+def rebuilt(path: Path, findings: Findings) -> None:
+    """Put a store that holds the whole units only in the place of a damaged one.
+
+    Raises
+    ------
+    StoreError, OpenError
+        If it cannot be written; the damaged one stays.
+    """
+    place = path.resolve()
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{place.name[:32]}.", dir=place.parent)
+        os.close(handle)
+    except OSError as error:
+        raise OpenError(path, "", f"cannot be repaired: {error.strerror}", "a writable folder") from None
+    beside = Path(name)
+    try:
+        with named(path):
+            _copy(place, beside, findings)
+        shutil.copymode(place, beside)
+        for ending in ("-wal", "-shm", "-journal"):  # else SQLite would take them for those of the new one
+            Path(f"{place}{ending}").unlink(missing_ok=True)
+        beside.replace(place)
+    finally:
+        for ending in ("", "-wal", "-shm", "-journal"):
+            Path(f"{beside}{ending}").unlink(missing_ok=True)
+
+
+def _copy(source: Path, target: Path, findings: Findings) -> None:
+    meta: Mapping[str, Any] = {**findings.meta, "complete": False}
+    with closing(sqlite3.connect(target, isolation_level=None)) as made, reading(source) as damaged:
+        made.execute("PRAGMA journal_mode=WAL")
+        made.execute("BEGIN")
+        make_tables(made, {key: value for key, value in meta.items() if key != "digest"})
+        theirs, ours = UnitTable(damaged, meta["columns"]), UnitTable(made, meta["columns"])
+        for number in findings.whole:
+            unit, rows = theirs.entry(number), theirs.rows(number)
+            assert unit is not None
+            assert rows is not None  # they were read a moment ago
+            ours.add(number, unit.first, rows, unit.seconds)
+        made.execute("COMMIT")

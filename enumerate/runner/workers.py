@@ -1,0 +1,98 @@
+"""Who works on units: processes of this machine, or anything else that takes units and gives futures."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any, Protocol
+
+from enumerate.machine_code.notice import heard_by, to_workers
+from enumerate.runner.job import Job, Row
+
+__all__ = ["LocalWorkers", "Workers", "timed"]
+
+
+class Workers(Protocol):
+    """Those who work on units.
+
+    Attributes
+    ----------
+    number : int
+        How many work at the same time.
+    deaths : tuple of exception classes
+        What a future raises if a worker died.
+    """
+
+    number: int
+    deaths: tuple[type[BaseException], ...]
+
+    def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
+        """Give a unit to a worker; return its rows and seconds, to come."""
+
+    def check(self) -> None:
+        """Raise if nothing will come any more."""
+
+    def restart(self) -> None:
+        """Replace dead workers."""
+
+    def close(self, *, at_once: bool) -> None:
+        """Let them go; at once, if nobody waits for what they work on."""
+
+
+def timed(job: Job, payload: Any) -> tuple[list[Row], float]:
+    """Return the rows of a unit, and the seconds they took."""
+    begin = time.perf_counter()
+    rows = job.work(payload)
+    return rows, time.perf_counter() - begin
+
+
+class LocalWorkers:
+    """Processes of this machine; dead ones can be replaced."""
+
+    deaths: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self._executor = self._make()
+
+    def _make(self) -> ProcessPoolExecutor:
+        return ProcessPoolExecutor(self.number, initializer=_become_worker, initargs=(os.getpid(), to_workers()))
+
+    def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
+        """Give a unit to a process."""
+        return self._executor.submit(timed, job, payload)
+
+    def check(self) -> None:
+        """Nothing is to be done: a future tells of its own worker's death."""
+
+    def restart(self) -> None:
+        """Start other processes."""
+        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor = self._make()
+
+    def close(self, *, at_once: bool) -> None:
+        """End the processes, or wait until they have done what they work on."""
+        if at_once:  # an executor waits for units, which take as long as they take (3.14 has kill_workers)
+            for process in list((self._executor._processes or {}).values()):
+                process.terminate()
+        self._executor.shutdown(cancel_futures=True)
+
+
+def _become_worker(parent: int, shared: Any) -> None:
+    """Leave Ctrl-C to the parent, and do not outlive it; tell the user what only one process should."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "SIGHUP"):  # a terminal tells all processes that it closes
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    heard_by(shared)
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

@@ -1,0 +1,181 @@
+"""Stores that were damaged: what is lost is told and made again, what was altered is not believed."""
+
+import random
+import sqlite3
+
+import pytest
+from commands import run as command_line
+from toy_job import Squares
+
+from enumerate.chains.jobs import ChainJob
+from enumerate.chains.query import ChainQuery
+from enumerate.runner.running import run
+from enumerate.runner.store import SqliteSink, read_meta, read_rows
+from graphs.errors import StoreError
+
+JOB = Squares(1000)  # some ten pages
+ROWS = [(n, n * n) for n in range(1000)]
+
+
+@pytest.fixture(scope="module")
+def stores(tmp_path_factory):
+    """The bytes of a complete store, and of one that was left after 60 of its 100 units."""
+    folder = tmp_path_factory.mktemp("stores")
+    run(JOB, SqliteSink(folder / "complete.sqlite"))
+
+    def stop(progress):
+        if progress.done == 60:
+            raise StoreError("enough")
+
+    with pytest.raises(StoreError, match="enough"):
+        run(JOB, SqliteSink(folder / "left.sqlite"), report=stop)
+    return [(folder / name).read_bytes() for name in ("complete.sqlite", "left.sqlite")]
+
+
+def contents(store):
+    with sqlite3.connect(store) as connection:
+        units = connection.execute("SELECT id, state, rows FROM unit ORDER BY id").fetchall()
+        rows = connection.execute("SELECT rowid, * FROM type ORDER BY rowid").fetchall()
+        assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+    connection.close()
+    return units, rows
+
+
+WHOLE = (
+    [(unit, "done", 10) for unit in range(100)],
+    [(n + 1, n // 10, n, n * n) for n in range(1000)],
+)
+
+
+def altered(store, *statements):
+    with sqlite3.connect(store) as connection:
+        for statement in statements:
+            connection.execute(statement)
+    connection.close()
+
+
+def mended(store):
+    """Resume; return the lines that were told, and how many units were made."""
+    told, made = [], []
+    before = run(JOB, SqliteSink(store, resume=True, tell=told.append), report=lambda p: made.append(p.rows))
+    assert before.done == 100
+    assert contents(store) == WHOLE
+    assert read_meta(store)["complete"] is True
+    return told, len(made)
+
+
+@pytest.mark.parametrize(
+    ("statement", "lost"),
+    [
+        ("UPDATE type SET square = square + 1 WHERE rowid = 355", 1),
+        ("UPDATE type SET square = '1225' WHERE n = 35", 1),
+        ("UPDATE type SET unit = 4 WHERE n = 35", 1),
+        ("DELETE FROM type WHERE n IN (35, 48, 49)", 2),
+        ("DELETE FROM type WHERE n >= 970", 3),
+        ("DELETE FROM unit WHERE id IN (0, 7)", 2),
+        ("UPDATE unit SET rows = 11 WHERE id = 7", 1),
+        ("UPDATE unit SET rows = 'ten', first = NULL WHERE id = 7", 1),
+        ("UPDATE unit SET id = 700 WHERE id = 7", 1),
+        ("UPDATE unit SET digest = NULL", 100),
+        ("INSERT INTO type VALUES (4, 40, 1600)", 0),
+        ("INSERT INTO unit SELECT 100, state, first, rows, seconds, digest FROM unit WHERE id = 0", 0),
+    ],
+)
+def test_only_what_was_altered_is_made_again(tmp_path, stores, statement, lost):
+    store = tmp_path / "squares.sqlite"
+    store.write_bytes(stores[0])
+    altered(store, statement)
+    told, made = mended(store)
+    assert told == [f"{store}: was damaged; {100 - lost} of 100 units are whole, the others are made again"]
+    assert made == lost
+    assert mended(store) == ([], 0)
+    assert [path.name for path in tmp_path.iterdir()] == ["squares.sqlite"]
+
+
+def test_altered_rows_are_not_read(tmp_path, stores):
+    store = tmp_path / "squares.sqlite"
+    store.write_bytes(stores[0])
+    altered(store, "UPDATE type SET square = 0 WHERE n = 355")
+    rows = read_rows(store)
+    assert [next(rows) for _ in range(350)] == ROWS[:350]
+    with pytest.raises(StoreError, match="is damaged at unit 35; the same run with --resume mends it"):
+        next(rows)
+
+
+@pytest.mark.parametrize(
+    ("statement", "words"),
+    [
+        ("UPDATE meta SET value = '{\"squares\": 900}' WHERE key = 'job'", "what it says of itself was altered"),
+        ("UPDATE meta SET value = '{' WHERE key = 'job'", "what it says of itself was altered"),
+        ("UPDATE meta SET key = x'0102' WHERE key = 'columns'", "what it says of itself was altered"),
+        ("UPDATE meta SET value = '2' WHERE key = 'version'", "is not a store of version 3: .* version '2'"),
+        ("UPDATE meta SET value = 1 WHERE key = 'complete'", "what it says of itself was altered"),
+        ("DROP TABLE meta", "no such table: meta"),
+    ],
+)
+def test_a_store_whose_head_is_damaged_is_refused(tmp_path, stores, statement, words):
+    store = tmp_path / "squares.sqlite"
+    store.write_bytes(stores[0])
+    altered(store, statement)
+    before = store.read_bytes()
+    with pytest.raises(StoreError, match=words):
+        run(JOB, SqliteSink(store, resume=True))
+    with pytest.raises(StoreError, match=words):
+        list(read_rows(store))
+    assert store.read_bytes() == before
+
+
+def damaged(data, chance):
+    """Return bytes with a few of them altered, a stretch of zeros, or an end that is missing."""
+    data = bytearray(data)
+    kind = chance.randrange(4)
+    if kind == 0:
+        return bytes(data[: chance.randrange(len(data))])
+    if kind == 1:
+        start = chance.randrange(len(data))
+        zeros = min(chance.choice([16, 512, 4096]), len(data) - start)
+        data[start : start + zeros] = bytes(zeros)
+        return bytes(data)
+    for _ in range(chance.choice([1, 1, 8, 64])):
+        data[chance.randrange(len(data) if kind == 2 else 4096 * 3)] ^= 1 << chance.randrange(8)
+    return bytes(data)
+
+
+@pytest.mark.parametrize("cases", [40, pytest.param(400, marks=pytest.mark.slow)])
+def test_damage_anywhere_is_mended_or_told_in_one_line(tmp_path, stores, cases):
+    chance = random.Random(18)
+    good = 0
+    for case in range(cases):
+        store = tmp_path / f"{case}.sqlite"
+        store.write_bytes(damaged(stores[case % 2], chance))
+        try:
+            mended(store)
+        except StoreError as error:
+            assert str(error).startswith(f"{store}: ")
+            assert "\n" not in str(error)
+        else:
+            assert list(read_rows(store)) == ROWS
+            good += 1
+        for path in tmp_path.iterdir():
+            path.unlink()
+    assert good > cases / 2
+
+
+def test_a_damaged_store_at_the_command_line(tmp_path):
+    store = tmp_path / "chains.sqlite"
+    command = ("enumerate", "chains", "--links", 8, "--dof", 1, "-o", store)
+    job = ChainJob(ChainQuery(8, 1))
+    run(job, SqliteSink(store))
+    rows = list(read_rows(store))
+    altered(store, "UPDATE type SET links = 11 WHERE rowid = 5")
+    assert "exists already" in command_line(*command, code=2).stderr
+    units = len(job.units())
+    whole = f"{units - 1} of {units} units are whole"
+    assert (
+        command_line(*command, "--resume").stderr == f"{store}: was damaged; {whole}, the others are made again\n"
+    )
+    assert list(read_rows(store)) == rows
+    store.chmod(0)
+    store.unlink()
+    store.mkdir()
+    assert len(command_line(*command, "--resume", code=2).stderr.splitlines()) == 1
