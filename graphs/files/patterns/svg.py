@@ -23,6 +23,7 @@ from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.text import read_text
 from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.plain_text import plain
 
 __all__ = ["letter_of_colour", "sheet_from_svg", "svg_text"]
 
@@ -36,6 +37,7 @@ _COLOURS = {
 }
 _NEAR = 120
 """A stroke farther than this from every origami colour (in RGB) is no crease."""
+_LONGEST_TITLE = 1_000
 _PIECES = 8
 """Straight pieces of a curved segment."""
 
@@ -146,7 +148,7 @@ def svg_text(sheet: Sheet) -> str:
         f'viewBox="0 0 {width!r} {height!r}" stroke-width="{max(width, height) / 400:.6g}">'
     ]
     if sheet.title:
-        rows.append(f"<title>{escape(sheet.title)}</title>")
+        rows.append(f"<title>{escape(plain(sheet.title, _LONGEST_TITLE))}</title>")
     angles = sheet.fold_angles or (None,) * len(sheet.edges)
     for (a, b), letter, angle in zip(sheet.edges, sheet.assignments, angles, strict=True):
         red, green, blue = _COLOURS["F" if letter == "J" else letter]
