@@ -7,6 +7,7 @@ centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, l
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
@@ -16,7 +17,7 @@ import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import MOST_NODES, Checker
+from graphs.files.check import Checker
 from graphs.files.text import read_text
 from graphs.mechanism.sc import SCGraph
 
@@ -50,8 +51,9 @@ def read_graph6(path: Path) -> Iterator[tuple[int, nx.Graph]]:
         if not all(_GRAPH6_OFFSET <= ord(letter) <= 126 for letter in text.removeprefix(":")):
             raise FileError(path, place, f"not graph6: {shown(text)}", "graph6 or sparse6")
         order = _order(text.removeprefix(":"))
-        if order is None or order > MOST_NODES:
-            raise FileError(path, place, "the number of nodes is missing or too large", f"at most {MOST_NODES}")
+        if order is None:
+            raise FileError(path, place, "the number of nodes is missing", "graph6 or sparse6")
+        Checker(path).how_many(order, f"{place}: number of nodes")
         parse = nx.from_sparse6_bytes if text.startswith(":") else nx.from_graph6_bytes
         try:
             yield number, parse(text.encode("ascii"))
@@ -154,7 +156,7 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
     whole = all(re.fullmatch(r"-?\d{1,18}", word) for words in rows for word in words[:2])
     ids = [words[2] if len(words) == 3 else str(i) for i, words in enumerate(rows)]
     if len(set(ids)) < len(ids):
-        again = next(one for one in ids if ids.count(one) > 1)
+        again, _ = Counter(ids).most_common(1)[0]
         raise FileError(path, "", f"the joint id {shown(again)} occurs twice", "distinct ids")
     plain = all(len(words) == 2 for words in rows)
     graph = nx.MultiGraph()

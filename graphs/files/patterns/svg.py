@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from io import BytesIO
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
@@ -21,6 +22,7 @@ from graphs.convert.tracing import MOST, trace_sheet
 from graphs.convert.welding import Lines
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
+from graphs.files.patterns.svg_use import check_uses
 from graphs.files.text import read_text
 from graphs.mechanism.sheet import Sheet, flat_places
 from graphs.plain_text import plain
@@ -93,12 +95,15 @@ def _stroked_shapes(path: Path) -> Iterator[Any]:
     """Yield the shapes of an SVG file that have a stroke, transforms applied."""
     import svgelements
 
-    read_text(path)  # the plain errors: missing, a directory, empty, not text
+    text = read_text(path)
     try:
-        drawing = svgelements.SVG.parse(str(path), reify=True)
+        check_uses(text, path)
+        drawing = svgelements.SVG.parse(BytesIO(text.encode()), reify=True)
     except ParseError as error:
         line, column = error.position
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
+    except FileError:
+        raise
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
     if not isinstance(drawing, svgelements.SVG):
