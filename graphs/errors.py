@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from graphs.plain_text import plain, shown
+
 __all__ = [
     "FileError",
     "InvariantError",
@@ -20,28 +22,9 @@ __all__ = [
     "shown",
 ]
 
-_LONGEST_SHOWN = 60
-
-
-def shown(thing: object) -> str:
-    r"""Return a short, one-line, printable form of anything, for use in messages.
-
-    Names come from files, so they may be long, span lines or carry terminal control sequences.
-
-    Examples
-    --------
-    >>> shown("A")
-    "'A'"
-    >>> shown("two\nlines")
-    "'two\\nlines'"
-    >>> len(shown("x" * 10_000))
-    60
-    """
-    text = ascii(thing) if isinstance(thing, str) and not thing.isprintable() else repr(thing)
-    if len(text) > _LONGEST_SHOWN:
-        half = (_LONGEST_SHOWN - 3) // 2
-        text = text[: _LONGEST_SHOWN - 3 - half] + "..." + text[-half:]
-    return text
+_LONGEST_MESSAGE = 4_000
+_LONGEST_FILE = 4_096
+_LONGEST_PLACE = 120
 
 
 def numbered(number: int, word: str, more: str = "") -> str:
@@ -56,7 +39,10 @@ def numbered(number: int, word: str, more: str = "") -> str:
 
 
 class SynthedraError(Exception):
-    """Root of every error raised on purpose."""
+    """Root of every error raised on purpose; its text is one printable line, whatever names it tells."""
+
+    def __str__(self) -> str:
+        return plain(super().__str__(), _LONGEST_MESSAGE)
 
 
 class FileError(SynthedraError, ValueError):
@@ -84,9 +70,10 @@ class FileError(SynthedraError, ValueError):
         self.file, self.place, self.found, self.expected = str(file), place, found, expected
 
     def __str__(self) -> str:
-        name = self.file if self.file.isprintable() else ascii(self.file)
-        where = f"{name}: {self.place}: " if self.place else f"{name}: "
-        return where + self.found + (f"; expected {self.expected}" if self.expected else "")
+        name = plain(self.file, _LONGEST_FILE)
+        where = f"{name}: {plain(self.place, _LONGEST_PLACE)}: " if self.place else f"{name}: "
+        wrong = self.found + (f"; expected {self.expected}" if self.expected else "")
+        return where + plain(wrong, _LONGEST_MESSAGE)
 
 
 class OpenError(FileError, OSError):
@@ -128,7 +115,7 @@ class InvariantError(SynthedraError, ValueError):
 
     def __str__(self) -> str:
         tail = f"; expected {self.expected}" if self.expected else ""
-        return f"{self.offender}{tail} [{self.rule}]"
+        return plain(f"{self.offender}{tail} [{self.rule}]", _LONGEST_MESSAGE)
 
 
 class UnsolvableError(SynthedraError):

@@ -12,30 +12,16 @@ from html import escape
 from io import StringIO
 from typing import TYPE_CHECKING, Any, Literal
 
+from graphs.plain_text import plain, plain_lines
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
 __all__ = ["Block", "TableBlock", "html_of", "plain", "rich_table", "text_of"]
 
-WIDEST = 60
 UNWRAPPED = 10_000
 """Columns of a page whose lines are not to be wrapped: a file, a pipe, a string."""
-
-
-def plain(value: object, widest: int = WIDEST) -> str:
-    r"""Return text that is safe to print: one line, no control characters, not too long.
-
-    Examples
-    --------
-    >>> plain("\x1b[31mred")
-    '\\x1b[31mred'
-    >>> plain(None)
-    '-'
-    """
-    text = "-" if value is None else str(value)
-    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
-    return text if len(text) <= widest else text[: widest - 3] + "..."
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,10 +68,17 @@ def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = N
 
 
 def console_for(stream: Any, width: int | None) -> Console:
-    """Return a console that prints names as they are: brackets in them are no markup."""
+    """Return a console to which brackets are no markup, and which prints no control characters."""
     from rich.console import Console
+    from rich.text import Text
 
-    return Console(file=stream, markup=False, highlight=False, emoji=False, soft_wrap=False, width=width)
+    class PlainConsole(Console):
+        """Every text that is printed, cells of tables too, comes through here."""
+
+        def render_str(self, text: str, **how: Any) -> Text:
+            return super().render_str(plain_lines(text), **how)
+
+    return PlainConsole(file=stream, markup=False, highlight=False, emoji=False, soft_wrap=False, width=width)
 
 
 def text_of(blocks: Iterable[Block]) -> str:
@@ -117,15 +110,21 @@ def html_of(blocks: Iterable[Block]) -> str:
     '<p>a &lt; b</p>'
     """
     return "\n".join(
-        _html_table(block) if isinstance(block, TableBlock) else f"<p>{escape(block)}</p>" for block in blocks
+        _html_table(block) if isinstance(block, TableBlock) else f"<p>{_html_text(block)}</p>" for block in blocks
     )
+
+
+def _html_text(text: str) -> str:
+    return escape(plain_lines(text))
 
 
 def _html_table(table: TableBlock) -> str:
     flush = [' style="text-align: right"' if column in table.numbers else "" for column in table.columns]
 
     def cells(texts: Sequence[str], tag: str) -> str:
-        return "".join(f"<{tag}{style}>{escape(text)}</{tag}>" for style, text in zip(flush, texts, strict=True))
+        return "".join(
+            f"<{tag}{style}>{_html_text(text)}</{tag}>" for style, text in zip(flush, texts, strict=True)
+        )
 
     rows = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in table.rows)
     return f"<table><thead><tr>{cells(table.columns, 'th')}</tr></thead><tbody>{rows}</tbody></table>"

@@ -11,6 +11,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from graphs.plain_text import plain
+
 __all__ = ["Column", "ListColumn", "RangeColumn", "row_as_dict", "stored", "unstored"]
 
 
@@ -47,9 +49,9 @@ class ListColumn:
         return self.between.join(map(self.item_text, values))
 
     def item_text(self, item: Any) -> str:
-        """Return how a table shows an item."""
+        """Return how a table shows an item; names come from files, so they may be long."""
         if not isinstance(item, tuple):
-            return f"{item:.12g}" if isinstance(item, float) else str(item)
+            return f"{item:.12g}" if isinstance(item, float) else plain(item)
         *first, last = map(self.item_text, item)
         return self.within.join(first) + (self.before_last or self.within) + last
 

@@ -16,6 +16,7 @@ from graphs.errors import InvariantError
 from graphs.ids import JointId, Joints, LinkId
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.work_limits import check_work
 
 __all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]
 
@@ -87,7 +88,8 @@ def sc_from_link_joint_graph(
     Raises
     ------
     InvariantError
-        For a self-joint, or for ``closed`` where a block has no embedding in the sphere.
+        For a self-joint, for ``closed`` where a block has no embedding in the sphere, or for a block that is not
+        planar and has more joints than the limit ``basis`` (:mod:`graphs.work_limits`).
 
     Examples
     --------
@@ -135,6 +137,7 @@ def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict
 def _cycles(block: nx.Graph, joint_of: dict[frozenset[object], JointId]) -> BlockCycles:
     planar, embedding = nx.check_planarity(block)
     if not planar:
+        check_work("basis", block.number_of_edges(), "joints in a part that is not planar")
         basis = nx.minimum_cycle_basis(block)
         return BlockCycles(tuple(_as_joints(nodes, joint_of) for nodes in basis), None)
     seen: set[tuple[object, object]] = set()

@@ -8,18 +8,25 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import Any
 
-import networkx as nx
 import numpy as np
 import numpy.typing as npt
 import shapely
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Edge
+from graphs.work_limits import check_work
 
 __all__ = ["Lines", "Network", "crossings", "either_way", "network_of"]
 
+_SAME = 1e-3
+"""Crossings nearer than this, in units of the tolerance, are one that was found more than once."""
+_PIECE = 256
+"""Lines whose meetings are looked for at once."""
 _RANK = "MVUFJBC"
 """Of two lines in one place the one whose letter comes first here counts."""
 
@@ -102,14 +109,17 @@ def network_of(lines: Lines, tolerance: float) -> Network:
     >>> len(network.edges), network.dangling, network.notes["crossing(s) split"]
     (7, 0, 1)
     """
+    lines, again = _distinct(lines)
     long = np.linalg.norm(lines.ends[:, 1] - lines.ends[:, 0], axis=1) > tolerance
     kept = [int(i) for i in np.flatnonzero(long)]
     letters = [lines.letters[i] for i in kept]
     angles = [None if lines.angles is None else lines.angles[i] for i in kept]
-    notes = Counter({"line(s) of no length dropped": int((~long).sum())})
+    notes = Counter({"line(s) of no length dropped": int((~long).sum()), "line(s) drawn twice": again})
     ends = lines.ends[long]
     tree = shapely.STRtree(shapely.linestrings(ends))
-    loose = np.concatenate([ends.reshape(-1, 2), crossings(ends, tolerance)])
+    found = crossings(ends, tolerance)
+    check_work("crossings", len(found), "crossings of lines")
+    loose = np.concatenate([ends.reshape(-1, 2), found])
     points, of_point = _welded(loose, tolerance)
     notes["crossing(s) split"] = len(set(of_point[2 * len(ends) :]) - set(of_point[: 2 * len(ends)]))
     at = _points_on_lines(points, ends, tree, tolerance)
@@ -147,7 +157,7 @@ def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
 
 
 def crossings(ends: Floats, tolerance: float) -> Floats:
-    """Return the points where two lines cross away from all four ends.
+    """Return the points where two lines cross away from all four ends; where many do, once.
 
     Parameters
     ----------
@@ -162,9 +172,7 @@ def crossings(ends: Floats, tolerance: float) -> Floats:
     [[1.0, 1.0]]
     """
     segments = shapely.linestrings(ends)
-    tree = shapely.STRtree(segments)
-    one, two = tree.query(segments, predicate="intersects")
-    one, two = one[one < two], two[one < two]
+    one, two = _pairs(shapely.STRtree(segments), segments, predicate="intersects")
     p, r = ends[one, 0], ends[one, 1] - ends[one, 0]
     q, s = ends[two, 0], ends[two, 1] - ends[two, 0]
     area = r[:, 0] * s[:, 1] - r[:, 1] * s[:, 0]
@@ -176,21 +184,51 @@ def crossings(ends: Floats, tolerance: float) -> Floats:
     away = np.ones(len(found), dtype=bool)
     for end in (p, p + r, q, q + s):
         away &= np.linalg.norm(found - end, axis=1) > tolerance
-    return found[away]
+    found = found[away]
+    _, first = np.unique(np.round(found / (tolerance * _SAME)), axis=0, return_index=True)
+    return found[np.sort(first)]
 
 
 def _welded(points: Floats, tolerance: float) -> tuple[Floats, npt.NDArray[np.int64]]:
     """Make points that hang together within a tolerance one, at the place of the first; return which is which."""
     geometry = shapely.points(points)
-    one, two = shapely.STRtree(geometry).query(geometry, predicate="dwithin", distance=tolerance)
-    parts = nx.utils.UnionFind(range(len(points)))
-    for a, b in zip(one[one < two].tolist(), two[one < two].tolist(), strict=True):
-        parts.union(a, b)
-    number: dict[int, int] = {}
-    place = np.array([number.setdefault(parts[i], len(number)) for i in range(len(points))], dtype=np.int64)
-    first = np.full(len(number), len(points))
-    np.minimum.at(first, place, np.arange(len(points)))
-    return points[first], place
+    pairs = _pairs(shapely.STRtree(geometry), geometry, predicate="dwithin", distance=tolerance)
+    near = coo_array((np.ones(len(pairs[0]), dtype=np.int8), pairs), shape=(len(points), len(points)))
+    _, part = connected_components(near, directed=False)
+    _, first, place = np.unique(part, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # vertices are numbered as their first points are
+    return points[first[order]], np.argsort(order)[place]
+
+
+def _pairs(
+    tree: shapely.STRtree, geometry: npt.NDArray[np.object_], **how: Any
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Return the pairs (i < k) of a tree's own members that a query finds, in pieces: they may be too many."""
+    found, total = [np.empty((2, 0), dtype=np.int64)], 0
+    for start in range(0, len(geometry), _PIECE):
+        pairs = tree.query(geometry[start : start + _PIECE], **how)
+        pairs[0] += start
+        found.append(pairs[:, pairs[0] < pairs[1]])
+        total += found[-1].shape[1]
+        check_work("meetings", total, "or more pairs of lines that meet, or ends that are near each other")
+    one, two = np.concatenate(found, axis=1)
+    return one, two
+
+
+def _distinct(lines: Lines) -> tuple[Lines, int]:
+    """Leave one of lines that are equal, whichever end comes first; return also how many were left out."""
+    there, back = lines.ends.reshape(-1, 4), lines.ends[:, ::-1].reshape(-1, 4)
+    turned = (lines.ends[:, 0] > lines.ends[:, 1])[:, 0] | (
+        (lines.ends[:, 0, 0] == lines.ends[:, 1, 0]) & (lines.ends[:, 0, 1] > lines.ends[:, 1, 1])
+    )
+    _, of_line = np.unique(np.where(turned[:, None], back, there), axis=0, return_inverse=True)
+    rank = np.array([_RANK.index(letter) for letter in lines.letters])
+    best = np.lexsort((rank, of_line.ravel()))
+    first = np.concatenate([[True], np.diff(of_line.ravel()[best]) > 0]) if len(best) else np.empty(0, dtype=bool)
+    kept = np.sort(best[first])
+    angles = None if lines.angles is None else tuple(lines.angles[i] for i in kept)
+    letters = "".join(lines.letters[i] for i in kept)
+    return Lines(lines.ends[kept], letters, angles), len(rank) - len(kept)
 
 
 def _points_on_lines(

@@ -16,7 +16,7 @@ import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import MOST_NODES, Checker
+from graphs.files.check import Checker
 from graphs.files.text import read_text
 from graphs.mechanism.sc import SCGraph
 
@@ -48,8 +48,9 @@ def read_graph6(path: Path) -> Iterator[tuple[int, nx.Graph]]:
         if not all(_GRAPH6_OFFSET <= ord(letter) <= 126 for letter in text.removeprefix(":")):
             raise FileError(path, place, f"not graph6: {shown(text)}", "graph6 or sparse6")
         order = _order(text.removeprefix(":"))
-        if order is None or order > MOST_NODES:
-            raise FileError(path, place, "the number of nodes is missing or too large", f"at most {MOST_NODES}")
+        if order is None:
+            raise FileError(path, place, "the number of nodes is missing", "graph6 or sparse6")
+        Checker(path).how_many(order, f"{place}: number of nodes")
         parse = nx.from_sparse6_bytes if text.startswith(":") else nx.from_graph6_bytes
         try:
             yield number, parse(text.encode("ascii"))

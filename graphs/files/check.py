@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, shown
+from graphs.work_limits import how_to_raise, most
 
-__all__ = ["MOST_NODES", "Checker"]
-
-MOST_NODES = 2_000_000
-"""Most links or vertices that a bare number in a file may call for."""
+__all__ = ["Checker"]
 
 T = TypeVar("T")
 
@@ -71,6 +69,13 @@ class Checker:
             limits = f"{least} or more" if most is None else f"{least} to {most}"
             raise FileError(self.path, place, shown(value), limits)
         return value
+
+    def how_many(self, value: Any, place: str) -> int:
+        """Return a number of links or vertices, not beyond the limit."""
+        number = self.integer(value, place)
+        if number > most("nodes"):
+            raise FileError(self.path, place, shown(number), how_to_raise("nodes", number))
+        return number
 
     def number(self, value: Any, place: str) -> float:
         """Return a finite number."""

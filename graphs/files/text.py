@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
+import stat
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
 from graphs.errors import FileError, OpenError
 from graphs.files.atomic import reason_of
+from graphs.work_limits import how_to_raise, most
 
 __all__ = ["json_text", "load_json", "read_text"]
 
@@ -19,14 +23,14 @@ def read_text(path: Path) -> str:
     Raises
     ------
     FileError
-        If the file is missing, a directory, not readable, empty or not text.
+        If the file is missing, a directory, a pipe, socket or device, not readable, too large, empty or not text.
     """
     try:
-        raw = path.read_bytes()
+        raw = _bytes_of(path)
+    except FileError:
+        raise
     except FileNotFoundError:
         raise OpenError(path, "", "no such file", "a file") from None
-    except IsADirectoryError:
-        raise OpenError(path, "", "a directory", "a file") from None
     except PermissionError:
         raise OpenError(path, "", "no permission to read it") from None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
@@ -42,6 +46,30 @@ def read_text(path: Path) -> str:
     return text
 
 
+_KINDS = {stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFCHR: "a device", stat.S_IFBLK: "a device"}
+_MEGABYTE = 10**6
+
+
+def _bytes_of(path: Path) -> bytes:
+    """Return what is in a regular file; others may never end, or never begin."""
+    _check_regular(path, path.stat())
+    at_once = getattr(os, "O_NONBLOCK", 0)  # a pipe would wait for somebody who writes to it
+    with os.fdopen(os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | at_once), "rb") as file:
+        _check_regular(path, os.fstat(file.fileno()))  # it may be another by now
+        return file.read()
+
+
+def _check_regular(path: Path, entry: os.stat_result) -> None:
+    kind = stat.S_IFMT(entry.st_mode)
+    if kind == stat.S_IFDIR:
+        raise OpenError(path, "", "a directory", "a file")
+    if kind in _KINDS:
+        raise OpenError(path, "", _KINDS[kind], "a regular file")
+    if entry.st_size > most("megabytes") * _MEGABYTE:
+        needed = -(-entry.st_size // _MEGABYTE)
+        raise FileError(path, "", f"{needed} megabytes", how_to_raise("megabytes", needed))
+
+
 def load_json(path: Path) -> Any:
     """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys.
 
@@ -55,9 +83,8 @@ def load_json(path: Path) -> Any:
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         value = dict(pairs)
         if len(value) < len(pairs):
-            keys = [key for key, _ in pairs]
-            again = next(key for key in keys if keys.count(key) > 1)
-            raise FileError(path, again if again.isprintable() else ascii(again), "the key occurs twice", "once")
+            (again, _), *_ = Counter(key for key, _ in pairs).most_common(1)
+            raise FileError(path, again, "the key occurs twice", "once")
         return value
 
     def no_constant(name: str) -> NoReturn:

@@ -49,7 +49,7 @@ class VertexEdgeGraph:
 
     def __init__(self, vertices: Mapping[Hashable, Sequence[JointId]]) -> None:
         self._vertices = {vertex: tuple(creases) for vertex, creases in vertices.items()}
-        self._creases: dict[JointId, tuple[Hashable, ...]] = {}
+        ends_of: dict[JointId, list[Hashable]] = {}
         for vertex, creases in self._vertices.items():
             if len(creases) < 2 or len(set(creases)) < len(creases):
                 raise InvariantError(
@@ -58,7 +58,8 @@ class VertexEdgeGraph:
                     "two or more, each once",
                 )
             for crease in creases:
-                self._creases[crease] = (*self._creases.get(crease, ()), vertex)
+                ends_of.setdefault(crease, []).append(vertex)
+        self._creases: dict[JointId, tuple[Hashable, ...]] = {c: tuple(ends) for c, ends in ends_of.items()}
         for crease, ends in self._creases.items():
             if len(ends) > 2:
                 raise InvariantError(

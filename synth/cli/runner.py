@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from graphs.plain_text import LONGEST_CELL
 from synth.cli.output import console, plain, print_json, table
 
 if TYPE_CHECKING:
@@ -240,7 +241,8 @@ class _Printer:
 
 def _text_of(column: Column) -> Callable[[Any], str]:
     """Return what makes the text of a value of a column."""
-    return _cell if isinstance(column, type) else column.text
+    made = _cell if isinstance(column, type) else column.text
+    return lambda value: plain(made(value), LONGEST_CELL)
 
 
 def _cell(value: object) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.plain_text import plain_label
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
 from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.pose import joint_axes, strip
@@ -18,6 +19,8 @@ from synth.conformed.rates import ConformedChain, first_order
 from synth.drawing.figure import COLOURS, new_figure
 
 __all__ = ["draw_conformed"]
+
+_LONGEST_TITLE = 400
 
 _WAYS = {
     Way.OUTWARD: "out",
@@ -72,7 +75,7 @@ def draw_conformed(
     if cone_angle is not None:
         _cone(figure.add_subplot(1, 2, 2, projection="3d"), chain, t, laid, cone_angle)
     if title:
-        figure.suptitle(title)
+        figure.suptitle(plain_label(title, _LONGEST_TITLE))
     return figure
 
 
@@ -116,13 +119,14 @@ def _circle(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, gr
 def _name_joints(axes: Any, chain: ConformedChain, t: Floats) -> None:
     for joint, place in zip(chain.joints, t, strict=True):
         axes.text(
-            0.87 * np.sin(place), 0.87 * np.cos(place), str(joint)[:8], ha="center", va="center", zorder=6,
+            0.87 * np.sin(place), 0.87 * np.cos(place), plain_label(str(joint)[:8]),
+            ha="center", va="center", zorder=6,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "boxstyle": "round,pad=0.12"},
         )  # fmt: skip
 
 
 def _link_name(chain: ConformedChain, number: int) -> str:
-    return "link " + "".join(f"{chain.joints[joint]!s:.4}" for joint in chain.joints_of[number])
+    return "link " + "".join(plain_label(str(chain.joints[joint])[:4]) for joint in chain.joints_of[number])
 
 
 def _shadow(axes: Any, chain: ConformedChain, t: Floats) -> None:
@@ -163,7 +167,7 @@ def _cone(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, cone
         axes.add_collection3d(Poly3DCollection(panels, facecolor=colour, edgecolor=colour, linewidth=0.4))
     for joint, axis in zip(chain.joints, joint_axes(t, cone_angle), strict=True):
         axes.plot(*_upright(np.stack([np.zeros(3), 1.1 * axis])), color="black", linewidth=0.9)
-        axes.text(*_upright(1.22 * axis), str(joint)[:8], ha="center", va="center")
+        axes.text(*_upright(1.22 * axis), plain_label(str(joint)[:8]), ha="center", va="center")
     reach = 1.1 * np.cos(cone_angle)
     deep = 1.1 * np.sin(cone_angle)
     middle = deep / 2

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable
 from typing import Any
 
 from graphs.errors import UnsolvableError, shown
-from graphs.files.check import MOST_NODES, Checker
+from graphs.files.check import Checker
 
 __all__ = ["count_or_names", "head", "is_count", "names", "tuple_of", "written"]
 
@@ -48,7 +48,7 @@ def names(value: Any, key: str, check: Checker) -> list[Hashable]:
         return [check.name(name, f"{key}[{i}]") for i, name in enumerate(value)]
     if isinstance(value, bool) or not isinstance(value, int):
         check.fail(key, value, "a list of names, or how many")
-    return list(range(check.integer(value, key, most=MOST_NODES)))
+    return list(range(check.how_many(value, key)))
 
 
 def tuple_of(

@@ -16,12 +16,13 @@ import numpy as np
 
 from graphs.convert.loose_creases import creases_on_no_face, joins_faces, traced_anew
 from graphs.errors import FileError
-from graphs.files.check import MOST_NODES, Checker
+from graphs.files.check import Checker
 from graphs.files.patterns.fold_frames import resolved_frame
 from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import json_text, load_json
 from graphs.mechanism.plane import flattened
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet
+from graphs.work_limits import most
 
 __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
 
@@ -208,12 +209,13 @@ def fold_text(sheet: Sheet) -> str:
 
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
     rows = []
+    last = most("nodes")
     for i, row in enumerate(check.list(value, key)):
         # Large files are read row by row at this speed; a row that fails is looked at closely.
-        if type(row) is not list or not all(type(v) is int and 0 <= v <= MOST_NODES for v in row):
+        if type(row) is not list or not all(type(v) is int and 0 <= v <= last for v in row):
             place = f"{key}[{i}]"
             for k, v in enumerate(check.list(row, place, what="a list of vertices")):
-                check.integer(v, f"{place}[{k}]", most=MOST_NODES)
+                check.how_many(v, f"{place}[{k}]")
         rows.append(tuple(row))
     return tuple(rows)
 

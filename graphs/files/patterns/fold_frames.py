@@ -6,7 +6,7 @@ frame (0) or an earlier or later one.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import Any
 
 from graphs.errors import FileError
@@ -54,12 +54,8 @@ def resolved_frame(
         if frame >= len(frames):
             raise FileError(check.path, "", f"no frame {frame}", f"a frame from 0 to {len(frames) - 1}")
         return _inherited(frames, frame, check, notes), list(dict.fromkeys(notes))
-    chosen, which = _named_today(document, notes), 0
-    for index in range(len(frames)):
-        found = _inherited(frames, index, check, notes)
-        if found.get("faces_vertices") or found.get("edges_vertices"):
-            chosen, which = found, index
-            break
+    which = _first_with_pattern(frames, check, notes)
+    chosen = _inherited(frames, which, check, notes)
     if which:
         notes.append(f"the key frame is empty; frame {which} of {len(frames) - 1} was read")
     elif len(frames) > 1:
@@ -67,22 +63,53 @@ def resolved_frame(
     return chosen, list(dict.fromkeys(notes))
 
 
+_PATTERN = ("faces_vertices", "edges_vertices")
+
+
+def _first_with_pattern(frames: list[Mapping[str, Any]], check: Checker, notes: list[str]) -> int:
+    """Return the number of the first frame that has faces or edges, its own or inherited; else 0.
+
+    What a frame has is found from what its parent has: a chain of frames is gone through once, not from each.
+    """
+    has: dict[int, dict[str, bool]] = {}
+    for index in range(len(frames)):
+        for one in reversed(_ancestors(frames, index, check, has)):
+            own, parent = _named_today(frames[one], notes), _parent(frames, one, check)
+            above = {} if parent is None else has[parent]
+            has[one] = {key: bool(own[key]) if key in own else above.get(key, False) for key in _PATTERN}
+        if any(has[index].values()):
+            return index
+    return 0
+
+
+def _ancestors(
+    frames: list[Mapping[str, Any]], index: int, check: Checker, known: Container[int] = ()
+) -> list[int]:
+    """Return a frame, its parent, and so on up to one that is known or inherits nothing."""
+    chain: dict[int, None] = {}
+    above: int | None = index
+    while above is not None and above not in known:
+        if above in chain:
+            place = f"file_frames[{above - 1}].frame_parent"
+            raise FileError(check.path, place, "frames inherit in a circle", "an end to it")
+        chain[above] = None
+        above = _parent(frames, above, check)
+    return list(chain)
+
+
+def _parent(frames: list[Mapping[str, Any]], index: int, check: Checker) -> int | None:
+    frame = frames[index]
+    if not index or frame.get("frame_inherit") is not True:
+        return None
+    place = f"file_frames[{index - 1}].frame_parent"
+    return check.integer(frame.get("frame_parent", 0), place, most=len(frames) - 1)
+
+
 def _inherited(frames: list[Mapping[str, Any]], index: int, check: Checker, notes: list[str]) -> dict[str, Any]:
     """Return a frame with what it inherits."""
-    chain, seen = [], set()
-    while True:
-        place = f"file_frames[{index - 1}]"
-        if index in seen:
-            raise FileError(check.path, f"{place}.frame_parent", "frames inherit in a circle", "an end to it")
-        seen.add(index)
-        frame = frames[index]
-        chain.append(_named_today(frame, notes))
-        if not index or frame.get("frame_inherit") is not True:
-            break
-        index = check.integer(frame.get("frame_parent", 0), f"{place}.frame_parent", most=len(frames) - 1)
     merged: dict[str, Any] = {}
-    for frame in reversed(chain):
-        merged |= {key: value for key, value in frame.items() if value is not None}
+    for one in reversed(_ancestors(frames, index, check)):
+        merged |= _named_today(frames[one], notes)
     return merged
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from io import BytesIO
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
@@ -22,13 +23,16 @@ from graphs.convert.welding import Lines
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.strokes import COLOURS, described_strokes, kind_of_stroke, letter_of_stroke
+from graphs.files.patterns.svg_use import check_uses
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
 from graphs.mechanism.plane import flat_places
 from graphs.mechanism.sheet import Sheet
+from graphs.plain_text import plain
 
 __all__ = ["sheet_from_svg", "svg_text"]
 
+_LONGEST_TITLE = 1_000
 _PIECES = 8
 """Straight pieces of a curved segment."""
 
@@ -75,12 +79,15 @@ def _stroked_shapes(path: Path) -> Iterator[Any]:
     """Yield the shapes of an SVG file that have a stroke, transforms applied."""
     import svgelements
 
-    read_text(path)  # the plain errors: missing, a directory, empty, not text
+    text = read_text(path)
     try:
-        drawing = svgelements.SVG.parse(str(path), reify=True)
+        check_uses(text, path)
+        drawing = svgelements.SVG.parse(BytesIO(text.encode()), reify=True)
     except ParseError as error:
         line, column = error.position
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
+    except FileError:
+        raise
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
     if not isinstance(drawing, svgelements.SVG):
@@ -130,7 +137,7 @@ def svg_text(sheet: Sheet) -> str:
         f'viewBox="0 0 {width!r} {height!r}" stroke-width="{max(width, height) / 400:.6g}">'
     ]
     if sheet.title:
-        rows.append(f"<title>{escape(sheet.title)}</title>")
+        rows.append(f"<title>{escape(plain(sheet.title, _LONGEST_TITLE))}</title>")
     angles = sheet.fold_angles or (None,) * len(sheet.edges)
     for (a, b), letter, angle in zip(sheet.edges, sheet.assignments, angles, strict=True):
         red, green, blue = COLOURS["F" if letter == "J" else letter]
