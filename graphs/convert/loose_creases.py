@@ -29,10 +29,10 @@ def creases_on_no_face(sheet: Sheet) -> int:
     >>> creases_on_no_face(Sheet(4, ((0, 2), (1, 3)), "MV", ((0, 1, 2), (0, 2, 3))))
     1
     """
-    sides = {frozenset(side) for face in sheet.faces for side in sides_of_face(face)}
+    sides = {side for face in sheet.faces for side in sides_of_face(face)}
     return sum(
-        letter in HINGES and frozenset(edge) not in sides
-        for edge, letter in zip(sheet.edges, sheet.assignments, strict=True)
+        letter in HINGES and (a, b) not in sides and (b, a) not in sides
+        for (a, b), letter in zip(sheet.edges, sheet.assignments, strict=True)
     )
 
 

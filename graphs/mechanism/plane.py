@@ -132,8 +132,8 @@ def _normal(places: Floats, tolerance: float) -> Floats:
 
 def _area_vector(places: Floats, faces: Sequence[Sequence[int]]) -> Floats:
     """Return the sum of the areas of faces, as vectors."""
-    total = np.zeros(3)
-    for face in faces:
-        corners = places[list(face)] - places[face[0]]
-        total += np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+    starts = np.array([vertex for face in faces for vertex in face], dtype=np.int64)
+    ends = np.array([vertex for face in faces for vertex in (*face[1:], face[0])], dtype=np.int64)
+    middle = places.mean(axis=0)
+    total: Floats = np.cross(places[starts] - middle, places[ends] - middle).sum(axis=0)
     return total
