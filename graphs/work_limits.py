@@ -18,11 +18,11 @@ __all__ = ["LIMITS", "VARIABLE", "check_work", "how_to_raise", "most"]
 VARIABLE = "SYNTHEDRA_MOST"
 LIMITS = {
     "megabytes": 100,
-    "nodes": 300_000,
-    "basis": 300,
-    "crossings": 40_000,
-    "meetings": 2_000_000,
-    "shapes": 100_000,
+    "nodes": 250_000,
+    "basis": 250,
+    "crossings": 15_000,
+    "meetings": 1_000_000,
+    "shapes": 30_000,
 }
 """Name to the most that is allowed:
 
@@ -31,7 +31,7 @@ LIMITS = {
 - ``basis``: joints of a part that is not planar, of a bare graph, which needs a shortest cycle basis;
 - ``crossings``: points where lines of a pattern cross;
 - ``meetings``: pairs of lines that meet, and of ends that are near each other;
-- ``shapes``: of an SVG file, each counted as often as it is used.
+- ``shapes``: elements of an SVG file that ``use`` draws beyond those that are written there.
 """
 
 
@@ -51,7 +51,7 @@ def most(name: str) -> int:
     Examples
     --------
     >>> most("shapes")
-    100000
+    30000
     """
     found = dict(LIMITS)
     for part in filter(None, os.environ.get(VARIABLE, "").split(",")):
@@ -68,7 +68,7 @@ def how_to_raise(name: str, needed: int | None = None) -> str:
     Examples
     --------
     >>> how_to_raise("shapes", 200_000)
-    'at most 100000 (SYNTHEDRA_MOST=shapes=200000 allows more)'
+    'at most 30000 (SYNTHEDRA_MOST=shapes=200000 allows more)'
     """
     limit = most(name)
     return f"at most {limit} ({VARIABLE}={name}={max(needed or 0, 2 * limit)} allows more)"
@@ -96,7 +96,7 @@ def check_work(name: str, needed: int, what: str) -> None:
     >>> check_work("basis", 4950, "joints in a part that is not planar")
     Traceback (most recent call last):
     ...
-    graphs.errors.InvariantError: 4950 joints in a part that is not planar; expected at most 300 \
+    graphs.errors.InvariantError: 4950 joints in a part that is not planar; expected at most 250 \
 (SYNTHEDRA_MOST=basis=4950 allows more) [limit]
     """
     if needed > most(name):

@@ -28,7 +28,7 @@ def new_figure(width: float, height: float) -> Any:
     Raises
     ------
     UnsolvableError
-        If matplotlib is not installed.
+        If matplotlib is not installed, or finds no folder that it can write to.
 
     Examples
     --------
@@ -39,6 +39,8 @@ def new_figure(width: float, height: float) -> Any:
         from matplotlib.figure import Figure
     except ImportError:
         raise UnsolvableError("pictures need matplotlib: pip install 'synthedra[draw]'") from None
+    except OSError:  # neither a home nor a temporary folder
+        raise UnsolvableError("matplotlib needs a folder to write to: name one in MPLCONFIGDIR") from None
     return Figure(figsize=(width, height), layout="constrained")
 
 

@@ -19,7 +19,7 @@ def check_uses(text: str, path: Path) -> None:
     Raises
     ------
     FileError
-        If there are more elements than the limit ``shapes``, each counted as often as it is used.
+        If what is used is drawn again more often than the limit ``shapes``, or a shape uses itself.
     ElementTree.ParseError
         If it is not XML.
     """
@@ -43,8 +43,9 @@ def check_uses(text: str, path: Path) -> None:
         if around := [one for one in missing if one in open_ones]:
             raise FileError(path, "", f"the shape {shown(around[0].get('id'))} uses itself", "an end to it")
         waiting += missing
-    if drawn[root] > most("shapes"):
-        raise FileError(path, "", f"{drawn[root]} shapes, used ones included", how_to_raise("shapes", drawn[root]))
+    more = drawn[root] - len(drawn)
+    if more > most("shapes"):
+        raise FileError(path, "", f"{more} shapes drawn by 'use'", how_to_raise("shapes", more))
 
 
 def _used(element: ElementTree.Element, named: dict[str | None, ElementTree.Element]) -> list[ElementTree.Element]:

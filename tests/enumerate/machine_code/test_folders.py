@@ -121,3 +121,14 @@ def test_a_folder_that_is_used_stays_young(tmp_path):
     touch(tmp_path / "nowhere")
     assert time.time() - folder.stat().st_mtime < DAY
     assert today.stat().st_mtime == before
+
+
+def test_nowhere_to_write_is_no_error(tmp_path, monkeypatch):
+    """No folder named, no home that is this user's, no temporary folder: code is compiled, and kept nowhere."""
+    closed = tmp_path / "a file, no folder"
+    closed.write_text("")
+    monkeypatch.setenv("SYNTHEDRA_CACHE", str(closed / "cache"))
+    monkeypatch.setenv("HOME", str(closed / "home"))
+    monkeypatch.setattr(tempfile, "tempdir", str(closed / "tmp"))
+    assert list(usable_bases()) == []
+    assert writable_base() is None

@@ -1,3 +1,7 @@
+import os
+import subprocess
+import sys
+
 import pytest
 
 from graphs.errors import FileError
@@ -23,3 +27,25 @@ def test_a_folder_that_is_not_there(tmp_path):
     pytest.importorskip("matplotlib")
     with pytest.raises(FileError, match="nowhere"):
         save_figure(new_figure(1, 1), tmp_path / "nowhere" / "a.png")
+
+
+def test_a_user_who_can_write_nowhere_is_told(tmp_path):
+    """matplotlib wants a folder for its list of fonts when it is imported."""
+    pytest.importorskip("matplotlib")
+    closed = tmp_path / "a file, no folder"
+    closed.write_text("")
+    code = f"""
+import tempfile
+tempfile._candidate_tempdir_list = lambda: [{str(closed / "tmp")!r}]
+from graphs.errors import UnsolvableError
+from synth.drawing.figure import new_figure
+try:
+    new_figure(1, 1)
+except UnsolvableError as error:
+    print(error)
+"""
+    nowhere = dict.fromkeys(("HOME", "MPLCONFIGDIR", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"), str(closed / "home"))
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=os.environ | nowhere, capture_output=True, text=True, check=False
+    )
+    assert done.stdout == "matplotlib needs a folder to write to: name one in MPLCONFIGDIR\n", done.stderr
