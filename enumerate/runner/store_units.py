@@ -2,8 +2,8 @@
 
 Tables: ``meta(key, value)`` says what was enumerated; ``unit(id, state, first, rows, seconds, digest)`` which are
 there, the row each begins with and how many it has; ``type`` holds the rows, numbered as if the units had come one
-after the other, each with its unit, lists as JSON text. A digest is made of the entry of a unit and of its rows, as
-they are read back.
+after the other, each with its unit, lists as JSON text. A digest is made of the entry of a unit and of its rows as
+they will be read.
 """
 
 from __future__ import annotations
