@@ -2,14 +2,15 @@
 
 Tables: ``meta(key, value)`` says what was enumerated; ``unit(id, state, first, rows, seconds, digest)`` which are
 there, the row each begins with and how many it has; ``type`` holds the rows, numbered as if the units had come one
-after the other, each with its unit, lists as JSON text. A digest is made of what the file holds: of the entry of a
-unit, and of its rows with their numbers, as they are read back before the unit is committed.
+after the other, each with its unit, lists as JSON text. A digest is made of the entry of a unit and of its rows as
+they will be read.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import math
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -95,7 +96,8 @@ class UnitTable:
         names = quoted(columns)
         marks = ", ".join("?" * (len(columns) + 2))
         self._insert = f"INSERT INTO type (rowid, unit, {names}) VALUES ({marks})"
-        self._select = f"SELECT rowid, unit, {names} FROM type WHERE rowid BETWEEN ? AND ? ORDER BY rowid"
+        self._select = f"SELECT {names} FROM type WHERE unit = ? AND rowid BETWEEN ? AND ? ORDER BY rowid"
+        self._count = "SELECT count(*) FROM type WHERE rowid BETWEEN ? AND ?"
 
     def numbers(self) -> list[int]:
         """Return the numbers of all units."""
@@ -108,37 +110,44 @@ class UnitTable:
         ).fetchone()
         return None if found is None else StoredUnit(*found)
 
-    def add(self, number: int, first: int, rows: Iterable[Row], seconds: float) -> StoredUnit:
+    def add(self, number: int, first: int, rows: Iterable[Row], seconds: float) -> None:
         """Write a unit with its rows; the transaction is the caller's."""
-        numbered = ((place, number, *row) for place, row in zip(count(first), rows, strict=False))
-        written = max(self._connection.executemany(self._insert, numbered).rowcount, 0)
-        digest = _digest((number, "done", first, written, seconds), self._rows(first, written))
-        unit = StoredUnit(number, "done", first, written, seconds, digest)
-        self._connection.execute(
-            "INSERT INTO unit VALUES (?, ?, ?, ?, ?, ?)",
-            (unit.number, unit.state, unit.first, unit.rows, unit.seconds, unit.digest),
+        values = _as_read_back(rows)
+        self._connection.executemany(
+            self._insert, ((place, number, *row) for place, row in zip(count(first), values, strict=False))
         )
-        return unit
+        entry = (number, "done", first, len(values), float(seconds))
+        self._connection.execute("INSERT INTO unit VALUES (?, ?, ?, ?, ?, ?)", (*entry, _digest(entry, values)))
 
     def rows(self, number: int) -> list[Row] | None:
         """Return the rows of a unit, as they are stored; None if it is not as it was written."""
         unit = self.entry(number)
         if unit is None or not all(isinstance(value, int) and value >= 0 for value in (unit.first, unit.rows)):
             return None
-        rows = list(self._rows(unit.first, unit.rows))
-        if _digest((number, unit.state, unit.first, unit.rows, unit.seconds), rows) != unit.digest:
-            return None
-        return [row[2:] for row in rows]
-
-    def _rows(self, first: int, number: int) -> Iterator[Row]:
-        return self._connection.execute(self._select, (first, first + number - 1))
+        last = unit.first + unit.rows - 1
+        rows = self._connection.execute(self._select, (number, unit.first, last)).fetchall()
+        [(within,)] = self._connection.execute(self._count, (unit.first, last))
+        entry = (number, unit.state, unit.first, unit.rows, unit.seconds)
+        return rows if within == len(rows) == unit.rows and _digest(entry, rows) == unit.digest else None
 
 
-def _digest(entry: Row, rows: Iterable[Row]) -> str:
-    found = hashlib.blake2b(repr(entry).encode(), digest_size=16)
-    for row in rows:
-        found.update(repr(row).encode())
-    return found.hexdigest()
+def _as_read_back(rows: Iterable[Row]) -> list[Row]:
+    """Return rows as SQLite gives them back: truth values as numbers, what is not a number as NULL."""
+    return list(zip(*(_column_read_back(column) for column in zip(*rows, strict=True)), strict=True))
+
+
+def _column_read_back(column: tuple[Any, ...]) -> Iterable[Any]:
+    return column if set(map(type, column)) <= {int, str} else map(_read_back, column)
+
+
+def _read_back(value: Any) -> Any:
+    if isinstance(value, float):  # numpy's too
+        return None if math.isnan(value) else float(value)
+    return int(value) if isinstance(value, int) else value
+
+
+def _digest(entry: Row, rows: list[Row]) -> str:
+    return hashlib.blake2b(repr((entry, rows)).encode("utf-8", "surrogateescape"), digest_size=16).hexdigest()
 
 
 def make_tables(connection: sqlite3.Connection, meta: Mapping[str, Any]) -> None:

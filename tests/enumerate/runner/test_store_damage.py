@@ -1,8 +1,10 @@
 """Stores that were damaged: what is lost is told and made again, what was altered is not believed."""
 
+import math
 import random
 import sqlite3
 
+import numpy as np
 import pytest
 from commands import run as command_line
 from toy_job import Squares
@@ -179,3 +181,21 @@ def test_a_damaged_store_at_the_command_line(tmp_path):
     store.unlink()
     store.mkdir()
     assert len(command_line(*command, "--resume", code=2).stderr.splitlines()) == 1
+
+
+class Odd(Squares):
+    """Values that a store does not give back as they were: truth values, numpy's numbers, what is no number."""
+
+    columns = {"yes": bool, "number": float, "text": str}  # noqa: RUF012
+
+    def work(self, start):
+        values = [np.float64(0.1), math.nan, math.inf, -0.0, 2.0, 1e300]
+        return [(n % 2 == 0, value, f"{start} \u202e\0\n") for n, value in zip(range(6), values, strict=True)]
+
+
+def test_values_that_change_their_type_are_not_taken_for_damage(tmp_path):
+    store = tmp_path / "odd.sqlite"
+    run(Odd(), SqliteSink(store))
+    assert run(Odd(), SqliteSink(store, resume=True)).rows == 0
+    expected = [(1, 0.1), (0, None), (1, math.inf), (0, -0.0), (1, 2.0), (0, 1e300)]
+    assert str([row[:2] for row in read_rows(store)]) == str(expected * 20)
