@@ -20,6 +20,7 @@ from typing import Any
 from enumerate.runner.columns import Column, ListColumn, stored, unstored
 from enumerate.runner.job import Job, Row
 from graphs.errors import StoreError
+from graphs.files.atomic import check_place
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]
 
@@ -37,10 +38,12 @@ class SqliteSink:
     path : str or Path
     resume : bool
         Go on with a store of the same job. Without it an existing file is refused.
+    force : bool
+        Remove a file that is there, and begin anew.
     """
 
-    def __init__(self, path: str | Path, *, resume: bool = False) -> None:
-        self.path, self._resume = Path(path), resume
+    def __init__(self, path: str | Path, *, resume: bool = False, force: bool = False) -> None:
+        self.path, self._resume, self._force = Path(path), resume, force
         self._connection: sqlite3.Connection | None = None
         self._insert = ""
         self._lists: list[tuple[int, Callable[[Any], str]]] = []
@@ -54,9 +57,14 @@ class SqliteSink:
             If there is a file and it is not to be resumed, is no store or that of another job, or cannot be
             opened.
         """
-        exists = self.path.exists()
-        if exists and not self._resume:
-            raise StoreError(f"{self.path}: exists already; continue it with --resume, or name another file")
+        check_place(self.path, force=True)  # a file only
+        if self.path.exists() and not (self._resume or self._force):
+            raise StoreError(
+                f"{self.path}: exists already; continue it with --resume, begin anew with --force, "
+                "or name another file"
+            )
+        if self._force:
+            self._remove()
         if not self.path.parent.is_dir():
             raise StoreError(f"{self.path}: there is no folder {str(self.path.parent)!r}")
         with _named(self.path):
@@ -72,6 +80,14 @@ class SqliteSink:
             marks = ", ".join("?" * (len(job.columns) + 1))
             self._insert = f"INSERT INTO type (unit, {_quoted(job.columns)}) VALUES ({marks})"
             return int(self._connection.execute("SELECT count(*) FROM unit").fetchone()[0])
+
+    def _remove(self) -> None:
+        """Remove a store that is there, with the journals that a killed run left."""
+        for end in ("", "-wal", "-shm"):
+            try:
+                self.path.with_name(self.path.name + end).unlink(missing_ok=True)
+            except OSError as error:
+                raise StoreError(f"{self.path}: cannot be replaced: {error.strerror}") from None
 
     def _check(self, job: Job) -> None:
         meta = read_meta(self.path)

@@ -8,10 +8,10 @@ import numpy as np
 
 from graphs.convert.tracing import MOST, trace_sheet
 from graphs.convert.welding import Lines
-from graphs.errors import FileError, shown
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.text import read_text
-from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.mechanism.sheet import Sheet, flat_places, with_all_edges
 
 __all__ = ["cp_text", "sheet_from_cp"]
 
@@ -53,13 +53,16 @@ def cp_text(sheet: Sheet) -> str:
     Raises
     ------
     UnsolvableError
-        If the sheet has no coordinates, or does not lie in a plane z = constant.
+        If the sheet has no coordinates, does not lie in a plane z = constant, or has no line.
 
     Examples
     --------
     >>> cp_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
     '2 0.0 0.0 1.0 0.5\n'
     """
+    if not (sheet.edges or sheet.faces):
+        raise UnsolvableError("a .cp file needs lines, and the sheet has none")
+    sheet = with_all_edges(sheet)
     at = [(repr(x), repr(y)) for x, y in flat_places(sheet, "a .cp file")]
     return "".join(
         f"{_TYPES[letter]} {' '.join(at[a])} {' '.join(at[b])}\n"

@@ -41,6 +41,11 @@ class FoldFrames:
     sheet: Sheet
     document: Mapping[str, Any] | None
 
+    @property
+    def others(self) -> int:
+        """How many there are besides the key frame."""
+        return 0 if self.document is None else len(self.document["file_frames"])
+
     def frame(self, number: int) -> Sheet:
         """Return the sheet of one frame; 0 is the key frame.
 

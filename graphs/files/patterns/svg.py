@@ -19,10 +19,10 @@ import numpy as np
 
 from graphs.convert.tracing import MOST, trace_sheet
 from graphs.convert.welding import Lines
-from graphs.errors import FileError, shown
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.text import read_text
-from graphs.mechanism.sheet import Sheet, flat_places
+from graphs.mechanism.sheet import Sheet, flat_places, with_all_edges
 
 __all__ = ["letter_of_colour", "sheet_from_svg", "svg_text"]
 
@@ -130,7 +130,7 @@ def svg_text(sheet: Sheet) -> str:
     Raises
     ------
     UnsolvableError
-        If the sheet has no coordinates or is not flat.
+        If the sheet has no coordinates, is not flat, or has no line.
 
     Examples
     --------
@@ -138,6 +138,9 @@ def svg_text(sheet: Sheet) -> str:
     <line x1="0.0" y1="1.0" x2="2.0" y2="0.0" stroke="#ff0000"/>
     """
     places = flat_places(sheet, "an SVG crease pattern")
+    if not (sheet.edges or sheet.faces):
+        raise UnsolvableError("an SVG crease pattern needs lines, and the sheet has none")
+    sheet = with_all_edges(sheet)
     left, low = (min((place[k] for place in places), default=0.0) for k in (0, 1))
     right, high = (max((place[k] for place in places), default=0.0) for k in (0, 1))
     width, height = right - left, high - low

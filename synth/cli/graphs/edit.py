@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from synth.cli.graphs.reduce import link_named
-from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, table, tell_lost
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -33,8 +33,12 @@ def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[...,
 @_repeated("--explicit", "LOOP", "SCD graph: let the links reach the centre of a loop (its index).")
 @_repeated("--lock", "JOINT", "Lock a joint: its two links become one.")
 @click.option("-o", "--output", metavar="OUT", help="Write the result here.")
+@FORCE
+@LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print the edits as JSON.")
-def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]) -> None:
+def edit(
+    file: str, output: str | None, force: bool, lossy: bool, as_json: bool, **wanted: tuple[str, ...]
+) -> None:
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
     Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
@@ -54,12 +58,11 @@ def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]
         for make in _edits(wanted):
             edits.append(make(sc))
             sc = edits[-1].graph
-    if not edits:
-        raise click.UsageError("name an edit, such as --add-ride-along A,B")
-    if output is not None:
-        write(sc, output)
+        if not edits:
+            raise click.UsageError("name an edit, such as --add-ride-along A,B")
+        lost = () if output is None else write(sc, output, force=force, lossy=lossy)
     if as_json:
-        print_json({"file": file, "output": output, "edits": [one.to_json() for one in edits]})
+        print_json({"file": file, "output": output, "lost": list(lost), "edits": [one.to_json() for one in edits]})
         return
     rows = table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
     for one in edits:
@@ -68,6 +71,7 @@ def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]
     console().print(rows)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+        tell_lost(lost)
 
 
 def _edits(wanted: dict[str, tuple[str, ...]]) -> Iterator[Callable[[SCGraph], Edit]]:
