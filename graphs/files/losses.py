@@ -60,7 +60,7 @@ def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
         *_angles(sheet),
         *_title(sheet),
     ]
-    return (*lost_as_fold(mechanism), *told, _bounds(sheet))
+    return (*lost_as_fold(mechanism), *told, *_precision(sheet), _bounds(sheet))
 
 
 def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
@@ -80,12 +80,13 @@ def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
         for letter, angle in zip(sheet.assignments, sheet.fold_angles or (), strict=False)
     )
     angles = (_number(wrong, "fold angle"),) if wrong else ()
-    return (*lost_as_fold(mechanism), *_letters(letters, "J", "join", "as flat edges"), *angles, _bounds(sheet))
+    told = (*_letters(letters, "J", "join", "as flat edges"), *angles, *_precision(sheet))
+    return (*lost_as_fold(mechanism), *told, _bounds(sheet))
 
 
 def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
     """Return what the OBJ file of a sheet that was made of a mechanism does not hold."""
-    return (*lost_as_fold(mechanism), *_title(sheet))
+    return (*lost_as_fold(mechanism), *_title(sheet), *_precision(sheet))
 
 
 def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
@@ -164,6 +165,11 @@ def _other_frames(sheet: Sheet) -> Lost:
 
 def _title(sheet: Sheet) -> Lost:
     return ("the title",) if sheet.title else ()
+
+
+def _precision(sheet: Sheet) -> Lost:
+    """Tell of the precision of a pattern whose points were welded, which decides about centres and hinges."""
+    return ("how far points were apart that were welded",) if sheet.spread else ()
 
 
 def _shapes(sheet: Sheet) -> Lost:

@@ -21,6 +21,8 @@ from graphs.mechanism.sheet import FLAT, HINGES, Sheet
 __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
 
 _FAR = 1e300
+_SPREAD = "synthedra:spread"
+"""Own key: how far points were apart that were welded in tracing; centres and hinges hang on it."""
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 
 
@@ -130,6 +132,7 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
             title if isinstance(title, str) else "",
             (*notes, *repairs),
             _fold_angles(value, len(edges), check),
+            spread=abs(check.number(value.get(_SPREAD, 0), _SPREAD)),
         ),
         lambda part: f"{part[0]}_vertices[{part[1]}]",
     )
@@ -172,6 +175,8 @@ def fold_text(sheet: Sheet) -> str:
     }
     if sheet.title:
         document["frame_title"] = sheet.title
+    if sheet.spread:
+        document[_SPREAD] = sheet.spread
     if sheet.coordinates is None:
         document["frame_attributes"] = ["abstract"]
     else:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from graphs.reduce.assur import AssurReduction
     from graphs.reduce.ride_alongs import Reduction
 
-__all__ = ["link_named", "reduce_command"]
+__all__ = ["reduce_command"]
 
 _MOST_SHOWN = 200
 
@@ -64,6 +64,7 @@ def reduce_command(
       synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
     from graphs.convert.table import to_sc
+    from graphs.edit.named import link_named
     from graphs.files.formats import read, write
     from graphs.reduce.ride_alongs import Reduction, reduce
 
@@ -89,13 +90,13 @@ def reduce_command(
 
 
 def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
+    from graphs.edit.named import joint_named, link_named
     from graphs.reduce.assur import reduce_assur
 
     fixed = sc.ground if ground is None else link_named(sc, ground)
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur needs --ground LINK and an --input JOINT for each freedom")
-    joints = [next((joint for joint in sc.joints if str(joint) == name), name) for name in inputs]
-    return reduce_assur(sc, fixed, joints)
+    return reduce_assur(sc, fixed, [joint_named(sc, name) for name in inputs])
 
 
 def _print_groups(reduction: AssurReduction) -> None:
@@ -109,11 +110,6 @@ def _print_groups(reduction: AssurReduction) -> None:
 
 def _listed(names: tuple[Hashable, ...]) -> str:
     return plain(", ".join(map(str, names)), 200)
-
-
-def link_named(sc: SCGraph, name: str) -> Hashable:
-    """Return the link whose name reads as given, or the name itself."""
-    return next((link for link in sc.nodes if str(link) == name), name)
 
 
 def _print(reduction: Reduction) -> None:

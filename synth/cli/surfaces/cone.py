@@ -183,7 +183,7 @@ def behaviour_command(
 
 
 def _behaviours(linkages: list[OnCone], ground: str | None) -> list[LinkageBehaviour]:
-    from synth.cli.graphs.reduce import link_named
+    from graphs.edit.named import link_named
 
     return [
         linkage.behaviour(None if ground is None else link_named(linkage.chain, ground)) for linkage in linkages

@@ -132,6 +132,7 @@ def test_every_sheet_survives_write_and_read_as_fold(fold_folder, tmp_path):
         again = read(tmp_path / "again.fold")
         assert (again.edges, again.assignments, again.faces) == (sheet.edges, sheet.assignments, sheet.faces)
         assert again.coordinates == sheet.coordinates, row["name"]
+        assert again.spread == sheet.spread, row["name"]
 
 
 def test_the_eight_bends_of_the_hexagon_pattern_are_drawn(fold_folder):

@@ -1,6 +1,7 @@
 """What formats cannot hold is told, types are kept, and what is there is not replaced."""
 
 import os
+from dataclasses import replace
 
 import pytest
 
@@ -136,3 +137,10 @@ def test_a_sheet_that_is_no_mechanism_has_no_type_to_keep(tmp_path):
     with pytest.raises(InvariantError, match="belongs to 3 faces"):
         mechanism_of_sheet(book)
     assert write(book, tmp_path / "a.obj") == ()
+
+
+def test_fold_keeps_the_precision_of_a_traced_pattern(tmp_path):
+    traced = replace(Sheet(5, (), "", FAN, PLACES), spread=0.001)
+    assert write(traced, tmp_path / "a.fold") == ()
+    assert read(tmp_path / "a.fold").spread == 0.001
+    assert write(traced, tmp_path / "a.obj") == ("how far points were apart that were welded",)
