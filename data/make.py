@@ -32,11 +32,11 @@ def main(folder: Path = HERE) -> None:
     index = []
     for entry in ENTRIES:
         (folder / entry.file).parent.mkdir(exist_ok=True)
-        write(entry.make(), folder / entry.file)
+        write(entry.make(), folder / entry.file, force=True)
         index.append(entry.row())
     (folder / "patterns").mkdir(exist_ok=True)
     for name, sheet in {"bird-base": patterns.bird_base(), "four-bar-vertex": patterns.fourbar_vertex()}.items():
-        write(sheet, folder / "patterns" / f"{name}.fold")
+        write(sheet, folder / "patterns" / f"{name}.fold", force=True)
     surfaces.write_surfaces(folder / "surfaces")
     (folder / "orientations").mkdir(exist_ok=True)
     for name, quaternions in orientation_tasks.TASKS.items():

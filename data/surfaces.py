@@ -30,11 +30,11 @@ def write_surfaces(folder: Path) -> None:
     """Write the linkage with the first membership, and the list of all."""
     folder.mkdir(exist_ok=True)
     linkages = fig_11()
-    write(linkages[0], folder / "fig11-stephenson.json")
+    write(linkages[0], folder / "fig11-stephenson.json", force=True)
     rows = [["".join(loop.joints) for loop in linkage.chain.loops] for linkage in linkages]
     document = {
         "source": "Hyatt et al. 2020, Fig. 11",
         "note": "which axes form the loops is not printed; these are all ways, each loop's axes in its order",
         "memberships": rows,
     }
-    write_text(folder / "fig11-memberships.json", json_text(document))
+    write_text(folder / "fig11-memberships.json", json_text(document), force=True)

@@ -140,15 +140,15 @@ class SortedSink:
 class _FileSink:
     """A file beside its place; what a unit becomes is the subclass's affair."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, *, force: bool = False) -> None:
+        self._path, self._force = path, force
         self._columns: tuple[str, ...] = ()
         self._file: Beside | None = None
 
     def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         self._columns = tuple(job.columns)
-        self._file = Beside(self._path)
+        self._file = Beside(self._path, force=self._force)
         return ()
 
     def _write(self, lines: Iterable[str]) -> None:
@@ -195,8 +195,8 @@ class JsonLinesSink(_FileSink):
 class ParquetSink(_FileSink):
     """Parquet, one row group a unit; needs pyarrow. A list of values of several types is JSON text."""
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(path)
+    def __init__(self, path: Path, *, force: bool = False) -> None:
+        super().__init__(path, force=force)
         self._writer: Any = None
         self._mixed: set[int] = set()
 
@@ -324,17 +324,25 @@ class FolderSink:
             self._folder.discard()
 
 
-SINKS: dict[str, Callable[[Path], Sink]] = {
+SINKS: dict[str, type[Graph6Sink | JsonLinesSink | ParquetSink]] = {
     ".g6": Graph6Sink,
     ".jsonl": JsonLinesSink,
     ".parquet": ParquetSink,
-    "": FolderSink,
 }
-"""Extension to the sink; a name without an extension is a folder."""
+"""Extension to the sink of a file."""
 
 
-def sink_for(path: str | Path, *, resume: bool = False, tell: Callable[[str], None] | None = None) -> Sink:
-    """Return the sink that a name calls for.
+def sink_for(
+    path: str | Path,
+    *,
+    resume: bool = False,
+    force: bool = False,
+    tell: Callable[[str], None] | None = None,
+) -> Sink:
+    """Return the sink that a name calls for; a name without an extension is a folder.
+
+    What is there already is refused when the sink is started, unless it is a store to be resumed, or a file that
+    ``force`` lets it replace: at the end of the run, a store at its beginning.
 
     Parameters
     ----------
@@ -354,10 +362,12 @@ def sink_for(path: str | Path, *, resume: bool = False, tell: Callable[[str], No
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".sqlite":
-        return SqliteSink(path, resume=resume, tell=tell)
-    if suffix not in SINKS:
+        return SqliteSink(path, resume=resume, force=force, tell=tell)
+    if suffix and suffix not in SINKS:
         known = " ".join(sorted(filter(None, [*SINKS, ".sqlite"])))
         raise FileError(path, "", f"files ending in {suffix!r} are not known", f"one of {known}, or a folder")
     if resume:
         raise StoreError(f"{path}: only a .sqlite store can be resumed")
-    return SINKS[suffix](path)
+    if not suffix:
+        return FolderSink(path)
+    return SINKS[suffix](path, force=force)

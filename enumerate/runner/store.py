@@ -22,6 +22,7 @@ from enumerate.runner.job import Job, Row
 from enumerate.runner.store_repair import examined, rebuilt
 from enumerate.runner.store_units import FORMAT, VERSION, UnitTable, make_tables, meta_in, named, reading
 from graphs.errors import StoreError
+from graphs.files.atomic import check_place
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]
 
@@ -43,15 +44,22 @@ class SqliteSink:
     path : str or Path
     resume : bool
         Go on with a store of the same job. Without it an existing file is refused.
+    force : bool
+        Remove a file that is there, and begin anew.
     tell : callable, optional
         Takes a line on what the user should know: the store was damaged, or is not one file. Without it, a
         warning.
     """
 
     def __init__(
-        self, path: str | Path, *, resume: bool = False, tell: Callable[[str], None] | None = None
+        self,
+        path: str | Path,
+        *,
+        resume: bool = False,
+        force: bool = False,
+        tell: Callable[[str], None] | None = None,
     ) -> None:
-        self.path, self._resume = Path(path), resume
+        self.path, self._resume, self._force = Path(path), resume, force
         self._tell = tell or _warn
         self._connection: sqlite3.Connection | None = None
         self._units: UnitTable | None = None
@@ -71,12 +79,17 @@ class SqliteSink:
             If there is a file and it is not to be resumed, is no store or that of another job, or cannot be
             opened.
         """
-        exists = self.path.exists()
-        if exists and not self._resume:
-            raise StoreError(f"{self.path}: exists already; continue it with --resume, or name another file")
+        check_place(self.path, force=True)  # a file only
+        if self.path.exists() and not (self._resume or self._force):
+            raise StoreError(
+                f"{self.path}: exists already; continue it with --resume, begin anew with --force, "
+                "or name another file"
+            )
+        if self._force:
+            self._remove()
         if not self.path.parent.is_dir():
             raise StoreError(f"{self.path}: there is no folder {str(self.path.parent)!r}")
-        if exists and _has_tables(self.path):
+        if self.path.exists() and _has_tables(self.path):
             self._look_through(job)
         with named(self.path):
             self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=_PATIENCE)
@@ -89,6 +102,14 @@ class SqliteSink:
             self._rows = dict(self._connection.execute("SELECT id, rows FROM unit ORDER BY id"))
         self._lists = _texts_of_lists(job.columns)
         return self._rows.keys()
+
+    def _remove(self) -> None:
+        """Remove a store that is there, with the journals that a killed run left."""
+        for end in ("", "-wal", "-shm"):
+            try:
+                self.path.with_name(self.path.name + end).unlink(missing_ok=True)
+            except OSError as error:
+                raise StoreError(f"{self.path}: cannot be replaced: {error.strerror}") from None
 
     def _look_through(self, job: Job) -> None:
         meta = read_meta(self.path)

@@ -47,6 +47,8 @@ class SheetMechanism:
     loop_vertices : tuple of int
         The vertex that is the centre of each of the first loops of ``sc.loops``; others have theirs by geometry.
     repairs, warnings : tuple of str
+    pieces : mapping of joint id to tuple of (vertex, vertex)
+        All the edges that make up each joint: more than one of a split hinge.
     """
 
     sc: SCGraph
@@ -56,6 +58,7 @@ class SheetMechanism:
     loop_vertices: tuple[int, ...]
     repairs: tuple[str, ...] = ()
     warnings: tuple[str, ...] = field(default=())
+    pieces: Mapping[int, tuple[Edge, ...]] = field(default_factory=dict)
 
 
 def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool = True) -> SheetMechanism:
@@ -122,7 +125,17 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
         tuple(centre_of[cycles[i]] for i in kept),
         (*sheet.repairs, *notes.repairs),
         tuple(notes.warnings),
+        _pieces(joint_of_edge),
     )
+
+
+def _pieces(joint_of_edge: Mapping[Edge, int | None]) -> dict[int, tuple[Edge, ...]]:
+    """Return the edges that make up each joint."""
+    pieces: dict[int, tuple[Edge, ...]] = {}
+    for edge, joint in joint_of_edge.items():
+        if joint is not None:
+            pieces[joint] = (*pieces.get(joint, ()), edge)
+    return pieces
 
 
 def _with_loops(sc: SCGraph, loops: Sequence[Loop], notes: _Notes) -> SCGraph:

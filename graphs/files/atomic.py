@@ -1,9 +1,14 @@
-"""Files and folders written whole or not at all: made beside their place, moved there when they are complete."""
+"""Files and folders written whole or not at all: made beside their place, moved there when they are complete.
+
+What is there already is not replaced unless that is asked for (``force``). Symbolic links and special files
+(pipes, devices) are never written to nor replaced.
+"""
 
 from __future__ import annotations
 
 import os
 import shutil
+import stat
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -11,23 +16,47 @@ from pathlib import Path
 
 from graphs.errors import OpenError
 
-__all__ = ["Beside", "FolderBeside", "reason_of", "write_chunks", "write_text"]
+__all__ = ["Beside", "FolderBeside", "check_place", "reason_of", "write_chunks", "write_text"]
 
 
-def write_text(path: Path, text: str) -> None:
+def check_place(path: Path, *, force: bool) -> None:
+    """Refuse a place where something is that must not be replaced; with ``force`` a plain file may be.
+
+    Raises
+    ------
+    OpenError
+        For a file (without ``force``), a folder, a symbolic link, wherever it leads, or a special file.
+    """
+    try:
+        mode = path.lstat().st_mode
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError) as error:
+        raise OpenError(path, "", f"cannot be written: {reason_of(error)}", "a writable folder") from None
+    if stat.S_ISLNK(mode):
+        raise OpenError(path, "", "a symbolic link", "the name of the file itself")
+    if stat.S_ISDIR(mode):
+        raise OpenError(path, "", "a directory", "a file to write")
+    if not stat.S_ISREG(mode):
+        raise OpenError(path, "", "a special file, such as a pipe or a device", "a file to write")
+    if not force:
+        raise OpenError(path, "", "exists already", "another name, or --force (in Python force=True)")
+
+
+def write_text(path: Path, text: str, *, force: bool = False) -> None:
     """Write a file beside its place and move it there, so that it is never half written.
 
     Raises
     ------
     OpenError
-        If it cannot be written; what was there is kept.
+        If it cannot be written, or is there already and ``force`` is not given; what was there is kept.
     """
-    write_chunks(path, [text])
+    write_chunks(path, [text], force=force)
 
 
-def write_chunks(path: Path, chunks: Iterable[str]) -> None:
+def write_chunks(path: Path, chunks: Iterable[str], *, force: bool = False) -> None:
     """Write text that comes piece by piece, as :func:`write_text` writes one piece."""
-    beside = Beside(path)
+    beside = Beside(path, force=force)
     try:
         for chunk in chunks:
             beside.write(chunk.encode("utf-8"))
@@ -50,8 +79,8 @@ class FolderBeside:
     """
 
     def __init__(self, path: Path) -> None:
-        if path.exists():
-            raise OpenError(path, "", "exists already", "a new folder")
+        if path.exists() or path.is_symlink():
+            raise OpenError(path, "", "exists already", "a new folder: folders are not replaced")
         self._place = path
         try:
             self.path = Path(tempfile.mkdtemp(prefix=f".{path.name[:32]}.", dir=path.parent))
@@ -75,16 +104,18 @@ class Beside:
     ----------
     path : Path
         Its place; a file that is there is kept until :meth:`commit`.
+    force : bool, optional
+        Replace a file that is there.
 
     Raises
     ------
     OpenError
-        If the folder cannot be written to.
+        If the folder cannot be written to, or something is there that must not be replaced.
     """
 
-    def __init__(self, path: Path) -> None:
-        if path.is_dir():
-            raise OpenError(path, "", "a directory", "a file to write")
+    def __init__(self, path: Path, *, force: bool = False) -> None:
+        check_place(path, force=force)
+        self._force = force
         try:
             self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
             handle, name = tempfile.mkstemp(prefix=f".{path.name[:32]}.", dir=path.parent)
@@ -104,10 +135,23 @@ class Beside:
         with self._named():
             self.stream.write(data)
 
-    def commit(self) -> None:
-        """Move the file to its place."""
+    def closed(self) -> Path:
+        """Return where the file is before it is moved, written out so that it can be read."""
         with self._named():
             self.stream.close()
+        return self._beside
+
+    def commit(self) -> None:
+        """Move the file to its place.
+
+        Raises
+        ------
+        OpenError
+            If that fails, or meanwhile something is there that must not be replaced.
+        """
+        with self._named():
+            self.stream.close()
+            check_place(self._path, force=self._force)
             self._beside.chmod(self._mode)
             self._beside.replace(self._path)
 

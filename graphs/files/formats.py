@@ -11,8 +11,8 @@ from pathlib import Path
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, InvariantError, OpenError
-from graphs.files.atomic import write_text
+from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError
+from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_sc,
     graph6_text,
@@ -21,6 +21,15 @@ from graphs.files.bare import (
     read_graphml,
 )
 from graphs.files.edge_lists import edge_list_text, read_edge_list
+from graphs.files.kept_type import change_of_type
+from graphs.files.losses import (
+    lost_as_bare_graph,
+    lost_as_cp,
+    lost_as_fold,
+    lost_as_json,
+    lost_as_obj,
+    lost_as_svg,
+)
 from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
@@ -154,36 +163,77 @@ def mechanism_of_id(code: str) -> SCGraph:
         raise FileError(code, "", error.offender, error.expected) from None
 
 
-def write(mechanism: Mechanism, path: str | Path) -> tuple[str, ...]:
+def write(
+    mechanism: Mechanism,
+    path: str | Path,
+    *,
+    lossy: bool = False,
+    force: bool = False,
+    made_of: Mechanism | None = None,
+) -> tuple[str, ...]:
     """Write a mechanism in the format that the extension names.
+
+    A file of another kind than the mechanism is read back before it is moved to its place.
 
     Parameters
     ----------
     mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph or Sheet
         A sheet written as ``.json`` becomes the SC graph of its mechanism.
     path : str or Path
+    lossy : bool, optional
+        Write also where the file is of another type: links, joints or centre classes do not correspond.
+    force : bool, optional
+        Replace a file that is there. Symbolic links and special files are never replaced.
+    made_of : Mechanism, optional
+        What ``mechanism`` was made of, whose type must be kept; by default itself.
 
     Returns
     -------
     tuple of str
-        What the format could not hold.
+        What the format could not hold, by kind and number.
 
     Raises
     ------
     FileError
-        If the extension is not known or the file cannot be written.
+        If the extension is not known, the file cannot be written, or is there already.
     UnsolvableError
-        If the format cannot hold the mechanism.
+        If the format cannot hold the mechanism, or not without another type.
     """
     path = Path(path)
-    writer = WRITERS.get(path.suffix.lower())
+    suffix = path.suffix.lower()
+    writer = WRITERS.get(suffix)
     if writer is None:
         raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(WRITERS)))
     text, lost = writer(mechanism)
-    if isinstance(mechanism, ConicalLinkage) and path.suffix.lower() != ".json":
-        lost = (*lost, "angles on the cone")
-    write_text(path, text)
+    beside = Beside(path, force=force)
+    try:
+        beside.write(text.encode("utf-8"))
+        if not lossy and (made_of is not None or not _holds_all(suffix, mechanism)):
+            _check_type(beside.closed(), suffix, mechanism if made_of is None else made_of, lost)
+        beside.commit()
+    finally:
+        beside.discard()
     return lost
+
+
+def _holds_all(suffix: str, mechanism: Mechanism) -> bool:
+    """Tell whether a format is the one made for such a mechanism; of a sheet, a native file is its mechanism."""
+    return suffix == ".json" or (suffix == ".fold" and isinstance(mechanism, Sheet))
+
+
+def _check_type(written: Path, suffix: str, mechanism: Mechanism, lost: tuple[str, ...]) -> None:
+    """Read back what was written, and refuse it if it is of another type."""
+    try:
+        ((_, again),) = READERS[suffix](written)
+        change = change_of_type(mechanism, again)
+    except FileError as error:
+        change = f"the file would not be read: {error.found}"
+    if change is not None:
+        why = f", for it cannot hold {', '.join(lost)}" if lost else ""
+        raise UnsolvableError(
+            f"a {suffix} file would be of another type: {change}{why}; write it all the same with --lossy "
+            "(in Python lossy=True)"
+        )
 
 
 def _reader(path: Path) -> Callable[[Path], Iterator[tuple[str, Mechanism]]]:
@@ -260,33 +310,28 @@ READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
 }
 """Extension to the reader: path to (place in the file, mechanism)."""
 
-_NO_LOOPS = ("loops and their centres",)
-
 
 def _write_json(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    if isinstance(mechanism, Sheet):
-        return dumps(to_sc(mechanism)), ("coordinates, and the shapes of the panels",)
-    return dumps(mechanism), ()
+    held = to_sc(mechanism) if isinstance(mechanism, Sheet) else mechanism
+    return dumps(held), lost_as_json(mechanism)
 
 
 def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    lost = () if isinstance(mechanism, Sheet) else ("names of links and joints",)
-    return fold_text(to_sheet(mechanism)), lost
+    return fold_text(to_sheet(mechanism)), lost_as_fold(mechanism)
 
 
 def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     from graphs.files.patterns.cp import cp_text
 
     sheet = to_sheet(mechanism)
-    unknown = ("that creases are unassigned: they are written as valleys",) if "U" in sheet.assignments else ()
-    return cp_text(sheet), ("which lines bound which face", *unknown, *_how_it_stood(sheet))
+    return cp_text(sheet), (*lost_as_cp(mechanism, sheet), *_how_it_stood(sheet))
 
 
 def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     from graphs.files.patterns.svg import svg_text
 
     sheet = to_sheet(mechanism)
-    return svg_text(sheet), ("which lines bound which face", *_how_it_stood(sheet))
+    return svg_text(sheet), (*lost_as_svg(mechanism, sheet), *_how_it_stood(sheet))
 
 
 def _how_it_stood(sheet: Sheet) -> tuple[str, ...]:
@@ -296,7 +341,8 @@ def _how_it_stood(sheet: Sheet) -> tuple[str, ...]:
 
 
 def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    return obj_text(to_sheet(mechanism)), ()
+    sheet = to_sheet(mechanism)
+    return obj_text(sheet), lost_as_obj(mechanism, sheet)
 
 
 WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
@@ -305,10 +351,10 @@ WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
     ".svg": _write_svg,
     ".cp": _write_cp,
     ".obj": _write_obj,
-    ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), (*_NO_LOOPS, "names")),
-    ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), (*_NO_LOOPS, "names")),
-    ".graphml": lambda m: (graphml_text(to_sc(m)), _NO_LOOPS),
-    ".edges": lambda m: (edge_list_text(to_sc(m)), _NO_LOOPS),
-    ".txt": lambda m: (edge_list_text(to_sc(m)), _NO_LOOPS),
+    ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), lost_as_bare_graph(m, names=False)),
+    ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), lost_as_bare_graph(m, names=False)),
+    ".graphml": lambda m: (graphml_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
+    ".edges": lambda m: (edge_list_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
+    ".txt": lambda m: (edge_list_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
 }
 """Extension to the writer: mechanism to text, and what the text could not hold."""

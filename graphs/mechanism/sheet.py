@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol, TypeVar
 
 from graphs.errors import InvariantError, shown
@@ -22,6 +22,7 @@ __all__ = [
     "Sheet",
     "sheet_from_model",
     "sides_of_face",
+    "with_all_edges",
 ]
 
 COLLINEAR = 1e-6
@@ -41,6 +42,10 @@ Edge = tuple[int, int]
 
 class Frames(Protocol):
     """The frames of the file that a sheet was read from: the same sheet in other poses."""
+
+    @property
+    def others(self) -> int:
+        """How many there are besides the key frame."""
 
     def frame(self, number: int) -> Sheet:
         """Return the sheet of one frame; 0 is the key frame."""
@@ -145,6 +150,34 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
     coordinates = tuple(model.coordinates[v] for v in model.nodes) if model.coordinates else None
     assignments = "".join("B" if number == 1 else "U" for number in sides.values())
     return Sheet(len(model), edges, assignments, faces, coordinates)
+
+
+def with_all_edges(sheet: Sheet) -> Sheet:
+    """Return the sheet with every side of a face listed as an edge, as the mechanism takes it.
+
+    Sides between two faces that were not listed are unassigned creases, in the order of the faces, and come first:
+    their places in the list are the ids of their joints. Other sides are borders.
+
+    Examples
+    --------
+    >>> whole = with_all_edges(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
+    >>> whole.edges, whole.assignments
+    (((0, 2), (0, 1), (1, 2), (2, 3), (0, 3)), 'UBBBB')
+    """
+    listed = {frozenset(edge) for edge in sheet.edges}
+    sides = Counter((min(side), max(side)) for face in sheet.faces for side in sides_of_face(face))
+    missing = [(side, faces) for side, faces in sides.items() if frozenset(side) not in listed]
+    if not missing:
+        return sheet
+    creases = tuple(side for side, faces in missing if faces > 1)
+    borders = tuple(side for side, faces in missing if faces == 1)
+    angles = sheet.fold_angles
+    return replace(
+        sheet,
+        edges=(*sheet.edges, *creases, *borders),
+        assignments=sheet.assignments + "U" * len(creases) + "B" * len(borders),
+        fold_angles=None if angles is None else (*angles, *(None,) * len(missing)),
+    )
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:

@@ -19,7 +19,15 @@ if TYPE_CHECKING:
 
     from graphs.files.formats import Entry
 
-__all__ = ["about", "console", "entries", "plain", "print_json", "table"]
+__all__ = ["FORCE", "LOSSY", "about", "console", "entries", "plain", "print_json", "table", "tell_lost"]
+
+FORCE = click.option(
+    "--force", is_flag=True, help="Replace a file that is there. Folders, symbolic links and devices never are."
+)
+"""The option of every command that writes a file."""
+
+LOSSY = click.option("--lossy", is_flag=True, help="Write also where the type would be another.")
+"""The option of every command that writes a mechanism."""
 
 _PATIENCE = 2.0
 """Seconds before progress is shown."""
@@ -38,6 +46,12 @@ def about(label: str) -> Iterator[None]:
         raise FileError(label, "", error.offender, error.expected) from None
     except SynthedraError as error:
         raise FileError(label, "", str(error)) from None
+
+
+def tell_lost(lost: Sequence[str]) -> None:
+    """Print what a format could not hold, if there is anything."""
+    if lost:
+        click.echo("not stored: " + plain(", ".join(lost), 1000))
 
 
 def print_json(value: Any) -> None:

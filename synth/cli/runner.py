@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from graphs.plain_text import LONGEST_CELL
-from synth.cli.output import console, plain, print_json, table
+from synth.cli.output import FORCE, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from enumerate.runner.columns import Column
@@ -57,19 +57,23 @@ class RunOptions:
         resume: bool,
         quiet: bool,
         as_json: bool,
+        force: bool = False,
     ) -> None:
+        if resume and force:
+            raise click.UsageError("--resume goes on with a store, --force begins anew: give one of them")
         if resume and output is None:
             raise click.UsageError("--resume needs the store to go on with: -o FILE.sqlite")
         if output is not None and as_json:
             raise click.UsageError("give -o or --json, not both")
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
+        self.force = force
         self.workers = workers or cores()
         self.scheduler = scheduler
 
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> RunOptions:
         """Take the runner's own out of the options of a subcommand."""
-        names = ("output", "workers", "scheduler", "resume", "quiet", "as_json")
+        names = ("output", "workers", "scheduler", "resume", "quiet", "as_json", "force")
         return cls(*(options.pop(name) for name in names))
 
 
@@ -83,6 +87,7 @@ def runner_options(function: F) -> F:
     for option in (
         click.option("--json", "as_json", is_flag=True, help="Print one JSON document."),
         click.option("--quiet", is_flag=True, help="Show no progress."),
+        FORCE,
         click.option("--resume", is_flag=True, help="Go on with a .sqlite store that a stopped run left."),
         click.option("--scheduler", metavar="ADDRESS", help="Work on a Dask cluster, such as tcp://host:8786."),
         click.option(
@@ -121,7 +126,7 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
     from enumerate.runner.sinks import RowSink, sink_for
 
     if options.output is not None:
-        sink = sink_for(options.output, resume=options.resume, tell=_told)
+        sink = sink_for(options.output, resume=options.resume, force=options.force, tell=_told)
         progress = _run(job, wrapped(sink), options)
         if not options.quiet and sys.stderr.isatty():
             click.echo(f"{progress.rows} rows in {progress.seconds:.1f} s: {plain(options.output)}", err=True)

@@ -44,13 +44,20 @@ def new_figure(width: float, height: float) -> Any:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def save_figure(figure: Any, path: str | Path) -> None:
+def save_figure(figure: Any, path: str | Path, *, force: bool = False) -> None:
     """Write a figure as PNG, SVG or PDF, by the extension. Equal figures give equal files.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    path : str or Path
+    force : bool, optional
+        Replace a file that is there.
 
     Raises
     ------
     FileError
-        If the extension is another, or the file cannot be written.
+        If the extension is another, or the file cannot be written, or is there already.
 
     Examples
     --------
@@ -69,7 +76,7 @@ def save_figure(figure: Any, path: str | Path) -> None:
     stream = BytesIO()
     with rc_context({"svg.hashsalt": "synthedra"}):
         figure.savefig(stream, format=kind, dpi=150, metadata=_UNDATED.get(kind))
-    beside = Beside(place)
+    beside = Beside(place, force=force)
     try:
         beside.write(stream.getvalue())
         beside.commit()

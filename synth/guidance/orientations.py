@@ -290,7 +290,7 @@ def read_orientations(path: str | Path) -> Orientations:
         raise FileError(path, place, error.offender, error.expected) from None
 
 
-def write_orientations(quaternions: Floats, path: str | Path) -> None:
+def write_orientations(quaternions: Floats, path: str | Path, *, force: bool = False) -> None:
     """Write a file of orientations, as quaternions.
 
     Parameters
@@ -298,13 +298,15 @@ def write_orientations(quaternions: Floats, path: str | Path) -> None:
     quaternions : float[n, 4]
         Unit quaternions, scalar first.
     path : str or Path
+    force : bool, optional
+        Replace a file that is there.
 
     Raises
     ------
     FileError
-        If it cannot be written.
+        If it cannot be written, or is there already.
     """
-    write_text(Path(path), json_text(orientations_document(quaternions.tolist())))
+    write_text(Path(path), json_text(orientations_document(quaternions.tolist())), force=force)
 
 
 def _between(first: Floats, second: Floats) -> Floats:

@@ -8,12 +8,12 @@ import numpy as np
 
 from graphs.convert.tracing import MOST
 from graphs.convert.welding import Lines
-from graphs.errors import FileError, shown
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
 from graphs.mechanism.plane import flat_places
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Sheet, with_all_edges
 
 __all__ = ["cp_text", "sheet_from_cp"]
 
@@ -55,13 +55,16 @@ def cp_text(sheet: Sheet) -> str:
     Raises
     ------
     UnsolvableError
-        If the sheet has no coordinates, or does not lie in a plane.
+        If the sheet has no coordinates, does not lie in a plane, or has no line.
 
     Examples
     --------
     >>> cp_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
     '2 0.0 0.0 1.0 0.5\n'
     """
+    if not (sheet.edges or sheet.faces):
+        raise UnsolvableError("a .cp file needs lines, and the sheet has none")
+    sheet = with_all_edges(sheet)
     at = [(repr(x), repr(y)) for x, y in flat_places(sheet, "a .cp file")]
     return "".join(
         f"{_TYPES[letter]} {' '.join(at[a])} {' '.join(at[b])}\n"

@@ -27,6 +27,8 @@ from graphs.work_limits import most
 __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
 
 _FAR = 1e300
+_SPREAD = "synthedra:spread"
+"""Own key: how far points were apart that were welded in tracing; centres and hinges hang on it."""
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 
 
@@ -46,6 +48,11 @@ class FoldFrames:
     path: Path
     sheet: Sheet
     document: Mapping[str, Any] | None
+
+    @property
+    def others(self) -> int:
+        """How many there are besides the key frame."""
+        return 0 if self.document is None else len(self.document["file_frames"])
 
     def frame(self, number: int) -> Sheet:
         """Return the sheet of one frame; 0 is the key frame.
@@ -132,6 +139,7 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
                 title if isinstance(title, str) else "",
                 (*notes, *repairs),
                 _fold_angles(value, len(edges), check),
+                spread=abs(check.number(value.get(_SPREAD, 0), _SPREAD)),
             )
         ),
         lambda part: f"{part[0]}_vertices[{part[1]}]",
@@ -194,6 +202,8 @@ def fold_text(sheet: Sheet) -> str:
     }
     if sheet.title:
         document["frame_title"] = sheet.title
+    if sheet.spread:
+        document[_SPREAD] = sheet.spread
     if sheet.coordinates is None:
         document["frame_attributes"] = ["abstract"]
     else:

@@ -20,14 +20,14 @@ import numpy as np
 
 from graphs.convert.tracing import MOST
 from graphs.convert.welding import Lines
-from graphs.errors import FileError, shown
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.strokes import COLOURS, described_strokes, kind_of_stroke, letter_of_stroke
 from graphs.files.patterns.svg_use import check_uses
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
 from graphs.mechanism.plane import flat_places
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.plain_text import plain
 
 __all__ = ["sheet_from_svg", "svg_text"]
@@ -121,7 +121,7 @@ def svg_text(sheet: Sheet) -> str:
     Raises
     ------
     UnsolvableError
-        If the sheet has no coordinates or is not flat.
+        If the sheet has no coordinates, is not flat, or has no line.
 
     Examples
     --------
@@ -129,6 +129,9 @@ def svg_text(sheet: Sheet) -> str:
     <line x1="0.0" y1="1.0" x2="2.0" y2="0.0" stroke="#ff0000"/>
     """
     places = flat_places(sheet, "an SVG crease pattern")
+    if not (sheet.edges or sheet.faces):
+        raise UnsolvableError("an SVG crease pattern needs lines, and the sheet has none")
+    sheet = with_all_edges(sheet)
     left, low = (min((place[k] for place in places), default=0.0) for k in (0, 1))
     right, high = (max((place[k] for place in places), default=0.0) for k in (0, 1))
     width, height = right - left, high - low

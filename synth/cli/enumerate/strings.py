@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from synth.cli.output import console, plain, print_json, table
+from synth.cli.output import FORCE, console, plain, print_json, table
 
 __all__ = ["strings"]
 
@@ -36,6 +36,7 @@ def _limit(context: click.Context, parameter: click.Parameter, value: str) -> in
 @click.option("--max-cluster", default="3", callback=_limit, metavar="K", show_default=True, help="Or none.")
 @click.option("--count", "only_count", is_flag=True, help="Print the number only, by generating functions.")
 @click.option("-o", "--output", metavar="FILE.jsonl", help="Write one JSON object a line.")
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list.")
 def strings(
     dof: int | None,
@@ -45,6 +46,7 @@ def strings(
     max_cluster: int | None,
     only_count: bool,
     output: str | None,
+    force: bool,
     as_json: bool,
 ) -> None:
     """List the R/- strings: open chains of panels, and the joints they stand for (Wiener, Table 8).
@@ -73,7 +75,7 @@ def strings(
         return
     rows = _rows(numbers, limits, modes)
     if output is not None:
-        _write(output, rows)
+        _write(output, rows, force)
     elif as_json:
         print_json(list(rows))
     else:
@@ -103,7 +105,7 @@ def _rows(numbers: list[int], limits: dict[str, int | None], modes: bool) -> Ite
             yield from ({**row, "mode": mode} for mode in string.modes()) if modes else [row]
 
 
-def _write(output: str, rows: Iterator[dict[str, Any]]) -> None:
+def _write(output: str, rows: Iterator[dict[str, Any]], force: bool) -> None:
     from pathlib import Path
 
     from graphs.errors import FileError
@@ -111,7 +113,7 @@ def _write(output: str, rows: Iterator[dict[str, Any]]) -> None:
 
     if not output.endswith(".jsonl"):
         raise FileError(output, "", "the extension is not known", ".jsonl")
-    write_chunks(Path(output), (json.dumps(row) + "\n" for row in rows))
+    write_chunks(Path(output), (json.dumps(row) + "\n" for row in rows), force=force)
 
 
 def _print(rows: Iterator[dict[str, Any]], modes: bool) -> None:

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.graphs.reduce import link_named
-from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, table, tell_lost
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
-
+    from graphs.creasing.edits import SheetEdit
     from graphs.edit.sc import Edit
     from graphs.mechanism.sc import SCGraph
 
 __all__ = ["edit"]
+
+_OF_PATTERNS = ("lock", "add_crease", "remove_crease")
+"""The edits that leave a crease pattern one."""
 
 
 def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[..., object]]:
@@ -25,41 +26,61 @@ def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[...,
 
 @click.command(short_help="Add creases, ride-alongs, loops; move centres; lock joints.")
 @click.argument("file", metavar="FILE")
-@_repeated("--add-crease", "LINK[:X,Y]", "Crease a link. SC graph: X,Y are joints beyond it. SCD graph: vertices.")
+@_repeated(
+    "--add-crease",
+    "LINK[:X,Y]",
+    "Crease a link. SC graph: X,Y are joints beyond it. SCD graph: vertices. Pattern: A:B, each a vertex or X,Y.",
+)
+@_repeated("--remove-crease", "JOINT", "Pattern: remove a crease; the panels beside it become one.")
 @_repeated("--add-loop", "A,B,K", "Append K links between links A and B: a loop with a centre.")
 @_repeated("--add-spatial-loop", "A,B,K", "Append K links between links A and B: a loop without a centre.")
 @_repeated("--add-ride-along", "A,B", "Append a ride-along to the adjacent links A and B.")
 @_repeated("--implicit", "LOOP", "SCD graph: take the links off the centre of a loop (its index).")
 @_repeated("--explicit", "LOOP", "SCD graph: let the links reach the centre of a loop (its index).")
-@_repeated("--lock", "JOINT", "Lock a joint: its two links become one.")
+@_repeated("--lock", "JOINT", "Lock a joint: its two links become one. Pattern: the crease becomes flat.")
 @click.option("-o", "--output", metavar="OUT", help="Write the result here.")
+@FORCE
+@LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print the edits as JSON.")
-def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]) -> None:
+def edit(
+    file: str, output: str | None, force: bool, lossy: bool, as_json: bool, **wanted: tuple[str, ...]
+) -> None:
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
     Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
-    links, except where a loop is added: that leaves an SC graph.
+    links, except where a loop is added: that leaves an SC graph. A crease pattern stays one where creases are
+    locked, added and removed; where links are added it becomes the SC graph of its mechanism.
+
+    JOINT is an id, a number in the list of joints (of a pattern: of edges), or two links A,B with one joint.
 
     \b
-    Example:
+    Examples:
+      synth edit data/patterns/bird-base.fold --lock 3 --add-crease 0:2 -o edited.fold
       synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
     """
     from graphs.convert.table import graph_of
+    from graphs.edit.sc import Edit as EditOfGraph
+    from graphs.errors import UnsolvableError
     from graphs.files.formats import read, write
+    from graphs.mechanism.sheet import Sheet
+    from synth.cli.graphs.patterns import pattern_edits
 
     thing = read(file)
     with about(file):
-        sc = graph_of(thing)
-        edits = []
-        for make in _edits(wanted):
-            edits.append(make(sc))
-            sc = edits[-1].graph
-    if not edits:
-        raise click.UsageError("name an edit, such as --add-ride-along A,B")
-    if output is not None:
-        write(sc, output)
+        edits: list[Edit] | list[SheetEdit]
+        if isinstance(thing, Sheet) and not any(wanted[name] for name in wanted if name not in _OF_PATTERNS):
+            edits = list(pattern_edits(thing, wanted))
+        elif wanted["remove_crease"]:
+            raise UnsolvableError("--remove-crease is for crease patterns, without edits that add links")
+        else:
+            edits = _edited(graph_of(thing), wanted)
+        if not edits:
+            raise click.UsageError("name an edit, such as --add-ride-along A,B")
+        last = edits[-1]
+        result = last.graph if isinstance(last, EditOfGraph) else last.sheet
+        lost = () if output is None else write(result, output, force=force, lossy=lossy)
     if as_json:
-        print_json({"file": file, "output": output, "edits": [one.to_json() for one in edits]})
+        print_json({"file": file, "output": output, "lost": list(lost), "edits": [one.to_json() for one in edits]})
         return
     rows = table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
     for one in edits:
@@ -68,6 +89,15 @@ def edit(file: str, output: str | None, as_json: bool, **wanted: tuple[str, ...]
     console().print(rows)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+        tell_lost(lost)
+
+
+def _edited(sc: SCGraph, wanted: dict[str, tuple[str, ...]]) -> list[Edit]:
+    """Make the edits that were asked for, each to the result of the last."""
+    edits: list[Edit] = []
+    for make in _edits(wanted):
+        edits.append(make(edits[-1].graph if edits else sc))
+    return edits
 
 
 def _edits(wanted: dict[str, tuple[str, ...]]) -> Iterator[Callable[[SCGraph], Edit]]:
@@ -99,11 +129,8 @@ def _whole(word: str, option: str) -> int:
     return int(word)
 
 
-def _joint_named(sc: SCGraph, name: str) -> Hashable:
-    return next((joint for joint in sc.joints if str(joint) == name), name)
-
-
 def _crease(sc: SCGraph, text: str) -> Edit:
+    from graphs.edit.named import joint_named, link_named
     from graphs.edit.sc import add_crease
     from graphs.edit.scd import crease_link
     from graphs.mechanism.scd import SCDGraph
@@ -111,13 +138,14 @@ def _crease(sc: SCGraph, text: str) -> Edit:
     name, _, rest = text.partition(":")
     link, words = link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
     if not isinstance(sc, SCDGraph):
-        return add_crease(sc, link, [_joint_named(sc, word) for word in words])
+        return add_crease(sc, link, [joint_named(sc, word) for word in words])
     if len(words) not in (1, 2):
         raise click.BadParameter("an SCD graph needs LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease")
     return crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
 
 
 def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
+    from graphs.edit.named import link_named
     from graphs.edit.sc import add_loop
     from graphs.mechanism.scd import SCDGraph
 
@@ -127,6 +155,7 @@ def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
 
 
 def _ride_along(sc: SCGraph, text: str) -> Edit:
+    from graphs.edit.named import link_named
     from graphs.edit.sc import add_ride_along
     from graphs.edit.scd import ride_along
     from graphs.mechanism.scd import SCDGraph
@@ -148,9 +177,10 @@ def _centre(sc: SCGraph, text: str, option: str) -> Edit:
 
 
 def _lock(sc: SCGraph, text: str) -> Edit:
+    from graphs.edit.named import joint_named
     from graphs.edit.sc import lock_joint
     from graphs.edit.scd import lock_hinge
     from graphs.mechanism.scd import SCDGraph
 
-    joint = _joint_named(sc, text)
+    joint = joint_named(sc, text)
     return lock_hinge(sc, joint) if isinstance(sc, SCDGraph) else lock_joint(sc, joint)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import about, console, plain, print_json
+from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, tell_lost
 
 __all__ = ["reconstruct"]
 
@@ -12,8 +12,10 @@ __all__ = ["reconstruct"]
 @click.command(short_help="Reconstruct the polyhedron model, vertex by vertex.")
 @click.argument("file", metavar="FILE")
 @click.option("-o", "--output", metavar="OUT", help="Write the model here (.json or .fold).")
+@FORCE
+@LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print the vertices and the counts as JSON.")
-def reconstruct(file: str, output: str | None, as_json: bool) -> None:
+def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json: bool) -> None:
     """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
 
     FILE holds an SCD graph, or a crease pattern of plain panels (.fold). The table says which links meet in
@@ -29,13 +31,13 @@ def reconstruct(file: str, output: str | None, as_json: bool) -> None:
     thing = read(file)
     with about(file):
         reconstruction = reconstructed(thing)
-    if output is not None:
-        write(reconstruction.model, output)
+        lost = () if output is None else write(reconstruction.model, output, force=force, lossy=lossy)
     if as_json:
-        print_json({"file": file, "output": output, **reconstruction.to_json()})
+        print_json({"file": file, "output": output, "lost": list(lost), **reconstruction.to_json()})
         return
     out = console()
     for block in reconstruction.blocks():
         out.print(block)
     if output is not None:
         out.print(f"written: {plain(output, 4096)}")
+        tell_lost(lost)

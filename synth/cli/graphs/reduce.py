@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import about, console, plain, print_json
+from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, tell_lost
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -15,9 +15,10 @@ if TYPE_CHECKING:
     from rich.tree import Tree
 
     from graphs.mechanism.sc import SCGraph
+    from graphs.reduce.assur import AssurReduction
     from graphs.reduce.ride_alongs import Reduction
 
-__all__ = ["link_named", "reduce_command"]
+__all__ = ["reduce_command"]
 
 _MOST_SHOWN = 200
 
@@ -34,6 +35,8 @@ _MOST_SHOWN = 200
 @click.option(
     "--input", "inputs", multiple=True, metavar="JOINT", help="An input, for the rule assur; may be repeated."
 )
+@FORCE
+@LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print counts and steps as JSON.")
 def reduce_command(
     file: str,
@@ -43,6 +46,8 @@ def reduce_command(
     keep: tuple[str, ...],
     ground: str | None,
     inputs: tuple[str, ...],
+    force: bool,
+    lossy: bool,
     as_json: bool,
 ) -> None:
     """Take ride-alongs off a mechanism, one by one, until none is left. Mobility stays.
@@ -59,61 +64,52 @@ def reduce_command(
       synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
     from graphs.convert.table import to_sc
+    from graphs.edit.named import link_named
     from graphs.files.formats import read, write
-    from graphs.reduce.ride_alongs import reduce
+    from graphs.reduce.ride_alongs import Reduction, reduce
 
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input belong to --rule assur")
     with about(file):
         sc = to_sc(read(file))
         if rule == "assur":
-            _reduce_assur(file, sc, output, ground, inputs, as_json)
-            return
-        reduction = reduce(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
-    if output is not None:
-        write(reduction.graph, output)
+            reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
+        else:
+            reduction = reduce(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
+        lost = () if output is None else write(reduction.graph, output, force=force, lossy=lossy)
     if as_json:
-        print_json({"file": file, "output": output, **reduction.to_json()})
+        print_json({"file": file, "output": output, "lost": list(lost), **reduction.to_json()})
         return
-    _print(reduction)
+    if isinstance(reduction, Reduction):
+        _print(reduction)
+    else:
+        _print_groups(reduction)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+        tell_lost(lost)
 
 
-def _reduce_assur(
-    file: str, sc: SCGraph, output: str | None, ground: str | None, inputs: tuple[str, ...], as_json: bool
-) -> None:
-    from graphs.files.formats import write
+def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
+    from graphs.edit.named import joint_named, link_named
     from graphs.reduce.assur import reduce_assur
 
     fixed = sc.ground if ground is None else link_named(sc, ground)
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur needs --ground LINK and an --input JOINT for each freedom")
-    joints = [next((joint for joint in sc.joints if str(joint) == name), name) for name in inputs]
-    reduction = reduce_assur(sc, fixed, joints)
-    if output is not None:
-        write(reduction.graph, output)
-    told = reduction.to_json()
-    if as_json:
-        print_json({"file": file, "output": output, **told})
-        return
-    _print_counts(told)
+    return reduce_assur(sc, fixed, [joint_named(sc, name) for name in inputs])
+
+
+def _print_groups(reduction: AssurReduction) -> None:
+    _print_counts(reduction.to_json())
     taken = {group.links for group in reduction.removed}
     for number, group in enumerate(reduction.groups, start=1):
         words = f"group {number}: links {_listed(group.links)}, joints {_listed(group.joints)}"
         words += f", input {_listed(group.inputs)}" if group.inputs else ""
         click.echo(words + ("   (taken off)" if group.links in taken else ""))
-    if output is not None:
-        click.echo(f"written: {plain(output, 4096)}")
 
 
 def _listed(names: tuple[Hashable, ...]) -> str:
     return plain(", ".join(map(str, names)), 200)
-
-
-def link_named(sc: SCGraph, name: str) -> Hashable:
-    """Return the link whose name reads as given, or the name itself."""
-    return next((link for link in sc.nodes if str(link) == name), name)
 
 
 def _print(reduction: Reduction) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from synth.cli.guidance.order import AXIS, ORIENTATIONS
-from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.output import FORCE, about, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from synth.guidance.dyads import Dyad
@@ -48,9 +48,15 @@ def samples_option(most: int) -> Callable[[_Command], _Command]:
 @click.option(
     "-o", "--picture", metavar="OUT", help="Draw a map of the sphere by order here (.svg, .png or .pdf)."
 )
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def dyads(
-    file: str, axes: tuple[tuple[float, float, float], ...], samples: int, picture: str | None, as_json: bool
+    file: str,
+    axes: tuple[tuple[float, float, float], ...],
+    samples: int,
+    picture: str | None,
+    force: bool,
+    as_json: bool,
 ) -> None:
     """Find the RR dyads, fixed axis G and moving axis W, that guide a body through orientations.
 
@@ -68,7 +74,9 @@ def dyads(
     with about(file):
         guiding = asked_for(orientations, axes, samples)
         if picture is not None:
-            _draw(orientations, guiding.dyads, picture)
+            from synth.drawing.figure import save_figure
+
+            save_figure(_drawn(orientations, guiding.dyads), picture, force=force)
     if as_json:
         print_json({"file": file, **guiding.to_json()})
         return
@@ -95,17 +103,14 @@ def asked_for(
     return guiding_dyads(orientations, axes, samples)
 
 
-def _draw(orientations: Orientations, found: tuple[Dyad, ...], picture: str) -> None:
-    from synth.drawing.figure import save_figure
+def _drawn(orientations: Orientations, found: tuple[Dyad, ...]) -> Any:
     from synth.drawing.sphere import draw_map
 
     if len(orientations) == 4:
         from synth.guidance.four import centre_axes
 
-        figure = draw_map(orientations, (), centre_axes(orientations, 720))
-    else:
-        figure = draw_map(orientations, found)
-    save_figure(figure, picture)
+        return draw_map(orientations, (), centre_axes(orientations, 720))
+    return draw_map(orientations, found)
 
 
 def _table(found: tuple[Dyad, ...]) -> Any:

@@ -9,9 +9,10 @@ import click
 
 from synth.cli.guidance.dyads import AXES, asked_for, samples_option
 from synth.cli.guidance.order import ORIENTATIONS
-from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.output import FORCE, about, console, plain, print_json, table
 
 if TYPE_CHECKING:
+    from graphs.arrays import Floats
     from synth.guidance.fourbars import GuidedFourBar
     from synth.guidance.orientations import Orientations
 
@@ -32,6 +33,7 @@ __all__ = ["fourbar"]
 )
 @click.option("--steps", type=click.IntRange(1, 100_000), default=20, show_default=True, metavar="N",
               help="Steps of the motion between two orientations.")  # fmt: skip
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def fourbar(
     file: str,
@@ -42,6 +44,7 @@ def fourbar(
     cones: bool,
     motion: str | None,
     steps: int,
+    force: bool,
     as_json: bool,
 ) -> None:
     """Join the dyads of orientations in pairs to four-bars, and rank them.
@@ -57,7 +60,7 @@ def fourbar(
       synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
     """
     from synth.guidance.fourbars import four_bars
-    from synth.guidance.orientations import read_orientations
+    from synth.guidance.orientations import read_orientations, write_orientations
 
     orientations = read_orientations(file)
     with about(file):
@@ -66,7 +69,9 @@ def fourbar(
     frames = None
     if motion is not None:
         with about(file):
-            frames = _write_motion(orientations, good, motion, steps)
+            made = _motion(orientations, good, steps)
+            write_orientations(made, motion, force=force)
+            frames = len(made)
     listed = (good if usable else found)[:best]
     if as_json:
         print_json(
@@ -89,16 +94,14 @@ def fourbar(
         out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
 
 
-def _write_motion(orientations: Orientations, good: list[GuidedFourBar], motion: str, steps: int) -> int:
+def _motion(orientations: Orientations, good: list[GuidedFourBar], steps: int) -> Floats:
+    """Return the motion of the best four-bar, as quaternions."""
     from graphs.errors import UnsolvableError
     from synth.guidance.fourbars import motion_of
-    from synth.guidance.orientations import write_orientations
 
     if not good:
         raise UnsolvableError("no four-bar without defects: there is no motion to write")
-    made = motion_of(orientations, good[0], steps)
-    write_orientations(made.quaternions, motion)
-    return len(made.quaternions)
+    return motion_of(orientations, good[0], steps).quaternions
 
 
 def _told(four_bar: GuidedFourBar, cones: bool) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.output import FORCE, about, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from synth.guidance.hoop_method import Direction
@@ -52,9 +52,15 @@ ORIENTATIONS = click.option(
     help="How the crank turns, seen from the tip of the axis.",
 )
 @click.option("-o", "--picture", metavar="OUT", help="Draw the sphere and the hoop here (.svg, .png or .pdf).")
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def order(
-    file: str, axis: tuple[float, float, float], direction: Direction, picture: str | None, as_json: bool
+    file: str,
+    axis: tuple[float, float, float],
+    direction: Direction,
+    picture: str | None,
+    force: bool,
+    as_json: bool,
 ) -> None:
     """Say whether a crank about a fixed axis takes orientations in their order (Tipparthi and Larochelle 2011).
 
@@ -76,7 +82,7 @@ def order(
         from synth.drawing.figure import save_figure
         from synth.drawing.sphere import draw_hoop
 
-        save_figure(draw_hoop(orientations, axis, found.hoop), picture)
+        save_figure(draw_hoop(orientations, axis, found.hoop), picture, force=force)
     if as_json:
         print_json({"file": file, "axis": list(axis), **found.to_json()})
     else:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import about, print_json
+from synth.cli.output import FORCE, about, print_json
 from synth.cli.surfaces.circles import NumberList, print_cones
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ def _radians(values: tuple[float, ...]) -> list[float]:
 )  # fmt: skip
 @click.option("--by-angles", is_flag=True, help="Of a FILE of steps: every cone on which its link angles lie.")
 @click.option("-o", "--output", metavar="PICTURE", help="Draw (.png, .svg, .pdf): loop sums; of a FILE, the cone.")
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def map_command(
     file: str | None,
@@ -47,6 +48,7 @@ def map_command(
     tolerance: float,
     by_angles: bool,
     output: str | None,
+    force: bool,
     as_json: bool,
 ) -> None:
     """Say on which right cones a linkage lies, all its joint axes ruling lines.
@@ -66,7 +68,7 @@ def map_command(
     if (file is None) == (angles is None):
         raise click.UsageError("give --angles of one loop, or a FILE")
     if file is not None:
-        _map_file(file, radians(tolerance), by_angles, output, as_json)
+        _map_file(file, radians(tolerance), by_angles, output, force, as_json)
         return
     from synth.surfaces.cone import map_to_cones
 
@@ -76,14 +78,16 @@ def map_command(
         from synth.drawing.figure import save_figure
         from synth.drawing.sums import draw_loop_sums
 
-        save_figure(draw_loop_sums(found), output)
+        save_figure(draw_loop_sums(found), output, force=force)
     if as_json:
         print_json(found.to_json())
     else:
         print_cones(found)
 
 
-def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None, as_json: bool) -> None:
+def _map_file(
+    file: str, tolerance: float, angles_only: bool, output: str | None, force: bool, as_json: bool
+) -> None:
     from graphs.files.formats import read_linkage
     from synth.cli.surfaces.conical import print_linkage
     from synth.surfaces.linkages import by_angles, map_linkage
@@ -102,7 +106,9 @@ def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None
 
         first = found.cones[0]
         places = [first.places[joint] for joint in linkage.chain.joints]
-        save_figure(draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output)
+        save_figure(
+            draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output, force=force
+        )
     if as_json:
         print_json(found.to_json())
     else:
@@ -121,6 +127,7 @@ def _map_file(file: str, tolerance: float, angles_only: bool, output: str | None
 @click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="Cone angle, for the picture.")
 @click.option("--ground", metavar="LINK", help="The fixed link: the first (1) by default; of a FILE, its own.")
 @click.option("-o", "--output", metavar="PICTURE", help="Draw circle and cone (.png, .svg, .pdf) of the first.")
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def behaviour_command(
     file: str | None,
@@ -129,6 +136,7 @@ def behaviour_command(
     cone_angle: float | None,
     ground: str | None,
     output: str | None,
+    force: bool,
     as_json: bool,
 ) -> None:
     """Say which links can move inward (intramobile), outward (extramobile), or only both ways (transmobile).
@@ -167,7 +175,7 @@ def behaviour_command(
         from synth.drawing.figure import save_figure
 
         first = found[0]
-        save_figure(draw_conformed(first.chain, first.places, first.cone_angle), output)
+        save_figure(draw_conformed(first.chain, first.places, first.cone_angle), output, force=force)
     if as_json:
         print_json({"linkages": [linkage.to_json() for linkage in found]})
     else:
@@ -175,7 +183,7 @@ def behaviour_command(
 
 
 def _behaviours(linkages: list[OnCone], ground: str | None) -> list[LinkageBehaviour]:
-    from synth.cli.graphs.reduce import link_named
+    from graphs.edit.named import link_named
 
     return [
         linkage.behaviour(None if ground is None else link_named(linkage.chain, ground)) for linkage in linkages

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import print_json
+from synth.cli.output import FORCE, print_json
 from synth.cli.surfaces.circles import NumberList, print_cylinders
 
 __all__ = ["cylinder_group"]
@@ -25,8 +25,9 @@ def cylinder_group() -> None:
     "--lengths", type=NumberList(), required=True, metavar="A,B,...", help="Lengths of the links in loop order."
 )
 @click.option("-o", "--output", metavar="PICTURE", help="Draw the loop sums (.png, .svg, .pdf).")
+@FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -> None:
+def map_command(lengths: tuple[float, ...], output: str | None, force: bool, as_json: bool) -> None:
     """Say on which cylinders a planar loop of any number of links lies, all its joint axes ruling lines.
 
     A four-bar is given as ground, input, coupler, output. The radius is in the unit of the lengths.
@@ -43,7 +44,7 @@ def map_command(lengths: tuple[float, ...], output: str | None, as_json: bool) -
         from synth.drawing.figure import save_figure
         from synth.drawing.sums import draw_loop_sums
 
-        save_figure(draw_loop_sums(found), output)
+        save_figure(draw_loop_sums(found), output, force=force)
     if as_json:
         print_json(found.to_json())
     else:

@@ -132,10 +132,11 @@ def test_every_sheet_survives_write_and_read_as_fold(fold_folder, tmp_path):
             continue
         if not sheet.faces:
             continue
-        write(sheet, tmp_path / "again.fold")
+        write(sheet, tmp_path / "again.fold", force=True)
         again = read(tmp_path / "again.fold")
         assert (again.edges, again.assignments, again.faces) == (sheet.edges, sheet.assignments, sheet.faces)
         assert again.coordinates == sheet.coordinates, row["name"]
+        assert again.spread == sheet.spread, row["name"]
 
 
 def test_the_eight_bends_of_the_hexagon_pattern_are_drawn(fold_folder):

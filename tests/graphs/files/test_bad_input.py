@@ -225,7 +225,7 @@ def test_what_was_there_is_kept_when_writing_fails(tmp_path, monkeypatch):
 
     monkeypatch.setattr("pathlib.Path.replace", full)
     with pytest.raises(FileError, match="No space left on device"):
-        write(SCGraph(2, [(0, 1)]), path)
+        write(SCGraph(2, [(0, 1)]), path, force=True)
     assert path.read_text(encoding="utf-8") == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["a.json"]
 

@@ -29,7 +29,7 @@ def test_graph6_gives_loops_by_embedding(tmp_path):
 @pytest.mark.parametrize("suffix", [".s6", ".graphml", ".edges", ".txt"])
 def test_parallel_joints_survive(suffix, tmp_path):
     path = tmp_path / f"a{suffix}"
-    assert "loops and their centres" in write(PARALLEL, path)
+    assert "that 1 loop has no centre" in write(PARALLEL, path, lossy=True)
     back = read(path)
     assert sorted(d for _, d in back.degree()) == [1, 2, 3]
     if suffix != ".s6":
@@ -63,7 +63,7 @@ def test_bare_formats_keep_links_and_joints(tmp_path_factory, sc):
     plain = sc.relabel({link: i for i, link in enumerate(sc.nodes)})
     for suffix in (".s6", ".graphml", ".edges"):
         try:
-            write(plain, folder / f"a{suffix}")
+            write(plain, folder / f"a{suffix}", lossy=True)
             back = read(folder / f"a{suffix}")
         except UnsolvableError as error:
             assert "no joint" in str(error)

@@ -19,6 +19,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import Sheet
 
 KEYS = {"file", "class", "links", "joints", "loops", "centres", "mobility", "equations", "exact", "pose",
         "repairs", "warnings"}  # fmt: skip
@@ -139,11 +140,11 @@ def test_odd_names_do_no_harm(name, tmp_path):
     assert "\x1b" not in out
     json.loads(run("mobility", "--json", path).stdout)
     scd = SCDGraph([name, "b"], {"j": (name, "b")}, rotation={name: ("j", None, None), "b": ("j", None, None)})
-    write(scd, path)
+    write(scd, path, force=True)
     out = run("reconstruct", path).stdout
     assert all(len(line) < 200 for line in out.splitlines())
     json.loads(run("reconstruct", "--json", path).stdout)
-    write(SCGraph([name, "b"], {"x": (name, "b"), "y": (name, "b")}, [Loop(("x",))] * 0), path)
+    write(SCGraph([name, "b"], {"x": (name, "b"), "y": (name, "b")}, [Loop(("x",))] * 0), path, force=True)
     path.write_text(path.read_text(encoding="utf-8").replace('"b"]', '"gone"]', 1), encoding="utf-8")
     result = run("mobility", path, code=2)
     assert len(result.stderr.splitlines()) == 1
@@ -178,9 +179,9 @@ def test_convert_round_trip(data, tmp_path):
 
 def test_convert_tells_what_is_lost(data, tmp_path):
     watt = data / "wiener" / "watt.json"
-    assert "not stored: loops and their centres" in run("convert", watt, tmp_path / "watt.graphml").stdout
+    assert "not stored: 2 loops and their centres" in run("convert", watt, tmp_path / "watt.graphml").stdout
     told = json.loads(run("convert", watt, tmp_path / "watt.g6", "--json").stdout)
-    assert told["lost"] == ["loops and their centres", "names"]
+    assert told["lost"] == ["2 loops and their centres"]
     assert told["kind"] == "SCGraph"
     result = run("convert", watt, tmp_path / "watt.fold", code=2)
     assert result.stderr.splitlines() == [
@@ -215,7 +216,7 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
         in run("reduce", "--fully", data / "wampler" / "fig12-scd.json").stdout
     )
     result = run("reduce", data / "wiener" / "watt.json", "--keep", "sky", code=2)
-    assert "'sky' is to be kept and is no link; expected one of the links" in result.stderr
+    assert "'sky' is no link; expected one of 0, 1, 2, 3, 4, 5" in result.stderr
     stephenson = data / "wiener" / "stephenson.json"
     assert (
         "needs --ground LINK and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
@@ -252,10 +253,44 @@ def test_edit_tells_predicted_and_counted_change(data, tmp_path):
     assert re.search(r"crease in 4 +Eq. 7 +1 +1 +1", run("edit", mesh, "--add-crease", f"4:{a},{b}").stdout)
 
 
+def test_an_edited_pattern_is_a_pattern(data, tmp_path):
+    bird, out = data / "patterns" / "bird-base.fold", tmp_path / "x.fold"
+    words = ["--lock", "3", "--add-crease", "-1,0.3:1,0.3", "--remove-crease", "0", "--lock", "8,10"]
+    told = json.loads(run("edit", bird, *words, "-o", out, "--json").stdout)
+    assert [one["what"].split(" ")[0] for one in told["edits"]] == ["lock", "lock", "crease", "remove"]
+    assert told["lost"] == []
+    edited = read(out)
+    assert isinstance(edited, Sheet)
+    [report] = json.loads(run("mobility", out, "--json").stdout)
+    assert report["mobility"] == told["edits"][-1]["mobility"]
+    before, after = (sum(letter == "F" for letter in sheet.assignments) for sheet in (read(bird), edited))
+    assert after >= before + 2
+    ridden = tmp_path / "ridden.json"
+    run("edit", bird, "--add-ride-along", "0,1", "-o", ridden)
+    assert isinstance(read(ridden), SCGraph)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--lock", "99"], "'99' is no joint; expected one of the joints"),
+        (["--lock", "99"], "'99' is no edge; expected one of 0, 1, 2, 3, 5, 6, "),
+        (["--add-crease", "0"], "'0' is not A:B, two vertices or points X,Y of the pattern"),
+        (["--add-crease", "0:sky"], "'sky' is neither a vertex nor a point X,Y"),
+        (
+            ["--add-crease", "0.3,0.1:2"],
+            "the nearest are vertex 9 (0.414214, 0) and edge 0 (V) from vertex 0 (0, 0)",
+        ),
+        (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease is for crease patterns"),
+    ],
+)
+def test_edits_of_patterns_that_cannot_be(words, message, data):
+    assert message in run("edit", data / "patterns" / "bird-base.fold", *words, code=2).stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--lock", "99"], "'99' is no joint; expected one of 0, 1, 2, 3, 4, 5, 6"),
         (["--implicit", "0"], "--implicit needs the sides of the links: an SCD graph"),
         (["--add-ride-along", "0"], "'0' has 1 part(s), not 2"),
         (["--add-ride-along", "0,sky"], "'sky' is no link"),

@@ -172,7 +172,7 @@ def test_enumerate_scd(tmp_path, data):
     models = sorted((tmp_path / "folder").iterdir())
     assert [map_id(read(file)) for file in models] == [row["code"] for row in rows]
     for file in models:
-        run("reconstruct", file, "-o", tmp_path / "model.json")
+        run("reconstruct", file, "-o", tmp_path / "model.json", "--force")
         [report] = json.loads(run("mobility", "--json", tmp_path / "model.json").stdout)
         assert report["exact"]["mobility"] == 1
     watt = data / "wiener" / "watt.json"

@@ -110,7 +110,7 @@ def test_four_bars_and_their_motion(data, tmp_path):
     assert re.search(r"12 four-bar\(s\), \d without defects", out)
     assert "Grashof crank-rocker" in out
     assert "branch" not in out
-    out = run("fourbar", "--orientations", given, "--motion", motion).stdout
+    out = run("fourbar", "--orientations", given, "--motion", motion, "--force").stdout
     assert f"written: {motion} (81 orientations)" in out
 
 

@@ -1,0 +1,204 @@
+"""Edits of sheets: a pattern edited is a pattern. Theory: docs/theory/edits.md.
+
+Vertices keep their numbers, and edges theirs, except where a crease is removed. What is added comes last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.count.relative import relative_spherical_system
+from graphs.count.report import mobility_report
+from graphs.creasing.lines import creased_along
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.mechanism.sheet import HINGES, Sheet, sides_of_face, with_all_edges
+
+__all__ = ["SheetEdit", "crease_sheet", "lock_crease", "remove_crease"]
+
+
+@dataclass(frozen=True)
+class SheetEdit:
+    """A sheet before and after an edit.
+
+    Attributes
+    ----------
+    what : str
+        The edit in words.
+    before, sheet : Sheet
+        The pattern before and after.
+    equation : str
+        The equation that predicts the change of mobility.
+    """
+
+    what: str
+    before: Sheet
+    sheet: Sheet
+    equation: str = "Eq. 6"
+
+    @cached_property
+    def _mechanisms(self) -> tuple[SheetMechanism, SheetMechanism]:
+        return mechanism_of_sheet(self.before), mechanism_of_sheet(self.sheet)
+
+    @property
+    def predicted(self) -> int:
+        """The change of mobility that the links and joints added or taken away make, all about centres."""
+        before, after = (one.sc for one in self._mechanisms)
+        return relative_spherical_system(len(after) - len(before), len(after.joints) - len(before.joints))
+
+    @property
+    def counted(self) -> int:
+        """The change of mobility as the difference of the two counts."""
+        before, after = (mobility_report(one.sc).mobility for one in self._mechanisms)
+        assert before is not None
+        assert after is not None
+        return after - before
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the edit as plain data."""
+        after = self._mechanisms[1].sc
+        return {
+            "what": self.what,
+            "equation": self.equation,
+            "predicted": self.predicted,
+            "counted": self.counted,
+            "links": len(after),
+            "joints": len(after.joints),
+            "mobility": mobility_report(after).mobility,
+        }
+
+
+def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:
+    """Lock a crease: all pieces of the joint become flat (F), so that its two panels are one.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    joint : int
+        Its id, the number of an edge.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such joint.
+
+    Examples
+    --------
+    >>> strip = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)))
+    >>> edit = lock_crease(strip, 0)
+    >>> edit.sheet.assignments[0], edit.predicted, edit.counted
+    ('F', -1, -1)
+    """
+    whole, pieces = _pieces(sheet, joint)
+    letters = "".join(
+        "F" if frozenset(edge) in pieces else letter
+        for edge, letter in zip(whole.edges, whole.assignments, strict=True)
+    )
+    return SheetEdit(f"lock crease {joint}", sheet, replace(whole, assignments=letters, frames=None))
+
+
+def crease_sheet(
+    sheet: Sheet, start: int | Sequence[float], end: int | Sequence[float], letter: str = "U"
+) -> SheetEdit:
+    """Crease a sheet along a straight line between two vertices or points.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    start, end : int or (x, y)
+        Vertices, or points on edges, which get a vertex there. Of a flat sheet the line may cross edges.
+    letter : {"U", "M", "V"}, optional
+        Assignment of the crease. Flat edges along the line become creases, creases stay.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such vertex, no edge at a point, or the letter is no hinge.
+    UnsolvableError
+        If the line leaves the sheet, or there are creases all along it.
+
+    Examples
+    --------
+    >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> edit = crease_sheet(square, (0.5, 0), (0.5, 1))
+    >>> edit.sheet.faces, edit.predicted, edit.counted
+    (((4, 1, 2, 5), (5, 3, 0, 4)), 1, 1)
+    """
+    if letter not in HINGES:
+        raise InvariantError("crease", f"the assignment {letter!r}", "one of " + " ".join(HINGES))
+    after, (a, b) = creased_along(with_all_edges(sheet), start, end, letter)
+    return SheetEdit(f"crease from vertex {a} to vertex {b}", sheet, replace(after, frames=None))
+
+
+def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
+    """Remove a crease with all its pieces: the faces beside it become one. Edges after it move up.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such joint.
+    UnsolvableError
+        If the faces meet in other edges too, so that the face made of them would not be simple.
+
+    Examples
+    --------
+    >>> strip = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)))
+    >>> edit = remove_crease(strip, 0)
+    >>> edit.sheet.faces, edit.counted
+    (((0, 1, 2, 3),), -1)
+    """
+    whole, pieces = _pieces(sheet, joint)
+    faces = list(whole.faces)
+    left = set(pieces)
+    while left:
+        piece = min(left, key=sorted)
+        first, second = (i for i, face in enumerate(faces) if piece in map(frozenset, sides_of_face(face)))
+        between = left & set(map(frozenset, sides_of_face(faces[first])))
+        between &= set(map(frozenset, sides_of_face(faces[second])))
+        faces[first] = _merged(faces[first], faces[second], between, joint)
+        del faces[second]
+        left -= between
+    kept = [i for i, edge in enumerate(whole.edges) if frozenset(edge) not in pieces]
+    angles = whole.fold_angles
+    after = replace(
+        whole,
+        edges=tuple(whole.edges[i] for i in kept),
+        assignments="".join(whole.assignments[i] for i in kept),
+        faces=tuple(faces),
+        fold_angles=None if angles is None else tuple(angles[i] for i in kept),
+        frames=None,
+    )
+    return SheetEdit(f"remove crease {joint}", sheet, after)
+
+
+def _pieces(sheet: Sheet, joint: int) -> tuple[Sheet, set[frozenset[int]]]:
+    """Return the sheet with all its edges listed, and the edges that make up a joint."""
+    mechanism = mechanism_of_sheet(sheet)
+    if joint not in mechanism.pieces:
+        expected = "the number of a crease between two panels"
+        raise InvariantError("crease", f"{joint} is no joint of the sheet", expected)
+    return with_all_edges(sheet), {frozenset(edge) for edge in mechanism.pieces[joint]}
+
+
+def _merged(
+    first: Sequence[int], second: Sequence[int], between: Collection[frozenset[int]], joint: int
+) -> tuple[int, ...]:
+    """Return the face made of two without the edges between them."""
+    sides = [side for side in sides_of_face(first) if frozenset(side) not in between]
+    shared = next(side for side in sides_of_face(first) if frozenset(side) in between)
+    if shared in sides_of_face(second):  # they are walked round in opposite senses
+        second = tuple(reversed(second))
+    sides += [side for side in sides_of_face(second) if frozenset(side) not in between]
+    following: dict[int, int] = dict(sides)
+    around = [sides[0][0]] if sides else []
+    while around and following[around[-1]] != around[0] and len(around) <= len(sides):
+        around.append(following[around[-1]])
+    if len(around) != len(sides) or len(following) != len(sides):
+        raise UnsolvableError(
+            f"crease {joint} cannot be removed: the faces beside it meet in other edges too, "
+            "and would surround them"
+        )
+    return tuple(around)

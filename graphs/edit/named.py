@@ -1,0 +1,98 @@
+"""Links and joints named by people: by id, by number, as a pair of links; what is said of a name that is none."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from difflib import get_close_matches
+
+from graphs.errors import InvariantError, shown
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.sc import SCGraph
+
+__all__ = ["joint_named", "known", "link_named"]
+
+_MOST = 12
+"""Names that are listed in a message."""
+
+
+def known(names: Iterable[Hashable], asked: str) -> str:
+    """Return what is known in the place of a name: the names, how many, the nearest.
+
+    Examples
+    --------
+    >>> known(["crank", "rocker"], "cranck")
+    "one of 'crank', 'rocker'; the nearest is 'crank'"
+    >>> known(range(40), "99")
+    'one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, ... (40); the nearest is 9'
+    """
+    every = list(names)
+    if not every:
+        return "there is none"
+    listed = ", ".join(map(shown, every[:_MOST])) + (f", ... ({len(every)})" if len(every) > _MOST else "")
+    near = get_close_matches(asked[:100], map(str, every), 1)
+    nearest = next((shown(name) for name in every if near and str(name) == near[0]), None)
+    return f"one of {listed}" + (f"; the nearest is {nearest}" if nearest is not None else "")
+
+
+def link_named(sc: SCGraph, name: str) -> LinkId:
+    """Return the link whose name reads as given.
+
+    Raises
+    ------
+    InvariantError
+        If there is none.
+
+    Examples
+    --------
+    >>> link_named(SCGraph(2, [(0, 1)]), "1")
+    1
+    """
+    return _named(list(sc.nodes), name, "link")
+
+
+def joint_named(sc: SCGraph, name: str) -> JointId:
+    """Return the joint whose id reads as given; else by its number in the list, else the one between two links.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    name : str
+        ``3``, ``hinge``, or ``A,B``.
+
+    Raises
+    ------
+    InvariantError
+        If there is none, or there are several between the links.
+
+    Examples
+    --------
+    >>> two = SCGraph(["A", "B", "C"], {"a": ("A", "B"), "b": ("B", "C")})
+    >>> joint_named(two, "b"), joint_named(two, "1"), joint_named(two, "C, B")
+    ('b', 'b', 'b')
+    """
+    for joint in sc.joints:
+        if str(joint) == name:
+            return joint
+    if name.isascii() and name.isdigit() and len(name) < 10 and int(name) < len(sc.joints):
+        return list(sc.joints)[int(name)]
+    first, comma, second = (word.strip() for word in name.partition(","))
+    if not comma:
+        return _named(sc.joints, name, "joint")
+    a, b = link_named(sc, first), link_named(sc, second)
+    between: list[Hashable] = list(sc[a][b]) if sc.has_edge(a, b) else []
+    if len(between) == 1:
+        return next(iter(between))
+    pair = f"{shown(a)} and {shown(b)}"
+    if between:
+        raise InvariantError(
+            "joint", f"{len(between)} joints join {pair}", f"one of {', '.join(map(shown, between))}"
+        )
+    here = ", ".join(shown(other) for other in list(sc[a])[:_MOST])
+    raise InvariantError("joint", f"no joint joins {pair}", f"a link beside {shown(a)}: {here or 'it has none'}")
+
+
+def _named(names: Iterable[Hashable], name: str, kind: str) -> Hashable:
+    every = list(names)
+    if name not in map(str, every):
+        raise InvariantError(kind, f"{shown(name)} is no {kind}", known(every, name))
+    return next(one for one in every if str(one) == name)

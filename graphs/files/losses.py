@@ -1,0 +1,221 @@
+"""What a format cannot hold of a mechanism, told by kind and number."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from math import isclose
+
+from graphs.convert.table import Mechanism, to_sc
+from graphs.files.native.names import is_count
+from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
+
+__all__ = ["lost_as_bare_graph", "lost_as_cp", "lost_as_fold", "lost_as_json", "lost_as_obj", "lost_as_svg"]
+
+Lost = tuple[str, ...]
+
+
+def lost_as_json(mechanism: Mechanism) -> Lost:
+    """Return what a native file does not hold: of a sheet everything but its mechanism.
+
+    Examples
+    --------
+    >>> lost_as_json(Sheet(3, ((0, 1),), "B", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)), "Kite"))
+    ('the title', 'coordinates of 3 vertices', 'the shape of 1 face')
+    """
+    if not isinstance(mechanism, Sheet):
+        return ()
+    return (*_other_frames(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
+
+
+def lost_as_fold(mechanism: Mechanism) -> Lost:
+    """Return what a FOLD file does not hold: of a sheet read from one, its other frames.
+
+    Examples
+    --------
+    >>> lost_as_fold(SCGraph(["A", "B"], [("A", "B")]))
+    ('names of 2 links',)
+    """
+    return _other_frames(mechanism) if isinstance(mechanism, Sheet) else _lost_as_sheet(mechanism)
+
+
+def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
+    """Return what the ``.cp`` file of a sheet that was made of a mechanism does not hold.
+
+    Examples
+    --------
+    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, 90.0))
+    >>> lost_as_cp(sheet, sheet)
+    ('1 cut: as borders', '1 unassigned crease: as valleys', '1 fold angle', 'which lines bound which of 1 face')
+    """
+    letters = with_all_edges(sheet).assignments
+    told = [
+        *_letters(letters, "C", "cut", "as borders"),
+        *_letters(letters, "J", "join", "as auxiliary lines"),
+        *_letters(letters, "U", "unassigned crease", "as valleys"),
+        *_angles(sheet),
+        *_title(sheet),
+    ]
+    return (*lost_as_fold(mechanism), *told, *_precision(sheet), _bounds(sheet))
+
+
+def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
+    """Return what the SVG file of a sheet that was made of a mechanism does not hold.
+
+    Opacity tells fold angles up to 180 degrees, of mountains below zero and of valleys above it.
+
+    Examples
+    --------
+    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
+    >>> lost_as_svg(sheet, sheet)
+    ('1 join: as flat edges', '1 fold angle', 'which lines bound which of 1 face')
+    """
+    letters = with_all_edges(sheet).assignments
+    wrong = sum(
+        angle is not None and _is_told(letter, angle) and not _by_opacity(letter, angle)
+        for letter, angle in zip(sheet.assignments, sheet.fold_angles or (), strict=False)
+    )
+    angles = (_number(wrong, "fold angle"),) if wrong else ()
+    told = (*_letters(letters, "J", "join", "as flat edges"), *angles, *_precision(sheet))
+    return (*lost_as_fold(mechanism), *told, _bounds(sheet))
+
+
+def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
+    """Return what the OBJ file of a sheet that was made of a mechanism does not hold."""
+    return (*lost_as_fold(mechanism), *_title(sheet), *_precision(sheet))
+
+
+def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
+    """Return what a bare link-joint graph does not hold; ``names`` says whether it holds names.
+
+    Examples
+    --------
+    >>> lost_as_bare_graph(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))]), names=False)
+    ('1 loop and its centre',)
+    """
+    sc = to_sc(mechanism)
+    loops = (*sc.loops, *sc.closing)
+    told = (
+        []
+        if not loops
+        else ["1 loop and its centre" if len(loops) == 1 else f"{len(loops)} loops and their centres"]
+    )
+    if sc.spatial_loops:
+        told.append(f"that {_number(sc.spatial_loops, 'loop has', 'loops have')} no centre")
+    if isinstance(mechanism, Sheet):
+        told += (*_other_frames(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
+    if isinstance(mechanism, SCDGraph):
+        told.append(f"the order of the sides of {_number(len(sc), 'link')}")
+    if isinstance(mechanism, ConicalLinkage):
+        told.append("angles on the cone")
+    if sc.ground is not None:
+        told.append("the ground link")
+    return (*told, *(() if names or isinstance(mechanism, Sheet) else _names(sc)))
+
+
+def _lost_as_sheet(mechanism: Mechanism) -> Lost:
+    """Return what is lost where a mechanism that is no sheet becomes one."""
+    if isinstance(mechanism, PolyhedronModel):
+        return _model_as_sheet(mechanism)
+    sc = to_sc(mechanism)
+    told: list[str] = []
+    if isinstance(mechanism, SCDGraph):
+        told += _some(mechanism.counts.implicit_centres, "implicit centre")
+    told += _some(_loops_of(sc, Centre.INFINITE), "centre at infinity", "centres at infinity")
+    if sc.ground is not None:
+        told.append("the ground link")
+    if isinstance(mechanism, ConicalLinkage):
+        told.append("angles on the cone")
+    loops: tuple[Loop, ...] = (*sc.loops, *sc.closing)
+    told += _some(sum(loop.at is not None for loop in loops), "centre told by name", "centres told by name")
+    told += _some(sum(loop.name is not None for loop in loops), "name of a loop", "names of loops")
+    return (*told, *_names(sc))
+
+
+def _model_as_sheet(model: PolyhedronModel) -> Lost:
+    told = [
+        *_some(len(model.centres), "remote centre"),
+        *_some(len(model.on_line), "point on a line", "points on lines"),
+        *_some(len(model.on_plane), "point on a plane", "points on planes"),
+        *_some(len(model.scissors), "scissors", "scissors"),
+        *([] if model.ground is None else ["the ground"]),
+        *_some(0 if is_count(model.nodes) else len(model), "name of a vertex", "names of vertices"),
+        *_some(0 if is_count(model.links) else len(model.links), "name of a link", "names of links"),
+    ]
+    return tuple(told)
+
+
+def _loops_of(sc: SCGraph, centre: Centre) -> int:
+    return sum(loop.centre is centre for loop in (*sc.loops, *sc.closing))
+
+
+def _names(sc: SCGraph) -> Lost:
+    kinds: tuple[tuple[Iterable[Hashable], str], ...] = ((sc.nodes, "link"), (sc.joints, "joint"))
+    named = [_number(len(list(ids)), kind) for ids, kind in kinds if not is_count(ids)]
+    return (f"names of {' and '.join(named)}",) if named else ()
+
+
+def _other_frames(sheet: Sheet) -> Lost:
+    return _some(sheet.frames.others if sheet.frames is not None else 0, "other frame")
+
+
+def _title(sheet: Sheet) -> Lost:
+    return ("the title",) if sheet.title else ()
+
+
+def _precision(sheet: Sheet) -> Lost:
+    """Tell of the precision of a pattern whose points were welded, which decides about centres and hinges."""
+    return ("how far points were apart that were welded",) if sheet.spread else ()
+
+
+def _shapes(sheet: Sheet) -> Lost:
+    """Tell of coordinates, faces and assignments, where only the mechanism is kept."""
+    places = (
+        () if sheet.coordinates is None else (f"coordinates of {_number(sheet.vertices, 'vertex', 'vertices')}",)
+    )
+    folded = sum(letter in "MV" for letter in sheet.assignments)
+    faces = len(sheet.faces)
+    cuts = _letters(sheet.assignments, "C", "cut", "")
+    flat = _some(sum(letter in FLAT for letter in sheet.assignments), "flat edge")
+    kinds = (f"mountain or valley of {_number(folded, 'crease')}",) if folded else ()
+    shape = "the shape of 1 face" if faces == 1 else f"the shapes of {faces} faces"
+    return (*places, shape, *kinds, *cuts, *flat)
+
+
+def _angles(sheet: Sheet) -> Lost:
+    pairs = zip(sheet.assignments, sheet.fold_angles or (), strict=False)
+    return _some(sum(angle is not None and _is_told(letter, angle) for letter, angle in pairs), "fold angle")
+
+
+def _is_told(letter: str, angle: float) -> bool:
+    """Tell whether a fold angle says more than that an edge that hinges nothing is not folded."""
+    return letter in HINGES or angle != 0
+
+
+def _by_opacity(letter: str, angle: float) -> bool:
+    """Tell whether the colour and the opacity of a line tell its fold angle."""
+    signed = {"M": -abs(angle), "V": abs(angle)}
+    return letter in signed and abs(angle) <= 180 and isclose(angle, signed[letter])
+
+
+def _letters(assignments: str, letter: str, kind: str, becomes: str) -> Lost:
+    number = assignments.count(letter)
+    if not number:
+        return ()
+    return (_number(number, kind) + (f": {becomes}" if becomes else ""),)
+
+
+def _bounds(sheet: Sheet) -> str:
+    return f"which lines bound which of {_number(len(sheet.faces), 'face')}"
+
+
+def _some(number: int, one: str, more: str | None = None) -> Lost:
+    return (_number(number, one, more),) if number else ()
+
+
+def _number(number: int, one: str, more: str | None = None) -> str:
+    return f"{number} {one if number == 1 else more or one + 's'}"

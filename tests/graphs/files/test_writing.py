@@ -1,0 +1,146 @@
+"""What formats cannot hold is told, types are kept, and what is there is not replaced."""
+
+import os
+from dataclasses import replace
+
+import pytest
+
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.files.atomic import FolderBeside
+from graphs.files.formats import READERS, WRITERS, mechanism_of_id, read, write
+from graphs.files.kept_type import change_of_type
+from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet, with_all_edges
+
+RING = [(0, 1), (1, 2), (2, 3), (3, 0)]
+PLACES = ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1.0, 1.0))
+FAN = ((0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))
+REMOTE = "m1:a-b-.a-c-.b-d-.c-d-"
+"""A ring of four links whose axes meet in a point that none of them reaches."""
+
+
+def test_a_remote_centre_is_no_vertex_of_a_pattern(tmp_path):
+    remote = mechanism_of_id(REMOTE)
+    with pytest.raises(
+        UnsolvableError, match=r"M = 1 spherical becomes M = -2 spatial, for it cannot hold 1 implicit"
+    ):
+        write(remote, tmp_path / "a.fold")
+    assert not list(tmp_path.iterdir())
+    assert write(remote, tmp_path / "a.fold", lossy=True) == ("1 implicit centre",)
+    assert len(read(tmp_path / "a.fold").faces) == 4
+
+
+@pytest.mark.parametrize("suffix", [".g6", ".s6", ".graphml", ".edges", ".txt"])
+def test_a_bare_graph_gives_every_face_a_finite_centre(suffix, tmp_path):
+    planar = SCGraph(4, RING, [Loop(range(4), "infinite")])
+    with pytest.raises(UnsolvableError, match="M = 1 planar becomes M = 1 spherical"):
+        write(planar, tmp_path / f"a{suffix}")
+    assert "1 loop and its centre" in write(planar, tmp_path / f"a{suffix}", lossy=True)
+    write(SCGraph(4, RING, [Loop(range(4))]), tmp_path / f"b{suffix}")
+
+
+def test_types_differ_by_their_centres_though_all_numbers_agree():
+    ladder = [(0, 1), (1, 2), (2, 3), (3, 0), (2, 4), (4, 5), (5, 3), (4, 6), (6, 7), (7, 8), (8, 5)]
+    squares = [(0, 1, 2, 3), (2, 4, 5, 6), (5, 7, 8, 9, 10)]
+    first, second = (
+        SCGraph(9, ladder, [Loop(around, at="P" if i in shared else None) for i, around in enumerate(squares)])
+        for shared in ((0, 1), (1, 2))
+    )
+    assert len(first.centre_classes()) == len(second.centre_classes()) == 2
+    assert "other loops share a centre" in change_of_type(first, second)
+    assert change_of_type(first, first.relabel({0: "a"})) is None
+
+
+def test_a_sheet_tells_what_each_format_loses(tmp_path):
+    edges = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))
+    sheet = Sheet(5, edges, "BBBBCJUM", FAN, PLACES, "Fan", fold_angles=(*(None,) * 7, 90.0))
+    bounds = "which lines bound which of 4 faces"
+    assert write(sheet, tmp_path / "a.fold") == ()
+    assert write(sheet, tmp_path / "a.obj") == ("the title",)
+    assert write(sheet, tmp_path / "a.svg") == ("1 join: as flat edges", "1 fold angle", bounds)
+    assert write(sheet, tmp_path / "a.cp") == (
+        *("1 cut: as borders", "1 join: as auxiliary lines", "1 unassigned crease: as valleys", "1 fold angle"),
+        *("the title", bounds),
+    )
+    assert write(sheet, tmp_path / "a.json") == (
+        *("the title", "coordinates of 5 vertices", "the shapes of 4 faces", "mountain or valley of 1 crease"),
+        *("1 cut", "1 flat edge", "1 fold angle"),
+    )
+    for suffix in (".obj", ".svg", ".cp"):
+        assert change_of_type(sheet, read(tmp_path / f"a{suffix}")) is None
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".cp", ".obj", ".fold"])
+def test_faces_without_a_list_of_edges_are_written_whole(suffix, tmp_path):
+    sheet = Sheet(5, (), "", FAN, PLACES)
+    write(sheet, tmp_path / f"a{suffix}")
+    again = read(tmp_path / f"a{suffix}")
+    assert (len(again.faces), len(mechanism_of_sheet(again).sc.joints)) == (4, 4)
+
+
+def test_edges_that_are_added_have_the_ids_of_their_joints():
+    sheet = Sheet(5, ((4, 2), (0, 1)), "MB", FAN, PLACES, fold_angles=(30.0, None))
+    whole = with_all_edges(sheet)
+    hinges = mechanism_of_sheet(sheet).hinges
+    assert {joint: frozenset(whole.edges[joint]) for joint in hinges} == {
+        joint: frozenset(ends) for joint, ends in hinges.items()
+    }
+    assert (whole.assignments, len(whole.fold_angles)) == ("MBUUUBBB", 8)
+    assert with_all_edges(whole) is whole
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".cp"])
+def test_a_picture_of_nothing_is_refused(suffix, tmp_path):
+    with pytest.raises(UnsolvableError, match="needs lines, and the sheet has none"):
+        write(Sheet(1, (), "", (), ((0.0, 0.0),)), tmp_path / f"a{suffix}", lossy=True)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_is_replaced_by_force_only(tmp_path):
+    path = tmp_path / "a.json"
+    write(SCGraph(4, RING), path)
+    with pytest.raises(
+        FileError, match=r"exists already; expected another name, or --force \(in Python force=True\)"
+    ):
+        write(SCGraph(2, [(0, 1)]), path)
+    assert len(read(path)) == 4
+    write(SCGraph(2, [(0, 1)]), path, force=True)
+    assert len(read(path)) == 2
+
+
+@pytest.mark.parametrize("force", [False, True])
+def test_links_and_special_files_are_never_written_to(force, tmp_path):
+    target = tmp_path / "target.json"
+    target.write_text("old", encoding="utf-8")
+    (tmp_path / "link.json").symlink_to(target)
+    (tmp_path / "dangling.json").symlink_to(tmp_path / "nowhere.json")
+    os.mkfifo(tmp_path / "pipe.json")
+    before = sorted(tmp_path.iterdir())
+    for name, what in (("link", "a symbolic link"), ("dangling", "a symbolic link"), ("pipe", "a special file")):
+        with pytest.raises(FileError, match=what):
+            write(SCGraph(2, [(0, 1)]), tmp_path / f"{name}.json", force=force)
+    assert sorted(tmp_path.iterdir()) == before
+    assert target.read_text(encoding="utf-8") == "old"
+    assert (tmp_path / "link.json").is_symlink()
+    with pytest.raises(FileError, match="exists already"):
+        FolderBeside(tmp_path / "dangling.json")
+
+
+def test_what_is_written_can_be_read():
+    assert set(WRITERS) <= set(READERS)
+
+
+def test_a_sheet_that_is_no_mechanism_has_no_type_to_keep(tmp_path):
+    book = Sheet(5, (), "", ((0, 1, 2), (0, 1, 3), (0, 1, 4)), PLACES)
+    with pytest.raises(InvariantError, match="belongs to 3 faces"):
+        mechanism_of_sheet(book)
+    assert write(book, tmp_path / "a.obj") == ()
+
+
+def test_fold_keeps_the_precision_of_a_traced_pattern(tmp_path):
+    traced = replace(Sheet(5, (), "", FAN, PLACES), spread=0.001)
+    assert write(traced, tmp_path / "a.fold") == ()
+    assert read(tmp_path / "a.fold").spread == 0.001
+    assert write(traced, tmp_path / "a.obj") == ("how far points were apart that were welded",)
