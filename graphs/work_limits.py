@@ -20,7 +20,7 @@ LIMITS = {
     "megabytes": 100,
     "nodes": 250_000,
     "basis": 250,
-    "crossings": 15_000,
+    "crossings": 10_000,
     "meetings": 1_000_000,
     "shapes": 30_000,
 }
