@@ -9,7 +9,10 @@ from __future__ import annotations
 import os
 import shutil
 import stat
+import subprocess
+import sys
 import tempfile
+import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -17,6 +20,12 @@ from pathlib import Path
 from graphs.errors import OpenError
 
 __all__ = ["Beside", "FolderBeside", "check_place", "reason_of", "write_chunks", "write_text"]
+
+_PATIENCE = 1.0
+"""Seconds in which whoever stops a run may wait for files to be removed."""
+
+_removers: list[subprocess.Popen[bytes]] = []
+"""Processes that remove folders, kept until this one ends."""
 
 
 def check_place(path: Path, *, force: bool) -> None:
@@ -93,8 +102,28 @@ class FolderBeside:
         self.path.rename(self._place)
 
     def discard(self) -> None:
-        """Remove the folder, unless it was moved."""
+        """Remove the folder, unless it was moved; what takes longer than a second is left to another process."""
+        deadline = time.monotonic() + _PATIENCE
+        with suppress(OSError), os.scandir(self.path) as files:
+            for file in files:
+                if time.monotonic() > deadline:
+                    _removers.append(_remover(self.path))
+                    return
+                Path(file.path).unlink()
         shutil.rmtree(self.path, ignore_errors=True)
+
+
+def _remover(folder: Path) -> subprocess.Popen[bytes]:
+    """Return a process that removes a folder and does not end with this one, or with its terminal."""
+    program = "import shutil, sys; shutil.rmtree(sys.argv[1], ignore_errors=True)"
+    silent = subprocess.DEVNULL
+    return subprocess.Popen(
+        [sys.executable, "-c", program, folder.resolve()],
+        stdin=silent,
+        stdout=silent,
+        stderr=silent,
+        start_new_session=True,
+    )
 
 
 class Beside:

@@ -38,6 +38,9 @@ def convert(
       .g6 .s6              graph6 and sparse6 (nauty): bare link-joint graphs
       .graphml             bare link-joint graphs
       .edges .txt          bare link-joint graphs, a joint a line
+    Read:
+      .opx                 crease patterns (ORIPA)
+      .csv                 bare link-joint graphs, a table of edges
 
     What OUT cannot hold is told by kind and number. If its type would be another (links, joints or centres of what
     is read back do not correspond), nothing is written, unless with --lossy.

@@ -14,6 +14,7 @@ from toy_job import Squares
 from enumerate.runner.running import Interrupted, run
 from enumerate.runner.sinks import FolderSink, JsonLinesSink, RowSink
 from enumerate.runner.store import SqliteSink, read_rows
+from graphs.files import atomic
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 
@@ -116,3 +117,15 @@ def test_a_second_signal_does_not_disturb_cleaning_up(tmp_path):
             report=lambda progress: os.kill(os.getpid(), signal.SIGTERM),
         )
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_of_many_files_is_removed_by_another_process(tmp_path, monkeypatch):
+    monkeypatch.setattr(atomic, "_PATIENCE", 0.0)
+    folder = atomic.FolderBeside(tmp_path / "folder")
+    for number in range(50):
+        (folder.path / f"{number}.json").touch()
+    folder.discard()
+    (remover,) = atomic._removers
+    assert remover.wait(timeout=60) == 0
+    assert list(tmp_path.iterdir()) == []
+    atomic._removers.clear()

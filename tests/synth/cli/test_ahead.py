@@ -37,6 +37,7 @@ def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys)
 
     monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path))
     monkeypatch.setattr("synth.cli.__main__.main", compile_twice)
+    monkeypatch.setattr("synth.cli.__main__.guard_output", lambda: None)  # capsys has no file to guard
     try:
         run()
     finally:
