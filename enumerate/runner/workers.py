@@ -8,6 +8,8 @@ import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing.connection import wait
+from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
 from enumerate.machine_code.notice import heard_by, to_workers
@@ -51,7 +53,12 @@ def timed(job: Job, payload: Any) -> tuple[list[Row], float]:
 
 
 class LocalWorkers:
-    """Processes of this machine; dead ones can be replaced."""
+    """Processes of this machine; dead ones can be replaced.
+
+    An executor reads the answers of all its processes from one pipe. Where one dies in the middle of an answer, it
+    waits for the rest, for ever, since the others, and this process too, could still write it. So deaths are
+    looked for here, and processes end by `_end`.
+    """
 
     deaths: tuple[type[BaseException], ...] = (BrokenProcessPool,)
 
@@ -67,18 +74,38 @@ class LocalWorkers:
         return self._executor.submit(timed, job, payload)
 
     def check(self) -> None:
-        """Nothing is to be done: a future tells of its own worker's death."""
+        """Look whether all processes live.
+
+        Raises
+        ------
+        BrokenProcessPool
+            If one died.
+        """
+        if wait([process.sentinel for process in self._processes()], timeout=0):
+            raise BrokenProcessPool("a worker process died")
 
     def restart(self) -> None:
         """Start other processes."""
-        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._end()
         self._executor = self._make()
 
     def close(self, *, at_once: bool) -> None:
         """End the processes, or wait until they have done what they work on."""
-        if at_once:  # an executor waits for units, which take as long as they take (3.14 has kill_workers)
-            for process in list((self._executor._processes or {}).values()):
-                process.terminate()
+        if at_once:
+            self._end()
+        else:
+            self._executor.shutdown(cancel_futures=True)
+
+    def _processes(self) -> list[BaseProcess]:
+        return list((self._executor._processes or {}).values())
+
+    def _end(self) -> None:
+        """End the processes at once, whatever they do (3.14 has kill_workers, which waits for half an answer)."""
+        answers = self._executor._result_queue
+        for process in self._processes():
+            process.kill()
+        if answers is not None:  # it is None where the executor found out by itself and has ended
+            answers._writer.close()  # type: ignore[attr-defined]  # the last that could write: half an answer ends
         self._executor.shutdown(cancel_futures=True)
 
 
