@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import sqlite3
 import warnings
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
@@ -142,7 +142,7 @@ class SqliteSink:
         assert self._units is not None
         first = self._first_row_of(number)
         with named(self.path), self._transaction():
-            self._units.add(number, first, map(self._told, rows), round(seconds, 6))
+            self._units.add(number, first, self._told(rows), round(seconds, 6))
         self._rows[number] = len(rows)
 
     def _first_row_of(self, number: int) -> int:
@@ -152,14 +152,9 @@ class SqliteSink:
             self._next += 1
         return self._first
 
-    def _told(self, row: Row) -> Row:
-        """Return the values of a row with lists as JSON text."""
-        if not self._lists:
-            return row
-        values = list(row)
-        for place, text in self._lists:
-            values[place] = text(values[place])
-        return tuple(values)
+    def _told(self, rows: list[Row]) -> list[Row]:
+        """Return rows with lists as JSON text."""
+        return [_replaced(row, self._lists) for row in rows] if self._lists else rows
 
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
@@ -227,19 +222,24 @@ def read_rows(path: str | Path) -> Iterator[Row]:
         If the file is not a store, or a unit is not as it was written: rows before it have been yielded.
     """
     path = Path(path)
-    read = lru_cache(_REMEMBERED)(unstored)
     with reading(path) as connection:
         meta = meta_in(connection, path)
-        columns, lists = meta["columns"], set(meta["lists"])
-        units = UnitTable(connection, columns)
+        places = [place for place, name in enumerate(meta["columns"]) if name in meta["lists"]]
+        lists = [(place, lru_cache(_REMEMBERED)(unstored)) for place in places]
+        units = UnitTable(connection, meta["columns"])
         for number in units.numbers():
             rows = units.rows(number)
             if rows is None:
                 raise StoreError(f"{path}: is damaged at unit {number}; the same run with --resume mends it")
-            for row in rows:
-                yield tuple(
-                    read(value) if name in lists else value for name, value in zip(columns, row, strict=True)
-                )
+            yield from (_replaced(row, lists) for row in rows) if lists else rows
+
+
+def _replaced(row: Row, functions: Sequence[tuple[int, Callable[[Any], Any]]]) -> Row:
+    """Return a row with some of its values, named by their places, replaced by those of functions."""
+    values = list(row)
+    for place, function in functions:
+        values[place] = function(values[place])
+    return tuple(values)
 
 
 def _warn(line: str) -> None:

@@ -234,7 +234,8 @@ def killed_and_resumed(store, links, dof, kills, longest):
         wait_for(lambda left=workers: all(not Path(f"/proc/{pid}").exists() or is_zombie(pid) for pid in left))
 
 
-def wait_for(true, seconds=60):
+def wait_for(true, seconds=600):
+    """Wait until something is so; a store of millions of rows is looked through for minutes before it grows."""
     deadline = time.monotonic() + seconds
     while not true():
         assert time.monotonic() < deadline

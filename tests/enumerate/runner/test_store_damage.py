@@ -13,6 +13,7 @@ from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import run
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
+from enumerate.runner.store_units import UnitTable, make_tables
 from graphs.errors import StoreError
 
 JOB = Squares(1000)  # some ten pages
@@ -79,6 +80,8 @@ def mended(store):
         ("UPDATE unit SET rows = 'ten', first = NULL WHERE id = 7", 1),
         ("UPDATE unit SET id = 700 WHERE id = 7", 1),
         ("UPDATE unit SET digest = NULL", 100),
+        ("UPDATE unit SET state = CAST(x'ff41' AS TEXT) WHERE id = 7", 1),
+        ("UPDATE type SET square = CAST(x'c3' AS TEXT) WHERE n = 35", 1),
         ("INSERT INTO type VALUES (4, 40, 1600)", 0),
         ("INSERT INTO unit SELECT 100, state, first, rows, seconds, digest FROM unit WHERE id = 0", 0),
     ],
@@ -199,3 +202,15 @@ def test_values_that_change_their_type_are_not_taken_for_damage(tmp_path):
     assert run(Odd(), SqliteSink(store, resume=True)).rows == 0
     expected = [(1, 0.1), (0, None), (1, math.inf), (0, -0.0), (1, 2.0), (0, 1e300)]
     assert str([row[:2] for row in read_rows(store)]) == str(expected * 20)
+
+
+def test_digests_are_those_of_every_version_of_python():
+    rows = [(1, True, 0.1, None, "ß\0"), (-(2**62), False, math.inf, 2.0, "")]
+    with sqlite3.connect(":memory:") as connection:
+        columns = list("abcde")
+        make_tables(connection, {"columns": columns})
+        table = UnitTable(connection, columns)
+        table.add(3, 1, rows, 0.25)
+        assert table.entry(3).digest == "1b962a360dd55544c8e7a6a770e84763"
+        assert table.rows(3) == rows
+    connection.close()
