@@ -36,14 +36,18 @@ class CyclicQuadrilaterals:
     ----------
     open, crossed : float[...]
         Circumradius in the unit of the sides; nan where there is none.
-    ill_conditioned : bool[...]
-        Whether a sum of sides with signs is within their rounding of zero: it decides what there is, and of what
-        size.
+    sides : float[..., 4]
+        As they were given.
     """
 
     open: Floats
     crossed: Floats
-    ill_conditioned: Flags
+    sides: Floats
+
+    @property
+    def ill_conditioned(self) -> Flags:
+        """bool[...]: whether a sum of sides with signs is within their rounding of zero, and so decides."""
+        return _nearly_zero(self.sides, angular=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +58,18 @@ class ConicalQuadrilaterals:
     ----------
     open, crossed : float[...]
         Cone angle lambda, radians, in [0, pi/2); nan where there is none.
-    ill_conditioned : bool[...]
-        Whether a sum of link angles with signs, or of all less 360 degrees, is within their rounding of zero: it
-        decides what there is, and of what size.
+    angles : float[..., 4]
+        Link angles, radians, as they were given.
     """
 
     open: Floats
     crossed: Floats
-    ill_conditioned: Flags
+    angles: Floats
+
+    @property
+    def ill_conditioned(self) -> Flags:
+        """bool[...]: whether a sum of angles with signs, or all less a turn, is within rounding of zero."""
+        return _nearly_zero(self.angles, angular=True)
 
 
 def _sides(values: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
@@ -80,12 +88,11 @@ def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -
     return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
 
 
-def _nearly_zero(links: npt.ArrayLike, *, angular: bool) -> Flags:
+def _nearly_zero(links: Floats, *, angular: bool) -> Flags:
     """Tell whether links with signs, or angles less a turn, sum to less than their rounding."""
-    given = np.asarray(links, dtype=float)
     turn = 2.0 * np.pi * np.eye(8)[0] if angular else np.zeros(8)  # the first pattern is that of all +
-    sums = given @ sign_patterns(4).T - turn
-    return np.asarray((np.abs(sums) <= rounding_of(given)[..., np.newaxis]).any(axis=-1))
+    sums = links @ sign_patterns(4).T - turn
+    return np.asarray((np.abs(sums) <= rounding_of(links)[..., np.newaxis]).any(axis=-1))
 
 
 def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
@@ -112,15 +119,15 @@ def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
     >>> float(found.open.round(4)), float(found.crossed.round(4))
     (2.5361, 2.5909)
     """
-    near = _nearly_zero(sides, angular=False)
-    sides = _sides(sides)
+    given = np.asarray(sides, dtype=float)
+    a, b, c, d = _sides(given)
     radii = []
     for mu in (1, -1):
-        numerator, denominator = _numerator(*sides, mu), _sixteen_area_squared(*sides, mu)
+        numerator, denominator = _numerator(a, b, c, d, mu), _sixteen_area_squared(a, b, c, d, mu)
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (denominator > 0)
             radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
-    return CyclicQuadrilaterals(radii[0], radii[1], near)
+    return CyclicQuadrilaterals(radii[0], radii[1], given)
 
 
 def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
@@ -145,7 +152,8 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
     >>> np.degrees(found.open).round(3), np.degrees(found.crossed).round(3)
     (array([13.998,  8.864]), array([29.044,    nan]))
     """
-    half = [angle / 2.0 for angle in _sides(angles)]
+    given = np.asarray(angles, dtype=float)
+    half = [angle / 2.0 for angle in _sides(given)]
     x, y, z, w = half
     chords = [2.0 * np.sin(angle) for angle in half]
     middle = (x + y + z + w) / 2.0
@@ -163,7 +171,7 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (product >= 0)
             found.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
-    return ConicalQuadrilaterals(found[0], found[1], _nearly_zero(angles, angular=True))
+    return ConicalQuadrilaterals(found[0], found[1], given)
 
 
 def crossed_area(sides: npt.ArrayLike) -> Floats:

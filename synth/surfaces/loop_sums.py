@@ -357,7 +357,7 @@ def _of_tower(z: Floats, level: int, nearest: Floats, weights: Floats, reach: Fl
 
 @dataclass(frozen=True, slots=True)
 class _SumsAtNodes:
-    """Loop sums of many rows where their monotone pieces meet, and what rounding leaves of them there."""
+    """Loop sums of many rows where their monotone pieces meet, and their rounding, where they are near 2 pi k."""
 
     nodes: Floats
     weights: Floats
@@ -370,7 +370,10 @@ class _SumsAtNodes:
     @classmethod
     def of(cls, nodes: Floats, weights: Floats, reach: Floats, base: Base) -> _SumsAtNodes:
         sums = np.stack([loop_sum(z, reach, weights, base) for z in nodes.T], axis=1)
-        noise = np.stack([sum_rounding(z, reach, weights, base) for z in nodes.T], axis=1)
+        noise = np.zeros_like(sums)
+        most = rounding_of(2.0 * _MOST_SENSITIVE * weights)  # elsewhere rounding decides nothing
+        row, node = np.nonzero(np.abs(np.remainder(sums + np.pi, 2.0 * np.pi) - np.pi) <= most[:, np.newaxis])
+        noise[row, node] = sum_rounding(nodes[row, node], reach[row], weights[row], base)
         return cls(nodes, weights, reach, sums, noise, np.asarray((np.abs(sums) <= noise).all(axis=1)))
 
 
