@@ -13,6 +13,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
+from real_patterns import folder_of_patterns
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -57,7 +58,7 @@ def golden(data: Path) -> dict:
 @pytest.fixture(scope="session")
 def fold_folder() -> Path:
     """The folder of crease patterns by other people; the test skips where it is missing."""
-    folder = Path(os.environ.get("SYNTHEDRA_FOLD", ROOT.parent / "shared" / "fold"))
+    folder = folder_of_patterns()
     if not (folder / "INDEX.tsv").exists():
         pytest.skip(f"no crease patterns at {folder}; name their folder in SYNTHEDRA_FOLD")
     return folder
