@@ -17,6 +17,7 @@ import networkx as nx
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
+from graphs.files.names_as_text import names_from_text
 from graphs.files.text import read_text
 from graphs.mechanism.sc import SCGraph
 
@@ -93,6 +94,8 @@ def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
 def read_graphml(path: Path) -> nx.MultiGraph:
     """Read the link-joint graph of a GraphML file; directions are dropped.
 
+    Names of links that are all integers become integers, and so do those of joints.
+
     Raises
     ------
     FileError
@@ -105,7 +108,18 @@ def read_graphml(path: Path) -> nx.MultiGraph:
         raise FileError(path, f"line {line} column {column}", "not XML", "GraphML") from None
     except (nx.NetworkXError, KeyError, TypeError, ValueError, AttributeError) as error:
         raise FileError(path, "", f"not GraphML: {shown(str(error))}", "GraphML") from None
-    return nx.MultiGraph(graph)
+    return _named_anew(nx.MultiGraph(graph))
+
+
+def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
+    """Give links and joints the names that their words stand for; joints without an id have a number already."""
+    links = names_from_text(graph.nodes)
+    keys = [key for *_, key in graph.edges(keys=True)]
+    joints = names_from_text(keys) if all(isinstance(key, str) for key in keys) else {key: key for key in keys}
+    named = nx.MultiGraph()
+    named.add_nodes_from(links.values())
+    named.add_edges_from((links[a], links[b], joints[key]) for a, b, key in graph.edges(keys=True))
+    return named
 
 
 def graphml_text(sc: SCGraph) -> str:

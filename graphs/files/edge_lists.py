@@ -14,6 +14,7 @@ from pathlib import Path
 import networkx as nx
 
 from graphs.errors import FileError, UnsolvableError, shown
+from graphs.files.names_as_text import names_from_text
 from graphs.files.text import read_text
 from graphs.mechanism.sc import SCGraph
 
@@ -38,7 +39,7 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
 
     A dictionary at the end of a line (networkx) is left alone. If the first line names columns for the ends of
     edges (source and target, from and to), the file is a table, of which these columns are read, and one called
-    joint if there is one. Names that are all integers become integers.
+    joint if there is one. Names of links that are all integers become integers, and so do those of joints.
 
     Raises
     ------
@@ -111,16 +112,15 @@ def _cells(line: Row, parted_by: str, path: Path) -> Words:
 
 def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:
     """Return the graph of rows of two links, and perhaps a joint."""
-    whole = all(_INTEGER.fullmatch(word) for words in rows for word in words[:2])
+    links = names_from_text(word for words in rows for word in words[:2])
     ids = [words[2] if len(words) == 3 else str(i) for i, words in enumerate(rows)]
     again, times = Counter(ids).most_common(1)[0]
     if times > 1:
         raise FileError(path, "", f"the joint id {shown(again)} occurs twice", "distinct ids")
-    plain = all(len(words) == 2 for words in rows)
+    joints = names_from_text(ids)
     graph = nx.MultiGraph()
-    for i, words in enumerate(rows):
-        a, b = (int(word) if whole else word for word in words[:2])
-        graph.add_edge(a, b, key=i if plain else ids[i])
+    for words, joint in zip(rows, ids, strict=True):
+        graph.add_edge(links[words[0]], links[words[1]], key=joints[joint])
     return graph
 
 

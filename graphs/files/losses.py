@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Callable, Collection, Hashable
 from math import isclose
 
 from graphs.convert.table import Mechanism, to_sc
+from graphs.files.names_as_text import are_kept
 from graphs.files.native.names import is_count
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.conical import ConicalLinkage
@@ -114,7 +115,9 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
         told.append("angles on the cone")
     if sc.ground is not None:
         told.append("the ground link")
-    return (*told, *(() if names or isinstance(mechanism, Sheet) else _names(sc)))
+    if names:
+        return (*told, *_listed(sc, are_kept, "whether names of {} are text or integers"))
+    return (*told, *(() if isinstance(mechanism, Sheet) else _names(sc)))
 
 
 def _lost_as_sheet(mechanism: Mechanism) -> Lost:
@@ -154,9 +157,14 @@ def _loops_of(sc: SCGraph, centre: Centre) -> int:
 
 
 def _names(sc: SCGraph) -> Lost:
-    kinds: tuple[tuple[Iterable[Hashable], str], ...] = ((sc.nodes, "link"), (sc.joints, "joint"))
-    named = [_number(len(list(ids)), kind) for ids, kind in kinds if not is_count(ids)]
-    return (f"names of {' and '.join(named)}",) if named else ()
+    return _listed(sc, is_count, "names of {}")
+
+
+def _listed(sc: SCGraph, are_held: Callable[[Collection[Hashable]], bool], line: str) -> Lost:
+    """Put into a line how many links and joints there are, of those whose names are not held."""
+    kinds: tuple[tuple[Collection[Hashable], str], ...] = ((sc.nodes, "link"), (sc.joints, "joint"))
+    named = [_number(len(ids), kind) for ids, kind in kinds if not are_held(ids)]
+    return (line.format(" and ".join(named)),) if named else ()
 
 
 def _other_frames(sheet: Sheet) -> Lost:

@@ -16,7 +16,7 @@ from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import read_text
 from graphs.mechanism.sheet import Sheet
 
-_CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +(-?\d{1,4}(?:\.\d{1,17})?))?")
+_CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?))?")
 
 __all__ = ["obj_text", "sheet_from_obj"]
 
@@ -37,6 +37,8 @@ def sheet_from_obj(path: Path) -> Sheet:
         if crease := _CREASE.fullmatch(line.strip()):
             a, b, letter, angle = crease.groups()
             edges[int(a) - 1, int(b) - 1] = letter, None if angle is None else float(angle)
+            if angle is not None and not isfinite(float(angle)):
+                raise FileError(path, f"line {number}", shown(line.strip()), "a fold angle in degrees")
         words = line.split("#", 1)[0].split()
         if not words or words[0] not in ("v", "f"):
             continue

@@ -33,6 +33,8 @@ from graphs.plain_text import plain
 __all__ = ["sheet_from_svg", "svg_text"]
 
 _LONGEST_TITLE = 1_000
+_DECIMALS = 12
+"""Of fold angles in degrees: what is finer comes of dividing by 180."""
 _PIECES = 8
 """Straight pieces of a curved segment."""
 
@@ -112,7 +114,7 @@ def _fold_angle(letter: str, opacity: float) -> float | None:
     """Return the fold angle in degrees that a stroke's opacity stands for: valleys up, mountains down."""
     if letter not in "MV":
         return None
-    return round((180 if letter == "V" else -180) * min(max(opacity, 0.0), 1.0), 6) + 0.0
+    return round((180 if letter == "V" else -180) * min(max(opacity, 0.0), 1.0), _DECIMALS) + 0.0
 
 
 def svg_text(sheet: Sheet) -> str:
@@ -147,7 +149,7 @@ def svg_text(sheet: Sheet) -> str:
         ends = [(places[v][0] - left, high - places[v][1]) for v in (a, b)]
         opacity = ""
         if angle is not None and letter in "MV" and abs(angle) < 180:
-            opacity = f' stroke-opacity="{abs(angle) / 180:.6g}"'
+            opacity = f' stroke-opacity="{abs(angle) / 180!r}"'
         rows.append(
             f'<line x1="{ends[0][0]!r}" y1="{ends[0][1]!r}" x2="{ends[1][0]!r}" y2="{ends[1][1]!r}" '
             f'stroke="#{red:02x}{green:02x}{blue:02x}"{opacity}/>'

@@ -87,3 +87,20 @@ def test_edge_keys_become_joint_ids():
     graph.add_edge(0, 1, key="a")
     graph.add_edge(0, 1, key="b")
     assert set(sc_from_link_joint_graph(graph).joints) == {"a", "b"}
+
+
+@pytest.mark.parametrize("suffix", [".graphml", ".edges"])
+def test_integer_names_stay_integers(suffix, tmp_path):
+    sc = SCGraph([7, -3, 10], {5: (7, -3), 2: (-3, 10)})
+    assert write(sc, tmp_path / f"a{suffix}") == ()
+    assert read(tmp_path / f"a{suffix}").is_identical(sc)
+
+
+@pytest.mark.parametrize("suffix", [".graphml", ".edges"])
+def test_kinds_of_names_that_text_cannot_tell_are_told(suffix, tmp_path):
+    mixed = SCGraph([1, "a", 2], {"0": (1, "a"), "1": ("a", 2)})
+    assert write(mixed, tmp_path / f"a{suffix}") == ("whether names of 3 links and 2 joints are text or integers",)
+    assert list(read(tmp_path / f"a{suffix}").nodes) == ["1", "a", "2"]
+    zeros = SCGraph(["01", "1"], {"x": ("01", "1")})
+    assert write(zeros, tmp_path / f"b{suffix}") == ()
+    assert read(tmp_path / f"b{suffix}").is_identical(zeros)

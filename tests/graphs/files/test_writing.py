@@ -144,3 +144,29 @@ def test_fold_keeps_the_precision_of_a_traced_pattern(tmp_path):
     assert write(traced, tmp_path / "a.fold") == ()
     assert read(tmp_path / "a.fold").spread == 0.001
     assert write(traced, tmp_path / "a.obj") == ("how far points were apart that were welded",)
+
+
+@pytest.mark.parametrize("angle", [1e-05, -12345.678, 2.5e-300, 1e22, -180.0, 0.1 + 0.2])
+def test_fold_angles_of_any_size_survive_in_obj(angle, tmp_path):
+    sheet = Sheet(5, ((0, 4), (1, 4)), "MV", FAN, PLACES, fold_angles=(angle, None))
+    assert write(sheet, tmp_path / "a.obj") == ()
+    again = read(tmp_path / "a.obj")
+    assert (again.assignments, again.fold_angles) == ("MV", (angle, None))
+
+
+def test_a_fold_angle_that_is_not_finite_is_refused_in_obj(tmp_path):
+    rows = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "#e 1 2 M 1e999", "f 1 2 3"]
+    (tmp_path / "a.obj").write_text("\n".join(rows), encoding="utf-8")
+    with pytest.raises(FileError, match="line 4: '#e 1 2 M 1e999'; expected a fold angle in degrees"):
+        read(tmp_path / "a.obj")
+
+
+@pytest.mark.parametrize("angle", [1e-05, 45.123456789, 179.99999999])
+def test_fold_angles_keep_their_digits_in_svg(angle, tmp_path):
+    letters = "BBBBMVMV"
+    edges = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))
+    angles = (*(None,) * 4, -angle, angle, -180.0, 180.0)
+    sheet = Sheet(5, edges, letters, FAN, PLACES, fold_angles=angles)
+    assert not any("fold angle" in line for line in write(sheet, tmp_path / "a.svg"))
+    again = read(tmp_path / "a.svg")
+    assert sorted(filter(None, again.fold_angles)) == sorted(angles[4:])
