@@ -14,10 +14,14 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
+from graphs.plain_text import plain
 
 __all__ = ["lost_as_bare_graph", "lost_as_cp", "lost_as_fold", "lost_as_json", "lost_as_obj", "lost_as_svg"]
 
 Lost = tuple[str, ...]
+
+_KEYS = 12
+"""So many keys of a file are named."""
 
 
 def lost_as_json(mechanism: Mechanism) -> Lost:
@@ -30,18 +34,18 @@ def lost_as_json(mechanism: Mechanism) -> Lost:
     """
     if not isinstance(mechanism, Sheet):
         return ()
-    return (*_other_frames(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
+    return (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
 
 
 def lost_as_fold(mechanism: Mechanism) -> Lost:
-    """Return what a FOLD file does not hold: of a sheet read from one, its other frames.
+    """Return what a FOLD file does not hold: of a sheet read from one, its other frames and keys.
 
     Examples
     --------
     >>> lost_as_fold(SCGraph(["A", "B"], [("A", "B")]))
     ('names of 2 links',)
     """
-    return _other_frames(mechanism) if isinstance(mechanism, Sheet) else _lost_as_sheet(mechanism)
+    return _of_its_file(mechanism) if isinstance(mechanism, Sheet) else _lost_as_sheet(mechanism)
 
 
 def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
@@ -108,7 +112,7 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
     if sc.spatial_loops:
         told.append(f"that {_number(sc.spatial_loops, 'loop has', 'loops have')} no centre")
     if isinstance(mechanism, Sheet):
-        told += (*_other_frames(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
+        told += (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
     if isinstance(mechanism, SCDGraph):
         told.append(f"the order of the sides of {_number(len(sc), 'link')}")
     if isinstance(mechanism, ConicalLinkage):
@@ -167,8 +171,13 @@ def _listed(sc: SCGraph, are_held: Callable[[Collection[Hashable]], bool], line:
     return (line.format(" and ".join(named)),) if named else ()
 
 
-def _other_frames(sheet: Sheet) -> Lost:
-    return _some(sheet.frames.others if sheet.frames is not None else 0, "other frame")
+def _of_its_file(sheet: Sheet) -> Lost:
+    """Tell what the file that a sheet was read from holds beside it."""
+    if sheet.frames is None:
+        return ()
+    keys = sheet.frames.left_out
+    named = ", ".join(map(plain, keys[:_KEYS])) + (f" and {len(keys) - _KEYS} more" if len(keys) > _KEYS else "")
+    return (*_some(sheet.frames.others, "other frame"), *((f"the FOLD keys {named}",) if keys else ()))
 
 
 def _title(sheet: Sheet) -> Lost:

@@ -1,7 +1,7 @@
 """Names of links and joints in files that hold text only: GraphML and edge lists.
 
-An integer is written as its digits; no two names of a graph are the same text. Read, names are integers where all of
-them are written as integers are.
+An integer is written as its digits; no two names of a graph are the same text. Read, names are integers where all
+of them are written as integers are.
 """
 
 from __future__ import annotations

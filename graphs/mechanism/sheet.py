@@ -47,6 +47,10 @@ class Frames(Protocol):
     def others(self) -> int:
         """How many there are besides the key frame."""
 
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What else the file says of the sheet, by the names that it has there: the sheet does not hold it."""
+
     def frame(self, number: int) -> Sheet:
         """Return the sheet of one frame; 0 is the key frame."""
 

@@ -2,7 +2,7 @@
 
 Read as a :class:`graphs.mechanism.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The
 format is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
-demands.
+demands, and told of when the sheet is written (:mod:`graphs.files.losses`).
 """
 
 from __future__ import annotations
@@ -30,6 +30,20 @@ _FAR = 1e300
 _SPREAD = "synthedra:spread"
 """Own key: how far points were apart that were welded in tracing; centres and hinges hang on it."""
 _ASSIGNMENTS = HINGES + FLAT + "BC"
+_TITLES = ("frame_title", "file_title")
+"""The first that is there is the title."""
+_HELD = {
+    *("vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle", "faces_vertices"),
+    _SPREAD,
+}
+"""Keys that a sheet holds."""
+_NOTHING_NEW = {
+    *("file_spec", "file_creator", "file_classes", "file_frames"),
+    *("frame_attributes", "frame_inherit", "frame_parent"),
+    *("vertices_vertices", "vertices_edges", "vertices_faces", "edges_edges", "edges_faces"),
+    *("faces_edges", "faces_faces"),
+}
+"""Keys that speak of the file itself, or follow from those that are held; other frames are told by number."""
 
 
 @dataclass(frozen=True)
@@ -43,11 +57,14 @@ class FoldFrames:
         As the file is read when no frame is asked for.
     document : mapping or None
         The parsed file; None where it has the key frame only.
+    left_out : tuple of str
+        Keys of the frame that was read that the sheet does not hold.
     """
 
     path: Path
     sheet: Sheet
     document: Mapping[str, Any] | None
+    left_out: tuple[str, ...]
 
     @property
     def others(self) -> int:
@@ -87,10 +104,12 @@ def read_fold(path: Path) -> Sheet:
     ------
     FileError
     """
-    document = load_json(path)
-    sheet = sheet_from_fold(document, path)
-    frames = FoldFrames(path, sheet, document if document.get("file_frames") else None)
-    return replace(sheet, frames=frames)
+    document, check = load_json(path), Checker(path)
+    frame, notes = _frame(document, check)
+    sheet = _sheet(frame, notes, check)
+    more = document if document.get("file_frames") else None
+    of_file = {key: value for key, value in document.items() if key.startswith("file_") and value is not None}
+    return replace(sheet, frames=FoldFrames(path, sheet, more, _left_out(of_file | frame, sheet.title)))
 
 
 def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
@@ -116,9 +135,30 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
     (4, 2)
     """
     check = Checker(path)
-    if not isinstance(value, dict):
-        check.fail("", value, "a FOLD document (an object)")
-    value, notes = resolved_frame(value, check, frame)
+    return _sheet(*_frame(value, check, frame), check)
+
+
+def _frame(document: Any, check: Checker, number: int | None = None) -> tuple[dict[str, Any], list[str]]:
+    """Return a frame of a FOLD document with what it inherits, and notes on how it was found."""
+    if not isinstance(document, dict):
+        check.fail("", document, "a FOLD document (an object)")
+    return resolved_frame(document, check, number)
+
+
+def _left_out(frame: dict[str, Any], title: str) -> tuple[str, ...]:
+    """Return the keys of a frame and its file that hold what the sheet, and its title, do not."""
+    held = {*_HELD, *_NOTHING_NEW, *(key for key in _TITLES if frame.get(key) == title)}
+    return tuple(key for key in frame if key not in held)
+
+
+def _title(frame: dict[str, Any]) -> str:
+    title = next((frame[key] for key in _TITLES if key in frame), "")
+    return title if isinstance(title, str) else ""
+
+
+def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
+    """Build the sheet of a frame."""
+    path = check.path
     faces = _indices(value.get("faces_vertices", []), "faces_vertices", check)
     edges = _indices(value.get("edges_vertices", []), "edges_vertices", check)
     for i, edge in enumerate(edges):
@@ -127,7 +167,6 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
     coordinates = _coordinates(value.get("vertices_coords", []), check)
     vertices = len(coordinates) or 1 + max((v for row in (*faces, *edges) for v in row), default=-1)
     assignments, repairs = _assignments(value, len(edges), check)
-    title = value.get("frame_title", value.get("file_title", ""))
     sheet = check.build(
         lambda: with_simple_faces(
             Sheet(
@@ -136,7 +175,7 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
                 assignments,
                 faces,
                 coordinates or None,
-                title if isinstance(title, str) else "",
+                _title(value),
                 (*notes, *repairs),
                 _fold_angles(value, len(edges), check),
                 spread=abs(check.number(value.get(_SPREAD, 0), _SPREAD)),

@@ -1,5 +1,6 @@
 """What formats cannot hold is told, types are kept, and what is there is not replaced."""
 
+import json
 import os
 from dataclasses import replace
 
@@ -170,3 +171,54 @@ def test_fold_angles_keep_their_digits_in_svg(angle, tmp_path):
     assert not any("fold angle" in line for line in write(sheet, tmp_path / "a.svg"))
     again = read(tmp_path / "a.svg")
     assert sorted(filter(None, again.fold_angles)) == sorted(angles[4:])
+
+
+def pattern(**more):
+    return {
+        "vertices_coords": PLACES,
+        "faces_vertices": FAN,
+        "edges_vertices": [[0, 4]],
+        "edges_assignment": ["M"],
+        **more,
+    }
+
+
+@pytest.mark.parametrize("suffix", [".fold", ".svg", ".cp", ".obj", ".json", ".s6", ".graphml"])
+def test_keys_of_fold_that_a_sheet_does_not_hold_are_told_by_name(suffix, tmp_path):
+    more = {
+        "file_author": "A",
+        "faceOrders": [],
+        "edges_length": [1],
+        "vendor:x\n": 1,
+        "frame_unit": None,
+        "edges_faces": [],
+    }
+    (tmp_path / "a.fold").write_text(json.dumps(pattern(**more)), encoding="utf-8")
+    lost = write(read(tmp_path / "a.fold"), tmp_path / f"b{suffix}")
+    assert [line for line in lost if "FOLD" in line] == [
+        r"the FOLD keys file_author, faceOrders, edges_length, vendor:x\n"
+    ]
+
+
+def test_what_another_frame_or_title_holds_is_told_too(tmp_path):
+    frame = pattern(frame_title="one", frame_classes=["foldedForm"])
+    document = {
+        "file_title": "all",
+        "file_author": "A",
+        "file_frames": [frame],
+        **{f"x:{i}": 1 for i in range(20)},
+    }
+    (tmp_path / "a.fold").write_text(json.dumps(document), encoding="utf-8")
+    sheet = read(tmp_path / "a.fold")
+    assert (sheet.title, write(sheet, tmp_path / "b.fold")) == (
+        "one",
+        ("1 other frame", "the FOLD keys file_title, file_author, frame_classes"),
+    )
+    (tmp_path / "c.fold").write_text(json.dumps(pattern(**{f"x:{i}": 1 for i in range(20)})), encoding="utf-8")
+    assert write(read(tmp_path / "c.fold"), tmp_path / "d.fold")[0].endswith("x:10, x:11 and 8 more")
+
+
+def test_a_pattern_that_is_held_whole_loses_nothing(tmp_path):
+    write(Sheet(5, ((0, 4),), "M", FAN, PLACES, "Fan", fold_angles=(30.0,), spread=1e-6), tmp_path / "a.fold")
+    assert write(read(tmp_path / "a.fold"), tmp_path / "b.fold") == ()
+    assert (tmp_path / "a.fold").read_bytes() == (tmp_path / "b.fold").read_bytes()
