@@ -19,7 +19,7 @@ from pathlib import Path
 
 from graphs.errors import OpenError
 
-__all__ = ["Beside", "FolderBeside", "check_place", "reason_of", "write_chunks", "write_text"]
+__all__ = ["Beside", "FolderBeside", "check_new_folder", "check_place", "reason_of", "write_chunks", "write_text"]
 
 _PATIENCE = 1.0
 """Seconds in which whoever stops a run may wait for files to be removed."""
@@ -50,6 +50,17 @@ def check_place(path: Path, *, force: bool) -> None:
         raise OpenError(path, "", "a special file, such as a pipe or a device", "a file to write")
     if not force:
         raise OpenError(path, "", "exists already", "another name, or --force (in Python force=True)")
+
+
+def check_new_folder(path: Path) -> None:
+    """Refuse a place for a new folder where something is.
+
+    Raises
+    ------
+    OpenError
+    """
+    if path.exists() or path.is_symlink():
+        raise OpenError(path, "", "exists already", "a new folder: folders are not replaced")
 
 
 def write_text(path: Path, text: str, *, force: bool = False) -> None:
@@ -88,8 +99,7 @@ class FolderBeside:
     """
 
     def __init__(self, path: Path) -> None:
-        if path.exists() or path.is_symlink():
-            raise OpenError(path, "", "exists already", "a new folder: folders are not replaced")
+        check_new_folder(path)
         self._place = path
         try:
             self.path = Path(tempfile.mkdtemp(prefix=f".{path.name[:32]}.", dir=path.parent))

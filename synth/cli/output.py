@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +20,19 @@ if TYPE_CHECKING:
 
     from graphs.files.formats import Entry
 
-__all__ = ["FORCE", "LOSSY", "about", "console", "entries", "plain", "print_json", "table", "tell_lost"]
+__all__ = [
+    "FORCE",
+    "LOSSY",
+    "about",
+    "check_output",
+    "check_picture",
+    "console",
+    "entries",
+    "plain",
+    "print_json",
+    "table",
+    "tell_lost",
+]
 
 FORCE = click.option(
     "--force", is_flag=True, help="Replace a file that is there. Folders, symbolic links and devices never are."
@@ -46,6 +59,22 @@ def about(label: str) -> Iterator[None]:
         raise FileError(label, "", error.offender, error.expected) from None
     except SynthedraError as error:
         raise FileError(label, "", str(error)) from None
+
+
+def check_output(path: str | None, *, force: bool) -> None:
+    """Refuse an output that is not to be replaced before anything is computed for it; None is no output."""
+    from graphs.files.atomic import check_place
+
+    if path is not None:
+        check_place(Path(path), force=force)
+
+
+def check_picture(path: str | None, *, force: bool) -> None:
+    """Refuse a picture that cannot be written before anything is computed for it; None is no picture."""
+    if path is not None:
+        from synth.drawing import figure
+
+        figure.check_picture(path, force=force)
 
 
 def tell_lost(lost: Sequence[str]) -> None:

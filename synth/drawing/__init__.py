@@ -8,6 +8,7 @@ from graphs.lazy import offered
 
 if TYPE_CHECKING:
     from synth.drawing.conformed import draw_conformed as draw_conformed
+    from synth.drawing.figure import check_picture as check_picture
     from synth.drawing.figure import new_figure as new_figure
     from synth.drawing.figure import save_figure as save_figure
     from synth.drawing.sphere import draw_hoop as draw_hoop
@@ -18,7 +19,7 @@ else:
         __name__,
         {
             "conformed": "draw_conformed",
-            "figure": "new_figure save_figure",
+            "figure": "check_picture new_figure save_figure",
             "sphere": "draw_hoop draw_map",
             "sums": "draw_loop_sums",
         },

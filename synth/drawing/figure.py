@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import FileError, UnsolvableError
-from graphs.files.atomic import Beside
+from graphs.files.atomic import Beside, check_place
 
-__all__ = ["COLOURS", "new_figure", "save_figure"]
+__all__ = ["COLOURS", "check_picture", "new_figure", "save_figure"]
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b", "#6a3d9a")
 """Colours of links and curves that people of all kinds of sight tell apart, the first eight."""
@@ -44,6 +44,37 @@ def new_figure(width: float, height: float) -> Any:
     return Figure(figsize=(width, height), layout="constrained")
 
 
+def check_picture(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a place where no picture can be written, before one is computed.
+
+    Parameters
+    ----------
+    path : str or Path
+    force : bool, optional
+        A file that is there may be replaced.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or something is there that must not be replaced.
+
+    Examples
+    --------
+    >>> check_picture("a.bmp")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
+    """
+    place = Path(path)
+    if _kind(place) not in _KINDS:
+        raise FileError(place, "", "the extension is not known", ", ".join(f".{one}" for one in _KINDS))
+    check_place(place, force=force)
+
+
+def _kind(place: Path) -> str:
+    return place.suffix.lower().lstrip(".")
+
+
 def save_figure(figure: Any, path: str | Path, *, force: bool = False) -> None:
     """Write a figure as PNG, SVG or PDF, by the extension. Equal figures give equal files.
 
@@ -66,13 +97,11 @@ def save_figure(figure: Any, path: str | Path, *, force: bool = False) -> None:
     ...
     graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
     """
-    place = Path(path)
-    kind = place.suffix.lower().lstrip(".")
-    if kind not in _KINDS:
-        expected = ", ".join(f".{one}" for one in _KINDS)
-        raise FileError(place, "", "the extension is not known", expected)
+    check_picture(path, force=force)
     from matplotlib import rc_context
 
+    place = Path(path)
+    kind = _kind(place)
     stream = BytesIO()
     with rc_context({"svg.hashsalt": "synthedra"}):
         figure.savefig(stream, format=kind, dpi=150, metadata=_UNDATED.get(kind))

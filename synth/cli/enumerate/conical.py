@@ -89,8 +89,12 @@ def conical(
       synth enumerate conical --chain watt --ground all --slots 12 -o watt.sqlite
       synth enumerate conical --chain data/surfaces/fig11-stephenson.json --open 3 --pictures pictures
     """
+    from graphs.files.atomic import check_new_folder
+
     options = RunOptions.taken_from(rest)
     _check_usage(options, only_count, method, sort, pictures)
+    if pictures is not None:
+        check_new_folder(Path(pictures))
     chain = _chain(name)
     grounds = _grounds(chain, ground)
     if formulas:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, plain, print_json, tell_lost
+from synth.cli.output import FORCE, LOSSY, about, check_output, plain, print_json, tell_lost
 
 __all__ = ["convert"]
 
@@ -54,6 +54,7 @@ def convert(
     from graphs.convert.by_name import convert as converted
     from graphs.files.formats import read, write
 
+    check_output(target, force=force)
     given = read(source)
     with about(source):
         mechanism = converted(given, kind, form=form)

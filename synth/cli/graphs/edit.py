@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, table, tell_lost
+from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, table, tell_lost
 
 if TYPE_CHECKING:
     from graphs.creasing.edits import SheetEdit
@@ -65,6 +65,7 @@ def edit(
     from graphs.mechanism.sheet import Sheet
     from synth.cli.graphs.patterns import pattern_edits
 
+    check_output(output, force=force)
     thing = read(file)
     with about(file):
         edits: list[Edit] | list[SheetEdit]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, tell_lost
+from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, tell_lost
 
 __all__ = ["reconstruct"]
 
@@ -28,6 +28,7 @@ def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json
     from graphs.answer.reconstruction import reconstruct as reconstructed
     from graphs.files.formats import read, write
 
+    check_output(output, force=force)
     thing = read(file)
     with about(file):
         reconstruction = reconstructed(thing)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, console, plain, print_json, tell_lost
+from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, tell_lost
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -70,6 +70,7 @@ def reduce_command(
 
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input belong to --rule assur")
+    check_output(output, force=force)
     with about(file):
         sc = to_sc(read(file))
         if rule == "assur":

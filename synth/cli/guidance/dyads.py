@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from synth.cli.guidance.order import AXIS, ORIENTATIONS
-from synth.cli.output import FORCE, about, console, plain, print_json, table
+from synth.cli.output import FORCE, about, check_picture, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from synth.guidance.dyads import Dyad
@@ -70,6 +70,7 @@ def dyads(
     """
     from synth.guidance.orientations import read_orientations
 
+    check_picture(picture, force=force)
     orientations = read_orientations(file)
     with about(file):
         guiding = asked_for(orientations, axes, samples)

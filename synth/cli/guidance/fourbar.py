@@ -9,7 +9,7 @@ import click
 
 from synth.cli.guidance.dyads import AXES, asked_for, samples_option
 from synth.cli.guidance.order import ORIENTATIONS
-from synth.cli.output import FORCE, about, console, plain, print_json, table
+from synth.cli.output import FORCE, about, check_output, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from graphs.arrays import Floats
@@ -62,6 +62,7 @@ def fourbar(
     from synth.guidance.fourbars import four_bars
     from synth.guidance.orientations import read_orientations, write_orientations
 
+    check_output(motion, force=force)
     orientations = read_orientations(file)
     with about(file):
         found = four_bars(orientations, asked_for(orientations, axes, samples).dyads)

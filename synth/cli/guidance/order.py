@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, console, plain, print_json, table
+from synth.cli.output import FORCE, about, check_picture, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from synth.guidance.hoop_method import Direction
@@ -75,6 +75,7 @@ def order(
     from synth.guidance.order import analyse_order
     from synth.guidance.orientations import read_orientations
 
+    check_picture(picture, force=force)
     orientations = read_orientations(file)
     with about(file):
         found = analyse_order(orientations, axis, direction)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, about, print_json
+from synth.cli.output import FORCE, about, check_picture, print_json
 from synth.cli.surfaces.circles import NumberList, print_cones
 
 if TYPE_CHECKING:
@@ -67,6 +67,7 @@ def map_command(
         raise click.UsageError("--by-angles is for a FILE")
     if (file is None) == (angles is None):
         raise click.UsageError("give --angles of one loop, or a FILE")
+    check_picture(output, force=force)
     if file is not None:
         _map_file(file, radians(tolerance), by_angles, output, force, as_json)
         return
@@ -157,6 +158,7 @@ def behaviour_command(
 
     if sum(one is not None for one in (file, angles, steps)) != 1:
         raise click.UsageError("give --angles or --steps of one loop, or a FILE")
+    check_picture(output, force=force)
     tilt = None if cone_angle is None else float(checked_cone_angle(radians(cone_angle)))
     if tilt is not None and angles is not None:
         raise click.UsageError("--angles tell the cone themselves")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, print_json
+from synth.cli.output import FORCE, check_picture, print_json
 from synth.cli.surfaces.circles import NumberList, print_cylinders
 
 __all__ = ["cylinder_group"]
@@ -39,6 +39,7 @@ def map_command(lengths: tuple[float, ...], output: str | None, force: bool, as_
     """
     from synth.surfaces.cylinder import map_to_cylinders
 
+    check_picture(output, force=force)
     found = map_to_cylinders(lengths)
     if output is not None:
         from synth.drawing.figure import save_figure

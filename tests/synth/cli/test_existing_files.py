@@ -55,6 +55,28 @@ def test_what_is_there_is_replaced_by_force_only(name, data, tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("name", [name for name in COMMANDS if "enumerate" not in COMMANDS[name][0]])
+def test_what_is_there_is_refused_before_anything_is_read_or_computed(name, data, tmp_path):
+    words, path = words_of(name, tmp_path / "nowhere", tmp_path)
+    words = [
+        "400" if "," in str(word) and words[i - 1] in ("--angles", "--lengths") else word
+        for i, word in enumerate(words)
+    ]
+    assert "exists already" not in run(*words, code=2).stderr  # there is nothing to compute it from
+    path.write_text("old", encoding="utf-8")
+    assert "exists already" in run(*words, code=2).stderr
+
+
+def test_a_folder_of_pictures_is_refused_before_anything_is_read(tmp_path):
+    words = ["enumerate", "conical", "--chain", tmp_path / "nowhere.json", "--pictures", tmp_path]
+    assert "exists already; expected a new folder" in run(*words, code=2).stderr
+
+
+def test_a_kind_of_picture_is_refused_before_anything_is_computed(tmp_path):
+    words = ["cone", "map", tmp_path / "nowhere.json", "-o", tmp_path / "a.bmp"]
+    assert "the extension is not known; expected .png, .svg, .pdf" in run(*words, code=2).stderr
+
+
 def test_every_option_that_names_an_output_comes_with_force():
     def commands(group, path=()):
         with click.Context(group) as context:
