@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.welding import Lines, Network, either_way, network_of
+from graphs.convert.welding import Lines, Network, either_way, networks_of
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
 
@@ -75,7 +75,8 @@ def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None
     """
     if not len(lines.letters) or not lines.size:
         raise InvariantError("lines", "the pattern has no line of any length", "lines")
-    traced = [_Traced(network_of(lines, t * lines.size)) for t in ([tolerance] if tolerance else TOLERANCES)]
+    tried = [t * lines.size for t in ([tolerance] if tolerance else TOLERANCES)]
+    traced = [_Traced(network) for network in networks_of(lines, tried)]
     chosen = _standing(traced, TOLERANCES[-1] * lines.size)
     network = chosen.network
     notes = [f"{number} {what}" for what, number in sorted(network.notes.items()) if number]
@@ -165,8 +166,8 @@ def _stablest(traced: Sequence[_Traced], short: float) -> _Traced:
 
 
 def _least(traced: Sequence[_Traced], number: Callable[[_Traced], int]) -> list[_Traced]:
-    least = min(map(number, traced))
-    return [one for one in traced if number(one) == least]
+    numbers = [number(one) for one in traced]
+    return [one for one, found in zip(traced, numbers, strict=True) if found == min(numbers)]
 
 
 def _commonest(traced: Sequence[_Traced], number: Callable[[_Traced], int]) -> list[_Traced]:

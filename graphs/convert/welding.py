@@ -6,7 +6,8 @@ What becomes of the network: :mod:`graphs.convert.tracing`. Theory: docs/theory/
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
@@ -21,10 +22,12 @@ from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Edge
 from graphs.work_limits import check_work
 
-__all__ = ["Lines", "Network", "crossings", "either_way", "network_of"]
+__all__ = ["Lines", "Network", "crossings", "either_way", "network_of", "networks_of"]
 
 _SAME = 1e-3
 """Crossings nearer than this, in units of the tolerance, are one that was found more than once."""
+_MARGIN = 4 * _SAME
+"""Distances nearer than this to a tolerance, in its units, may be on either side of it."""
 _PIECE = 256
 """Lines whose meetings are looked for at once."""
 _RANK = "MVUFJBC"
@@ -109,12 +112,71 @@ def network_of(lines: Lines, tolerance: float) -> Network:
     >>> len(network.edges), network.dangling, network.notes["crossing(s) split"]
     (7, 0, 1)
     """
+    return networks_of(lines, [tolerance])[0]
+
+
+def networks_of(lines: Lines, tolerances: Sequence[float]) -> list[Network]:
+    """Return the network that each tolerance gives; those that weld alike are welded once.
+
+    Parameters
+    ----------
+    lines : Lines
+    tolerances : sequence of float
+        In the length unit of the lines, the finest first.
+
+    Examples
+    --------
+    >>> ends = np.array([[[0, 0], [1, 0]], [[1.01, 0], [0, 1]], [[0, 1], [0, 0]]], dtype=float)
+    >>> [len(one.edges) for one in networks_of(Lines(ends, "BBB"), [1e-6, 1e-5, 0.1])]
+    [0, 0, 3]
+    """
     lines, again = _distinct(lines)
+    networks = []
+    for group in _alike(lines.ends, tolerances):
+        welded = _welded_network(lines, group[0])
+        welded.notes["line(s) drawn twice"] += again
+        _prune(welded)
+        networks += [_straightened(welded, tolerance) for tolerance in group]
+    return networks
+
+
+def _alike(ends: Floats, tolerances: Sequence[float]) -> list[list[float]]:
+    """Part tolerances into runs that weld alike: no distance that welding looks at lies between them."""
+    groups = [[tolerances[0]]]
+    distances = _distances(ends, tolerances[0], tolerances[-1]) if len(tolerances) > 1 else np.empty(0)
+    for finer, coarser in pairwise(tolerances):
+        between = (distances >= finer * (1 - _MARGIN)) & (distances <= coarser * (1 + _MARGIN))
+        if between.any():
+            groups.append([])
+        groups[-1].append(coarser)
+    return groups
+
+
+def _distances(ends: Floats, finest: float, coarsest: float) -> Floats:
+    """Return what welding compares with a tolerance, up to the coarsest.
+
+    It is the lengths of lines; the distances of crossings from ends, of both from each other, and from lines.
+    """
+    reach = coarsest * (1 + _MARGIN)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    segments = shapely.linestrings(ends)
+    found, apart = _meeting_points(ends, segments)
+    once = _once(found[apart > finest], finest)
+    check_work("crossings", len(once), "crossings of lines")
+    loose = shapely.points(np.unique(np.concatenate([ends.reshape(-1, 2), once]), axis=0))
+    one, two = _pairs(shapely.STRtree(loose), loose, predicate="dwithin", distance=reach)
+    point, line = shapely.STRtree(segments).query(loose, predicate="dwithin", distance=reach)
+    between, off = shapely.distance(loose[one], loose[two]), shapely.distance(loose[point], segments[line])
+    return np.concatenate([lengths, apart, between, off])
+
+
+def _welded_network(lines: Lines, tolerance: float) -> Network:
+    """Weld ends, and split lines where they cross and where an end lies on them."""
     long = np.linalg.norm(lines.ends[:, 1] - lines.ends[:, 0], axis=1) > tolerance
     kept = [int(i) for i in np.flatnonzero(long)]
     letters = [lines.letters[i] for i in kept]
     angles = [None if lines.angles is None else lines.angles[i] for i in kept]
-    notes = Counter({"line(s) of no length dropped": int((~long).sum()), "line(s) drawn twice": again})
+    notes = Counter({"line(s) of no length dropped": int((~long).sum())})
     ends = lines.ends[long]
     tree = shapely.STRtree(shapely.linestrings(ends))
     found = crossings(ends, tolerance)
@@ -144,10 +206,7 @@ def network_of(lines: Lines, tolerance: float) -> Network:
                 edges[edge] = letter
                 angle_of[edge] = angles[line]
     moved = (loose - points[of_point])[: 2 * len(ends)]
-    network = Network(points, edges, tolerance, angle_of, notes, spread=_spread(moved, of_point[: len(moved)]))
-    _prune(network)
-    _straighten(network)
-    return network
+    return Network(points, edges, tolerance, angle_of, notes, spread=_spread(moved, of_point[: len(moved)]))
 
 
 def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
@@ -171,7 +230,12 @@ def crossings(ends: Floats, tolerance: float) -> Floats:
     >>> crossings(np.array([[[0, 0], [2, 2]], [[2, 0], [0, 2]], [[0, 0], [2, 0]]], dtype=float), 0.01).tolist()
     [[1.0, 1.0]]
     """
-    segments = shapely.linestrings(ends)
+    found, apart = _meeting_points(ends, shapely.linestrings(ends))
+    return _once(found[apart > tolerance], tolerance)
+
+
+def _meeting_points(ends: Floats, segments: npt.NDArray[np.object_]) -> tuple[Floats, Floats]:
+    """Return where lines meet that are not parallel, and how far that is from the nearest of their ends."""
     one, two = _pairs(shapely.STRtree(segments), segments, predicate="intersects")
     p, r = ends[one, 0], ends[one, 1] - ends[one, 0]
     q, s = ends[two, 0], ends[two, 1] - ends[two, 0]
@@ -181,10 +245,12 @@ def crossings(ends: Floats, tolerance: float) -> Floats:
     gap = q - p
     t = (gap[:, 0] * s[:, 1] - gap[:, 1] * s[:, 0]) / area
     found: Floats = p + t[:, None] * r
-    away = np.ones(len(found), dtype=bool)
-    for end in (p, p + r, q, q + s):
-        away &= np.linalg.norm(found - end, axis=1) > tolerance
-    found = found[away]
+    apart: Floats = np.min([np.linalg.norm(found - end, axis=1) for end in (p, p + r, q, q + s)], axis=0)
+    return found, apart
+
+
+def _once(found: Floats, tolerance: float) -> Floats:
+    """Leave one of crossings that were found more than once."""
     _, first = np.unique(np.round(found / (tolerance * _SAME)), axis=0, return_index=True)
     return found[np.sort(first)]
 
@@ -263,11 +329,18 @@ def _prune(network: Network) -> None:
     network.notes["line(s) that end nowhere pruned"] = network.dangling
 
 
-def _straighten(network: Network) -> None:
+def _straightened(welded: Network, tolerance: float) -> Network:
     """Take out vertices in the middle of a line: two edges of one kind, straight within the tolerance.
 
     They are left where an end was welded to a line that it only touches, or where two ends were.
     """
+    network = replace(
+        welded,
+        tolerance=tolerance,
+        edges=dict(welded.edges),
+        angles=dict(welded.angles),
+        notes=welded.notes.copy(),
+    )
     at: dict[int, set[int]] = defaultdict(set)
     for a, b in network.edges:
         at[a].add(b)
@@ -288,6 +361,7 @@ def _straighten(network: Network) -> None:
         at[a] = at[a] - {vertex} | {b}
         at[b] = at[b] - {vertex} | {a}
         network.notes["vertex(es) in the middle of a line taken out"] += 1
+    return network
 
 
 def either_way(a: int, b: int) -> Edge:

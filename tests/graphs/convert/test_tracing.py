@@ -9,9 +9,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from graphs.convert import welding
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.tracing import trace_sheet
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import TOLERANCES, trace_sheet
+from graphs.convert.welding import Lines, network_of, networks_of
 from graphs.errors import InvariantError
 from graphs.files.formats import read, write
 from graphs.files.patterns.cp import cp_text, sheet_from_cp
@@ -206,3 +207,48 @@ def test_a_fine_pattern_keeps_its_panels():
     sheet = traced(lines, letters)
     assert len(sheet.faces) == n
     assert not any("welded" in note for note in sheet.repairs)
+
+
+def noisy_lines(rng):
+    """Lines whose ends and crossings are apart by anything from nothing to far beyond all tolerances."""
+    corners = rng.integers(0, 4, size=(int(rng.integers(3, 14)), 2, 2)).astype(float)
+    noise = 4 * 10.0 ** rng.uniform(-7, -1.5, size=corners.shape) * rng.choice([-1, 0, 1], size=corners.shape)
+    return Lines(corners + noise, "".join(rng.choice(list("MVB"), size=len(corners))))
+
+
+def same(one, other):
+    assert np.array_equal(one.points, other.points)
+    assert (list(one.edges.items()), one.angles, one.tolerance) == (
+        list(other.edges.items()),
+        other.angles,
+        other.tolerance,
+    )
+    assert (+one.notes, one.dangling, one.spread) == (+other.notes, other.dangling, other.spread)
+
+
+@pytest.mark.parametrize("number", [20, pytest.param(3000, marks=pytest.mark.slow)])
+def test_tolerances_that_weld_alike_give_what_each_gives_by_itself(number, rng, monkeypatch):
+    welded, weldings = welding._welded_network, []
+    monkeypatch.setattr(welding, "_welded_network", lambda *given: weldings.append(given) or welded(*given))
+    for _ in range(number):
+        lines = noisy_lines(rng)
+        tried = [t * lines.size for t in TOLERANCES]
+        for one, tolerance in zip(networks_of(lines, tried), tried, strict=True):
+            same(one, network_of(lines, tolerance))
+    assert number * 8 < len(weldings) < number * 13  # 7 one by one; together from 1 to 6, and both occur
+
+
+def grid(n):
+    """A drawing of n by n squares, each side a line of its own."""
+    steps = [(i, j) for i in range(n + 1) for j in range(n)]
+    lines = [((j, i), (j + 1, i)) for i, j in steps] + [((i, j), (i, j + 1)) for i, j in steps]
+    return traced(lines, "".join("B" if i in (0, n) else "M" for i, _ in steps) * 2)
+
+
+@pytest.mark.parametrize("n", [12, pytest.param(150, marks=pytest.mark.slow)])
+def test_a_clean_drawing_is_welded_once_for_all_tolerances(n, monkeypatch):
+    welded, weldings = welding._welded, []
+    monkeypatch.setattr(welding, "_welded", lambda *given: weldings.append(given) or welded(*given))
+    sheet = grid(n)
+    assert (len(sheet.faces), sheet.repairs) == (n * n, ())
+    assert len(weldings) == 1
