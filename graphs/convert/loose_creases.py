@@ -13,7 +13,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.mechanism.plane import flattened
-from graphs.mechanism.sheet import HINGES, Sheet, sides_of_face
+from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
 
 __all__ = ["creases_on_no_face", "joins_faces", "traced_anew"]
 
@@ -29,11 +29,11 @@ def creases_on_no_face(sheet: Sheet) -> int:
     >>> creases_on_no_face(Sheet(4, ((0, 2), (1, 3)), "MV", ((0, 1, 2), (0, 2, 3))))
     1
     """
-    sides = {side for face in sheet.faces for side in sides_of_face(face)}
-    return sum(
-        letter in HINGES and (a, b) not in sides and (b, a) not in sides
-        for (a, b), letter in zip(sheet.edges, sheet.assignments, strict=True)
-    )
+    hinges = [edge for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter in HINGES]
+    sides: set[Edge] = set()
+    for face in sheet.faces:
+        sides.update(zip(face, (*face[1:], *face[:1]), strict=True))
+    return sum((a, b) not in sides and (b, a) not in sides for a, b in hinges)
 
 
 def joins_faces(sheet: Sheet) -> bool:

@@ -80,10 +80,9 @@ def flattened(sheet: Sheet) -> Flattened | None:
         return Flattened(places.reshape(len(places), -1)[:, :2], "")
     size = float(np.abs(places).max())
     unit = places / size  # products of coordinates stay finite
-    tolerance = _FLAT if size > _WHOLE else flat_within(precision_of_sheet(sheet))
-    if off_plane(unit) > tolerance:
+    normal = _normal_of_sheet(sheet, places, unit)
+    if normal is None:
         return None
-    normal = _normal(unit, tolerance)
     upright = abs(normal) == 1
     if upright[2]:
         return Flattened(places[:, :2], "flattened: points were a little off the xy plane")
@@ -116,6 +115,16 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     if flat is None:
         raise UnsolvableError(f"{what} is flat, and the sheet is not")
     return [(x, y) for x, y in flat.places.tolist()]
+
+
+def _normal_of_sheet(sheet: Sheet, places: Floats, unit: Floats) -> Floats | None:
+    """Return the normal of the plane that a sheet lies in, None if in none; precision matters off an axis only."""
+    still = np.flatnonzero(places.min(axis=0) == places.max(axis=0))
+    if len(still):
+        upright: Floats = np.eye(3)[still[-1]]
+        return upright
+    tolerance = _FLAT if np.abs(places).max() > _WHOLE else flat_within(precision_of_sheet(sheet))
+    return None if off_plane(unit) > tolerance else _normal(unit, tolerance)
 
 
 def _normal(places: Floats, tolerance: float) -> Floats:

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import Protocol, TypeVar
 
 from graphs.errors import InvariantError, shown
@@ -107,19 +109,25 @@ class Sheet:
     spread: float = field(default=0.0, compare=False)
 
     def __post_init__(self) -> None:
+        _check_vertices(self.edges, self.vertices, "edge")
         for i, (a, b) in enumerate(self.edges):
-            _check_vertices((a, b), self.vertices, f"edge {i}", ("edges", i))
             if a == b:
                 raise InvariantError("edge", f"edge {i} goes from vertex {a} to itself", part=("edges", i))
+        _check_vertices(self.faces, self.vertices, "face")
         for i, face in enumerate(self.faces):
-            _check_vertices(face, self.vertices, f"face {i}", ("faces", i))
-            if len(face) < 3 or len(set(face)) < len(face):
+            if len(set(face)) < max(3, len(face)):
                 raise InvariantError(
                     "face",
                     f"face {i} has the vertices {shown(list(face))}",
                     "three or more, each once",
                     ("faces", i),
                 )
+
+    def with_frames(self, frames: Frames) -> Sheet:
+        """Return the sheet with the frames of its file; what was checked is not checked again."""
+        sheet = copy(self)
+        object.__setattr__(sheet, "frames", frames)
+        return sheet
 
     def __repr__(self) -> str:
         creases = sum(letter in HINGES for letter in self.assignments)
@@ -195,7 +203,14 @@ def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
     return list(zip(face, (*face[1:], face[0]), strict=True))
 
 
-def _check_vertices(named: Sequence[int], count: int, who: str, part: tuple[str, int]) -> None:
-    for vertex in named:
-        if not 0 <= vertex < count:
-            raise InvariantError("vertex", f"{who} names vertex {vertex}", f"a vertex from 0 to {count - 1}", part)
+def _check_vertices(rows: Sequence[Sequence[int]], count: int, who: str) -> None:
+    """Refuse the first edge or face that names a vertex that is not there."""
+    named = set(chain.from_iterable(rows))
+    if not named or (min(named) >= 0 and max(named) < count):
+        return
+    for i, row in enumerate(rows):
+        for vertex in row:
+            if not 0 <= vertex < count:
+                raise InvariantError(
+                    "vertex", f"{who} {i} names vertex {vertex}", f"a vertex from 0 to {count - 1}", (f"{who}s", i)
+                )

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from graphs.files.patterns.fold_frames import resolved_frame
 from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import json_text, load_json
 from graphs.mechanism.plane import flattened
-from graphs.mechanism.sheet import FLAT, HINGES, Sheet
+from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet
 from graphs.work_limits import most
 
 __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
@@ -109,7 +110,7 @@ def read_fold(path: Path) -> Sheet:
     sheet = _sheet(frame, notes, check)
     more = document if document.get("file_frames") else None
     of_file = {key: value for key, value in document.items() if key.startswith("file_") and value is not None}
-    return replace(sheet, frames=FoldFrames(path, sheet, more, _left_out(of_file | frame, sheet.title)))
+    return sheet.with_frames(FoldFrames(path, sheet, more, _left_out(of_file | frame, sheet.title)))
 
 
 def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
@@ -171,7 +172,7 @@ def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
         lambda: with_simple_faces(
             Sheet(
                 vertices,
-                tuple((a, b) for a, b in edges),
+                cast("tuple[Edge, ...]", edges),
                 assignments,
                 faces,
                 coordinates or None,
@@ -257,31 +258,38 @@ def fold_text(sheet: Sheet) -> str:
 
 
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
-    rows = []
-    last = most("nodes")
-    for i, row in enumerate(check.list(value, key)):
-        # Large files are read row by row at this speed; a row that fails is looked at closely.
-        if type(row) is not list or not all(type(v) is int and 0 <= v <= last for v in row):
+    rows = check.list(value, key)
+    if not _all_between(rows, 0, most("nodes"), {int}):
+        for i, row in enumerate(rows):
             place = f"{key}[{i}]"
             for k, v in enumerate(check.list(row, place, what="a list of vertices")):
                 check.how_many(v, f"{place}[{k}]")
-        rows.append(tuple(row))
-    return tuple(rows)
+    return tuple(map(tuple, rows))
+
+
+def _all_between(rows: list[Any], least: float, greatest: float, kinds: set[type]) -> bool:
+    """Tell whether rows are lists of numbers of some kinds, at once: what is large is read at this speed.
+
+    Where they are not, each is looked at closely to say which.
+    """
+    if not set(map(type, rows)) <= {list}:
+        return False
+    numbers = [*chain.from_iterable(rows)]
+    return not numbers or (set(map(type, numbers)) <= kinds and least <= min(numbers) and max(numbers) <= greatest)
 
 
 def _coordinates(value: Any, check: Checker) -> tuple[tuple[float, ...], ...]:
-    places = []
-    for i, row in enumerate(check.list(value, "vertices_coords")):
-        place = f"vertices_coords[{i}]"
-        listed = check.list(row, place, what="two or three numbers")
-        if len(listed) not in (2, 3):
-            raise FileError(check.path, place, f"{len(listed)} numbers", "two or three")
-        if all(type(x) in (float, int) and -_FAR < x < _FAR for x in listed):
-            places.append(tuple(map(float, listed)))
-            continue
-        places.append(tuple(check.number(x, f"{place}[{k}]") for k, x in enumerate(listed)))
-    width = max((len(place) for place in places), default=0)
-    return tuple((*place, 0.0) if len(place) < width else place for place in places)
+    rows = check.list(value, "vertices_coords")
+    if not (_all_between(rows, -_FAR, _FAR, {int, float}) and set(map(len, rows)) <= {2, 3}):
+        for i, row in enumerate(rows):
+            place = f"vertices_coords[{i}]"
+            listed = check.list(row, place, what="two or three numbers")
+            if len(listed) not in (2, 3):
+                raise FileError(check.path, place, f"{len(listed)} numbers", "two or three")
+            for k, x in enumerate(listed):
+                check.number(x, f"{place}[{k}]")
+    width = max(map(len, rows), default=0)
+    return tuple(tuple(map(float, row if len(row) == width else (*row, 0.0))) for row in rows)
 
 
 def _assignments(value: dict[str, Any], edges: int, check: Checker) -> tuple[str, tuple[str, ...]]:
@@ -291,9 +299,10 @@ def _assignments(value: dict[str, Any], edges: int, check: Checker) -> tuple[str
     letters = check.list(value["edges_assignment"], "edges_assignment", edges, f"a list of {edges}, one an edge")
     missing = sum(letter is None for letter in letters)
     letters = ["U" if letter is None else letter for letter in letters]
-    for i, letter in enumerate(letters):
-        if not isinstance(letter, str) or len(letter) != 1 or letter not in _ASSIGNMENTS:
-            check.fail(f"edges_assignment[{i}]", letter, "one of " + " ".join(_ASSIGNMENTS))
+    if not (set(map(type, letters)) <= {str} and set(letters) <= set(_ASSIGNMENTS)):
+        for i, letter in enumerate(letters):
+            if not isinstance(letter, str) or letter not in set(_ASSIGNMENTS):
+                check.fail(f"edges_assignment[{i}]", letter, "one of " + " ".join(_ASSIGNMENTS))
     return "".join(letters), ((f"{missing} null assignment(s) read as unassigned",) if missing else ())
 
 
@@ -301,4 +310,8 @@ def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[flo
     if "edges_foldAngle" not in value:
         return None
     listed = check.list(value["edges_foldAngle"], "edges_foldAngle", edges, f"a list of {edges}, one an edge")
-    return tuple(None if x is None else check.number(x, f"edges_foldAngle[{i}]") for i, x in enumerate(listed))
+    if not _all_between([[x for x in listed if x is not None]], -_FAR, _FAR, {int, float}):
+        for i, x in enumerate(listed):
+            if x is not None:
+                check.number(x, f"edges_foldAngle[{i}]")
+    return tuple(None if x is None else float(x) for x in listed)

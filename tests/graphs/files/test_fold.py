@@ -8,6 +8,7 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.files.patterns.fold import fold_text, sheet_from_fold
+from graphs.mechanism import plane
 from graphs.mechanism.sheet import Sheet
 
 SQUARE = {
@@ -113,3 +114,17 @@ def test_an_edge_listed_twice_is_a_crease_if_either_is(tmp_path):
     mechanism = mechanism_of_sheet(sheet(twice, tmp_path))
     assert len(mechanism.sc.joints) == 1
     assert mechanism.repairs == ("2 edge(s) listed twice: a crease counts before a border or a flat edge",)
+
+
+def test_a_pattern_that_is_read_is_checked_once(tmp_path, monkeypatch):
+    document = {"vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]], "faces_vertices": [[0, 1, 2, 3]]}
+    (tmp_path / "a.fold").write_text(json.dumps(document), encoding="utf-8")
+    checked, measured = [], []
+    check, precision_of_sheet = Sheet.__post_init__, plane.precision_of_sheet
+    monkeypatch.setattr(Sheet, "__post_init__", lambda sheet: checked.append(sheet) or check(sheet))
+    monkeypatch.setattr(
+        plane, "precision_of_sheet", lambda sheet: measured.append(sheet) or precision_of_sheet(sheet)
+    )
+    sheet = read(tmp_path / "a.fold")
+    assert (sheet.frames.others, len(checked)) == (0, 1)
+    assert not measured  # a sheet that stands on an axis is flat, however precise it is
