@@ -1,7 +1,7 @@
 """Where the rows of an enumeration go: files, a folder of mechanisms, a store, or a callback.
 
-Files are written beside their place and moved there when the run is complete. To add a format, write a sink and
-enter it in ``SINKS``.
+Files are written beside their place and moved there when the run is complete; what a killed run left there
+is removed by the next one to the same place. To add a format, write a sink and enter it in ``SINKS``.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.atomic import Beside, FolderBeside
 from graphs.files.native.documents import dumps
+from graphs.files.unfinished import remove_left
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
@@ -148,6 +149,7 @@ class _FileSink:
     def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         self._columns = tuple(job.columns)
+        remove_left(self._path)
         self._file = Beside(self._path, force=self._force)
         return ()
 
@@ -297,6 +299,7 @@ class FolderSink:
         FileError
             If there is something at its place, or it cannot be made.
         """
+        remove_left(self._path)
         self._folder = FolderBeside(self._path)
         self._columns = tuple(job.columns)
         self._text = getattr(job, "mechanism_text", mechanism_text)

@@ -23,6 +23,7 @@ from enumerate.runner.store_repair import examined, rebuilt
 from enumerate.runner.store_units import FORMAT, VERSION, UnitTable, make_tables, meta_in, named, reading
 from graphs.errors import StoreError
 from graphs.files.atomic import check_place
+from graphs.files.unfinished import remove_left
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]
 
@@ -89,6 +90,7 @@ class SqliteSink:
             self._remove()
         if not self.path.parent.is_dir():
             raise StoreError(f"{self.path}: there is no folder {str(self.path.parent)!r}")
+        remove_left(self.path)  # of a repair that was killed
         if self.path.exists() and _has_tables(self.path):
             self._look_through(job)
         with named(self.path):

@@ -6,10 +6,8 @@ takes its place. The rows keep their numbers, so that units which are made again
 
 from __future__ import annotations
 
-import os
 import shutil
 import sqlite3
-import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -18,6 +16,7 @@ from typing import Any
 
 from enumerate.runner.store_units import COMPLAINTS, UnitTable, is_damage, make_tables, meta_in, named, reading
 from graphs.errors import OpenError
+from graphs.files.unfinished import Unfinished, remove_folder
 
 __all__ = ["Findings", "examined", "rebuilt"]
 
@@ -102,21 +101,20 @@ def rebuilt(path: Path, findings: Findings) -> None:
     """
     place = path.resolve()
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{place.name[:32]}.", dir=place.parent)
-        os.close(handle)
+        unfinished = Unfinished(place, folder=True)
     except OSError as error:
         raise OpenError(path, "", f"cannot be repaired: {error.strerror}", "a writable folder") from None
-    beside = Path(name)
+    made = unfinished.path / place.name
     try:
         with named(path):
-            _copy(place, beside, findings)
-        shutil.copymode(place, beside)
+            _copy(place, made, findings)
+        shutil.copymode(place, made)
         for ending in ("-wal", "-shm", "-journal"):  # else SQLite would take them for those of the new one
             Path(f"{place}{ending}").unlink(missing_ok=True)
-        beside.replace(place)
+        made.replace(place)
     finally:
-        for ending in ("", "-wal", "-shm", "-journal"):
-            Path(f"{beside}{ending}").unlink(missing_ok=True)
+        remove_folder(unfinished.path)
+        unfinished.release()
 
 
 def _copy(source: Path, target: Path, findings: Findings) -> None:

@@ -214,3 +214,14 @@ def test_digests_are_those_of_every_version_of_python():
         assert table.entry(3).digest == "1b962a360dd55544c8e7a6a770e84763"
         assert table.rows(3) == rows
     connection.close()
+
+
+def test_what_a_repair_that_was_killed_left_is_removed(tmp_path, stores):
+    store = tmp_path / "squares.sqlite"
+    store.write_bytes(stores[1])
+    left = tmp_path / ".squares.sqlite.01234567.unfinished"
+    left.mkdir()
+    for name in ("squares.sqlite", "squares.sqlite-wal"):
+        (left / name).touch()
+    assert mended(store) == ([], 40)
+    assert list(tmp_path.iterdir()) == [store]
