@@ -341,6 +341,7 @@ def sink_for(
     resume: bool = False,
     force: bool = False,
     tell: Callable[[str], None] | None = None,
+    looking: Callable[[float], None] = lambda part: None,
 ) -> Sink:
     """Return the sink that a name calls for; a name without an extension is a folder.
 
@@ -354,6 +355,8 @@ def sink_for(
         Go on with a store.
     tell : callable, optional
         Takes a line on the state of a store that the user should know (`SqliteSink`).
+    looking : callable, optional
+        Takes the part of a store to be resumed that has been looked through.
 
     Raises
     ------
@@ -365,7 +368,7 @@ def sink_for(
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".sqlite":
-        return SqliteSink(path, resume=resume, force=force, tell=tell)
+        return SqliteSink(path, resume=resume, force=force, tell=tell, looking=looking)
     if suffix and suffix not in SINKS:
         known = " ".join(sorted(filter(None, [*SINKS, ".sqlite"])))
         raise FileError(path, "", f"files ending in {suffix!r} are not known", f"one of {known}, or a folder")

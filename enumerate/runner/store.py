@@ -50,6 +50,8 @@ class SqliteSink:
     tell : callable, optional
         Takes a line on what the user should know: the store was damaged, or is not one file. Without it, a
         warning.
+    looking : callable, optional
+        Takes, now and then, the part of a store to be resumed that has been looked through, 0 to 1.
     """
 
     def __init__(
@@ -59,9 +61,10 @@ class SqliteSink:
         resume: bool = False,
         force: bool = False,
         tell: Callable[[str], None] | None = None,
+        looking: Callable[[float], None] = lambda part: None,
     ) -> None:
         self.path, self._resume, self._force = Path(path), resume, force
-        self._tell = tell or _warn
+        self._tell, self._looking = tell or _warn, looking
         self._connection: sqlite3.Connection | None = None
         self._units: UnitTable | None = None
         self._rows: dict[int, int] = {}
@@ -119,7 +122,7 @@ class SqliteSink:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
             raise StoreError(f"{self.path}: holds another run ({theirs}); name another file")
         units = len(job.units())
-        findings = examined(self.path, units)
+        findings = examined(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
         if not findings.sound:
             rebuilt(self.path, findings)

@@ -225,3 +225,12 @@ def test_what_a_repair_that_was_killed_left_is_removed(tmp_path, stores):
         (left / name).touch()
     assert mended(store) == ([], 40)
     assert list(tmp_path.iterdir()) == [store]
+
+
+def test_how_much_has_been_looked_through_is_told(tmp_path, stores):
+    store, parts = tmp_path / "squares.sqlite", []
+    store.write_bytes(stores[1])
+    altered(store, "UPDATE type SET square = square + 1 WHERE rowid = 355")
+    with pytest.warns(UserWarning, match="was damaged; 59 of 100 units are whole"):
+        SqliteSink(store, resume=True, looking=parts.append).start(JOB)
+    assert parts == [k / 60 for k in range(1, 60)]
