@@ -167,8 +167,8 @@ class _Meter:
     """Progress on a terminal, about once a second, on one line."""
 
     def __init__(self, silent: bool) -> None:
-        self._silent, self._begin, self._width = silent, monotonic(), 0
-        self._next = self._begin + _PATIENCE
+        self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
+        self._looked: tuple[float, float] | None = None  # when it began to look through a store, and the part then
 
     @classmethod
     def of(cls, options: RunOptions) -> _Meter:
@@ -177,9 +177,11 @@ class _Meter:
 
     def look(self, part: float) -> None:
         """Show how much of a store has been looked through, and how long the rest takes."""
+        now = monotonic()
+        since, seen = self._looked = self._looked or (now, part)
         if self._is_time():
-            left = _time((monotonic() - self._begin) * (1 - part) / part if part else float("inf"))
-            self._write(f"{part:4.0%}  looking through what is stored, {left} left")
+            left = (now - since) * (1 - part) / (part - seen) if part > seen else float("inf")
+            self._write(f"{part:4.0%}  looking through what is stored, {_time(left)} left")
 
     def tell(self, line: str) -> None:
         """Print a line that stays."""

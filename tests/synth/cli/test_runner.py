@@ -48,7 +48,7 @@ def test_how_long_looking_through_takes(capsys, monkeypatch):
     now = [0.0]
     monkeypatch.setattr(runner, "monotonic", lambda: now[0])
     meter = runner._Meter(silent=False)
-    meter.look(0.001)
+    meter.look(0.0)
     assert capsys.readouterr().err == ""  # not yet
     now[0] = 30.0
     meter.look(0.25)
@@ -57,3 +57,15 @@ def test_how_long_looking_through_takes(capsys, monkeypatch):
     assert capsys.readouterr().err == ""
     meter.tell("was damaged")
     assert capsys.readouterr().err.endswith("\rwas damaged\n")
+
+
+def test_what_was_done_before_looking_began_is_not_counted(capsys, monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(runner, "monotonic", lambda: now[0])
+    meter = runner._Meter(silent=False)
+    now[0] = 100.0  # the units of a large job take long to be found
+    meter.look(0.5)
+    assert capsys.readouterr().err == "\r 50%  looking through what is stored, ? left"
+    now[0] = 110.0
+    meter.look(0.75)
+    assert "10 s left" in capsys.readouterr().err
