@@ -13,7 +13,7 @@ from toy_job import Squares
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import Interrupted, run
-from enumerate.runner.sinks import CountSink, RowSink
+from enumerate.runner.sinks import CountSink, RowSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from graphs.errors import StoreError
 
@@ -111,6 +111,30 @@ def test_a_complete_store_can_be_resumed_and_has_nothing_to_do(tmp_path):
     run(Squares(), SqliteSink(store))
     assert run(Squares(), SqliteSink(store, resume=True)).rows == 0
     assert len(list(read_rows(store))) == 200
+
+
+class _Asked(Squares):
+    """A job that notes how often it is asked for its units."""
+
+    times = 0
+
+    def units(self):
+        type(self).times += 1
+        return super().units()
+
+
+def test_the_units_of_a_job_are_found_once_and_not_for_a_store_that_is_refused(tmp_path, monkeypatch):
+    store = tmp_path / "squares.sqlite"
+    monkeypatch.setattr(_Asked, "times", 0)
+    run(_Asked(), SqliteSink(store))
+    assert _Asked.times == 1
+    run(_Asked(), SqliteSink(store, resume=True))
+    assert _Asked.times == 2
+    run(_Asked(), SortedSink(SqliteSink(tmp_path / "sorted.sqlite"), "n"))
+    assert _Asked.times == 3
+    with pytest.raises(StoreError, match="exists already"):
+        run(_Asked(), SqliteSink(store))
+    assert _Asked.times == 3
 
 
 def test_stores_that_are_refused(tmp_path):
