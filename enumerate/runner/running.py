@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import closing, contextmanager
 from typing import Any
@@ -87,12 +87,30 @@ def run(
 
 def _begun(job: Job, sink: Sink) -> tuple[dict[int, Unit], Progress]:
     """Open the sink; return the units that it has not, by their numbers, and how far it is."""
-    there = sink.start(job)
-    units = job.units()
+    known = _UnitsOnce(job)
+    there = sink.start(known)
+    units = known.units()
     left = {number: unit for number, unit in enumerate(units) if number not in there}
     total = sum(unit.weight for unit in units)
     done = total - sum(unit.weight for unit in left.values())
     return left, Progress(len(units), len(units) - len(left), done, total, skipped_weight=done)
+
+
+class _UnitsOnce:
+    """A job that remembers its units: a large one takes long to find them, and a sink asks for them too."""
+
+    def __init__(self, job: Job) -> None:
+        self._job = job
+        self._units: Sequence[Unit] | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._job, name)
+
+    def units(self) -> Sequence[Unit]:
+        """Return the units of the job, found when they are first asked for."""
+        if self._units is None:
+            self._units = self._job.units()
+        return self._units
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """Where the rows of an enumeration go: files, a folder of mechanisms, a store, or a callback.
 
-Files are written beside their place and moved there when the run is complete. To add a format, write a sink and
-enter it in ``SINKS``.
+Files are written beside their place and moved there when the run is complete; what a killed run left there
+is removed by the next one to the same place. To add a format, write a sink and enter it in ``SINKS``.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.atomic import Beside, FolderBeside
 from graphs.files.native.documents import dumps
+from graphs.files.unfinished import remove_left
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
@@ -148,6 +149,7 @@ class _FileSink:
     def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         self._columns = tuple(job.columns)
+        remove_left(self._path)
         self._file = Beside(self._path, force=self._force)
         return ()
 
@@ -297,6 +299,7 @@ class FolderSink:
         FileError
             If there is something at its place, or it cannot be made.
         """
+        remove_left(self._path)
         self._folder = FolderBeside(self._path)
         self._columns = tuple(job.columns)
         self._text = getattr(job, "mechanism_text", mechanism_text)
@@ -338,6 +341,7 @@ def sink_for(
     resume: bool = False,
     force: bool = False,
     tell: Callable[[str], None] | None = None,
+    looking: Callable[[float], None] = lambda part: None,
 ) -> Sink:
     """Return the sink that a name calls for; a name without an extension is a folder.
 
@@ -351,6 +355,8 @@ def sink_for(
         Go on with a store.
     tell : callable, optional
         Takes a line on the state of a store that the user should know (`SqliteSink`).
+    looking : callable, optional
+        Takes the part of a store to be resumed that has been looked through.
 
     Raises
     ------
@@ -362,7 +368,7 @@ def sink_for(
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".sqlite":
-        return SqliteSink(path, resume=resume, force=force, tell=tell)
+        return SqliteSink(path, resume=resume, force=force, tell=tell, looking=looking)
     if suffix and suffix not in SINKS:
         known = " ".join(sorted(filter(None, [*SINKS, ".sqlite"])))
         raise FileError(path, "", f"files ending in {suffix!r} are not known", f"one of {known}, or a folder")

@@ -23,6 +23,7 @@ from enumerate.runner.store_repair import examined, rebuilt
 from enumerate.runner.store_units import FORMAT, VERSION, UnitTable, make_tables, meta_in, named, reading
 from graphs.errors import StoreError
 from graphs.files.atomic import check_place
+from graphs.files.unfinished import remove_left
 
 __all__ = ["SqliteSink", "read_meta", "read_rows"]
 
@@ -49,6 +50,8 @@ class SqliteSink:
     tell : callable, optional
         Takes a line on what the user should know: the store was damaged, or is not one file. Without it, a
         warning.
+    looking : callable, optional
+        Takes, now and then, the part of a store to be resumed that has been looked through, 0 to 1.
     """
 
     def __init__(
@@ -58,9 +61,10 @@ class SqliteSink:
         resume: bool = False,
         force: bool = False,
         tell: Callable[[str], None] | None = None,
+        looking: Callable[[float], None] = lambda part: None,
     ) -> None:
         self.path, self._resume, self._force = Path(path), resume, force
-        self._tell = tell or _warn
+        self._tell, self._looking = tell or _warn, looking
         self._connection: sqlite3.Connection | None = None
         self._units: UnitTable | None = None
         self._rows: dict[int, int] = {}
@@ -89,6 +93,7 @@ class SqliteSink:
             self._remove()
         if not self.path.parent.is_dir():
             raise StoreError(f"{self.path}: there is no folder {str(self.path.parent)!r}")
+        remove_left(self.path)  # of a repair that was killed
         if self.path.exists() and _has_tables(self.path):
             self._look_through(job)
         with named(self.path):
@@ -117,7 +122,7 @@ class SqliteSink:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
             raise StoreError(f"{self.path}: holds another run ({theirs}); name another file")
         units = len(job.units())
-        findings = examined(self.path, units)
+        findings = examined(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
         if not findings.sound:
             rebuilt(self.path, findings)

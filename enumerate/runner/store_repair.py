@@ -6,11 +6,9 @@ takes its place. The rows keep their numbers, so that units which are made again
 
 from __future__ import annotations
 
-import os
 import shutil
 import sqlite3
-import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +16,7 @@ from typing import Any
 
 from enumerate.runner.store_units import COMPLAINTS, UnitTable, is_damage, make_tables, meta_in, named, reading
 from graphs.errors import OpenError
+from graphs.files.unfinished import Unfinished, remove_folder
 
 __all__ = ["Findings", "examined", "rebuilt"]
 
@@ -42,7 +41,7 @@ class Findings:
     sound: bool
 
 
-def examined(path: Path, units: int) -> Findings:
+def examined(path: Path, units: int, looking: Callable[[float], None]) -> Findings:
     """Look at every page and every unit of a store.
 
     Parameters
@@ -50,6 +49,8 @@ def examined(path: Path, units: int) -> Findings:
     path : Path
     units : int
         How many units the job has.
+    looking : callable
+        Takes the part of the rows that has been looked through, 0 to 1, after each unit.
 
     Raises
     ------
@@ -59,9 +60,30 @@ def examined(path: Path, units: int) -> Findings:
     with reading(path) as connection:
         meta = meta_in(connection, path)
         table = UnitTable(connection, meta["columns"])
-        whole = tuple(number for number in range(units) if _rows(table, number) is not None)
+        whole = tuple(_whole(table, units, looking))
         sound = _is_good(connection) and _holds_only(connection, table, whole)
     return Findings(meta, whole, sound and (len(whole) == units or not meta["complete"]))
+
+
+def _whole(table: UnitTable, units: int, looking: Callable[[float], None]) -> Iterator[int]:
+    """Yield the numbers of the units that are as they were written."""
+    total, seen = _promised(table), 0
+    for number in range(units):
+        rows = _rows(table, number)
+        if rows is not None:
+            yield number
+            seen += len(rows)
+            looking(min(seen / total, 1.0) if total > 0 else 1.0)
+
+
+def _promised(table: UnitTable) -> float:
+    """Return how many rows the entries of all units say; 0 if they cannot be read."""
+    try:
+        return table.promised()
+    except COMPLAINTS as error:
+        if not is_damage(error):
+            raise
+        return 0
 
 
 def _rows(table: UnitTable, number: int) -> Sequence[Any] | None:
@@ -87,9 +109,8 @@ def _holds_only(connection: sqlite3.Connection, table: UnitTable, whole: tuple[i
     """Return whether a good database has the units named, their rows, and no others."""
     if table.numbers() != list(whole):
         return False
-    [promised] = connection.execute("SELECT total(rows) FROM unit").fetchone()
     [rows] = connection.execute("SELECT count(*) FROM type").fetchone()
-    return bool(promised == rows)
+    return bool(table.promised() == rows)
 
 
 def rebuilt(path: Path, findings: Findings) -> None:
@@ -102,21 +123,20 @@ def rebuilt(path: Path, findings: Findings) -> None:
     """
     place = path.resolve()
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{place.name[:32]}.", dir=place.parent)
-        os.close(handle)
+        unfinished = Unfinished(place, folder=True)
     except OSError as error:
         raise OpenError(path, "", f"cannot be repaired: {error.strerror}", "a writable folder") from None
-    beside = Path(name)
+    made = unfinished.path / place.name
     try:
         with named(path):
-            _copy(place, beside, findings)
-        shutil.copymode(place, beside)
+            _copy(place, made, findings)
+        shutil.copymode(place, made)
         for ending in ("-wal", "-shm", "-journal"):  # else SQLite would take them for those of the new one
             Path(f"{place}{ending}").unlink(missing_ok=True)
-        beside.replace(place)
+        made.replace(place)
     finally:
-        for ending in ("", "-wal", "-shm", "-journal"):
-            Path(f"{beside}{ending}").unlink(missing_ok=True)
+        remove_folder(unfinished.path)
+        unfinished.release()
 
 
 def _copy(source: Path, target: Path, findings: Findings) -> None:

@@ -104,6 +104,10 @@ class UnitTable:
         """Return the numbers of all units."""
         return [number for (number,) in self._connection.execute("SELECT id FROM unit ORDER BY id")]
 
+    def promised(self) -> float:
+        """Return how many rows the units say that they have, together."""
+        return float(self._connection.execute("SELECT total(rows) FROM unit").fetchone()[0])
+
     def entry(self, number: int) -> StoredUnit | None:
         """Return the entry of a unit, if there is one, whatever its values are."""
         found = self._connection.execute(

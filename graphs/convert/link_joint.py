@@ -120,14 +120,16 @@ def sc_from_link_joint_graph(
 def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict[frozenset[object], JointId]]:
     """Return a simple graph with the same embeddings; parallel joints get a node in the middle.
 
-    networkx' PlanarEmbedding merges parallel edges, which would lose loops.
+    networkx' PlanarEmbedding merges parallel edges, which would lose loops. Nodes are numbers: networkx keeps them
+    in sets, whose order is another in every process where nodes are text, and so would be that of the loops.
     """
+    number = {link: place for place, link in enumerate(links)}
     simple = nx.Graph()
-    simple.add_nodes_from(("link", link) for link in links)
+    simple.add_nodes_from(number.values())
     joint_of: dict[frozenset[object], JointId] = {}
     for joint, (a, b) in joints.items():
-        ends = ("link", a), ("link", b)
-        path = ends if not simple.has_edge(*ends) else (ends[0], ("joint", joint), ends[1])
+        ends = number[a], number[b]
+        path = ends if not simple.has_edge(*ends) else (ends[0], len(simple), ends[1])
         nx.add_path(simple, path)
         for one, two in pairwise(path):
             joint_of[frozenset((one, two))] = joint

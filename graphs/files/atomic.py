@@ -1,31 +1,21 @@
 """Files and folders written whole or not at all: made beside their place, moved there when they are complete.
 
 What is there already is not replaced unless that is asked for (``force``). Symbolic links and special files
-(pipes, devices) are never written to nor replaced.
+(pipes, devices) are never written to nor replaced. What a killed process leaves: `graphs.files.unfinished`.
 """
 
 from __future__ import annotations
 
 import os
-import shutil
 import stat
-import subprocess
-import sys
-import tempfile
-import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from graphs.errors import OpenError
+from graphs.files.unfinished import Unfinished, remove_folder
 
 __all__ = ["Beside", "FolderBeside", "check_new_folder", "check_place", "reason_of", "write_chunks", "write_text"]
-
-_PATIENCE = 1.0
-"""Seconds in which whoever stops a run may wait for files to be removed."""
-
-_removers: list[subprocess.Popen[bytes]] = []
-"""Processes that remove folders, kept until this one ends."""
 
 
 def check_place(path: Path, *, force: bool) -> None:
@@ -102,38 +92,21 @@ class FolderBeside:
         check_new_folder(path)
         self._place = path
         try:
-            self.path = Path(tempfile.mkdtemp(prefix=f".{path.name[:32]}.", dir=path.parent))
+            self._unfinished = Unfinished(path, folder=True)
         except OSError as error:
             raise OpenError(path, "", f"cannot be made: {error.strerror}", "a writable folder") from None
+        self.path = self._unfinished.path
 
     def commit(self) -> None:
         """Move the folder to its place."""
         self.path.chmod(0o755)
         self.path.rename(self._place)
+        self._unfinished.release()
 
     def discard(self) -> None:
         """Remove the folder, unless it was moved; what takes longer than a second is left to another process."""
-        deadline = time.monotonic() + _PATIENCE
-        with suppress(OSError), os.scandir(self.path) as files:
-            for file in files:
-                if time.monotonic() > deadline:
-                    _removers.append(_remover(self.path))
-                    return
-                Path(file.path).unlink()
-        shutil.rmtree(self.path, ignore_errors=True)
-
-
-def _remover(folder: Path) -> subprocess.Popen[bytes]:
-    """Return a process that removes a folder and does not end with this one, or with its terminal."""
-    program = "import shutil, sys; shutil.rmtree(sys.argv[1], ignore_errors=True)"
-    silent = subprocess.DEVNULL
-    return subprocess.Popen(
-        [sys.executable, "-c", program, folder.resolve()],
-        stdin=silent,
-        stdout=silent,
-        stderr=silent,
-        start_new_session=True,
-    )
+        remove_folder(self.path)
+        self._unfinished.release()
 
 
 class Beside:
@@ -157,11 +130,11 @@ class Beside:
         self._force = force
         try:
             self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
-            handle, name = tempfile.mkstemp(prefix=f".{path.name[:32]}.", dir=path.parent)
+            self._unfinished = Unfinished(path)
+            self.stream = self._unfinished.path.open("wb")
         except (OSError, ValueError) as error:
             raise OpenError(path, "", f"cannot be written: {reason_of(error)}", "a writable folder") from None
-        self._path, self._beside = path, Path(name)
-        self.stream = os.fdopen(handle, "wb")
+        self._path, self._beside = path, self._unfinished.path
 
     def write(self, data: bytes) -> None:
         """Append bytes.
@@ -193,12 +166,14 @@ class Beside:
             check_place(self._path, force=self._force)
             self._beside.chmod(self._mode)
             self._beside.replace(self._path)
+            self._unfinished.release()
 
     def discard(self) -> None:
         """Remove the file, unless it was committed."""
         with suppress(OSError):  # closing writes what is left, to a disk that may be full
             self.stream.close()
         self._beside.unlink(missing_ok=True)
+        self._unfinished.release()
 
     @contextmanager
     def _named(self) -> Iterator[None]:

@@ -12,6 +12,7 @@ from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import FolderBeside
+from graphs.files.unfinished import remove_left
 from synth.candidates.job import CandidateJob
 from synth.conformed.layers import links_in_layers
 from synth.conformed.rates import ConformedChain
@@ -85,6 +86,7 @@ class PictureSink:
         FileError
             If there is something at its place, or it cannot be made.
         """
+        remove_left(self._place)
         self._folder = FolderBeside(self._place)
         return self._inner.start(job)
 

@@ -111,7 +111,7 @@ def run_count(job: Job, options: RunOptions) -> None:
     if options.output is not None:
         raise click.UsageError("--count stores nothing; leave out -o, or --count")
     sink = CountSink()
-    _run(job, sink, options)
+    _run(job, sink, options, _Meter.of(options))
     if options.as_json:
         print_json({"count": sink.total})
     else:
@@ -125,9 +125,12 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
     """
     from enumerate.runner.sinks import RowSink, sink_for
 
+    meter = _Meter.of(options)
     if options.output is not None:
-        sink = sink_for(options.output, resume=options.resume, force=options.force, tell=_told)
-        progress = _run(job, wrapped(sink), options)
+        sink = sink_for(
+            options.output, resume=options.resume, force=options.force, tell=meter.tell, looking=meter.look
+        )
+        progress = _run(job, wrapped(sink), options, meter)
         if not options.quiet and sys.stderr.isatty():
             click.echo(f"{progress.rows} rows in {progress.seconds:.1f} s: {plain(options.output)}", err=True)
         return
@@ -137,18 +140,18 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
             job,
             wrapped(RowSink(lambda names, rows: found.extend(dict(zip(names, row, strict=True)) for row in rows))),
             options,
+            meter,
         )
         print_json(found)
         return
     printer = _Printer(job.columns)
-    _run(job, wrapped(RowSink(printer.take)), options)
+    _run(job, wrapped(RowSink(printer.take)), options, meter)
     printer.finish()
 
 
-def _run(job: Job, sink: Sink, options: RunOptions) -> Progress:
+def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter) -> Progress:
     from enumerate.runner.running import Interrupted, run
 
-    meter = _Meter(options.quiet or not sys.stderr.isatty())
     try:
         return run(job, sink, workers=options.workers, scheduler=options.scheduler, report=meter.show)
     except Interrupted as stop:
@@ -160,24 +163,44 @@ def _run(job: Job, sink: Sink, options: RunOptions) -> Progress:
         meter.clear()
 
 
-def _told(line: str) -> None:
-    click.echo(line, err=True)
-
-
 class _Meter:
     """Progress on a terminal, about once a second, on one line."""
 
     def __init__(self, silent: bool) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
+        self._looked: tuple[float, float] | None = None  # when it began to look through a store, and the part then
+
+    @classmethod
+    def of(cls, options: RunOptions) -> _Meter:
+        """Return one that shows nothing where nobody would see it, or wants to."""
+        return cls(options.quiet or not sys.stderr.isatty())
+
+    def look(self, part: float) -> None:
+        """Show how much of a store has been looked through, and how long the rest takes."""
+        now = monotonic()
+        since, seen = self._looked = self._looked or (now, part)
+        if self._is_time():
+            left = (now - since) * (1 - part) / (part - seen) if part > seen else float("inf")
+            self._write(f"{part:4.0%}  looking through what is stored, {_time(left)} left")
+
+    def tell(self, line: str) -> None:
+        """Print a line that stays."""
+        self.clear()
+        click.echo(line, err=True)
 
     def show(self, progress: Progress) -> None:
         """Show how far it has come, how fast it goes and how long it takes."""
-        if self._silent or monotonic() < self._next:
+        if not self._is_time():
             return
-        self._next = monotonic() + _PATIENCE
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
         left = _time(progress.seconds_left)
         self._write(f"{part:4.0%}  {progress.rows:,} rows, {progress.rate:,.0f} a second, {left} left")
+
+    def _is_time(self) -> bool:
+        if self._silent or monotonic() < self._next:
+            return False
+        self._next = monotonic() + _PATIENCE
+        return True
 
     def _write(self, text: str) -> None:
         click.echo("\r" + text.ljust(self._width), nl=False, err=True)

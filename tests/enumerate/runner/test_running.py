@@ -1,32 +1,21 @@
 import os
-import random
 import signal
-import socket
 import sqlite3
 import subprocess
-import sys
 import time
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 from commands import run as command_line
+from runs import SYNTH, complaints, enumerating
 from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob
-from enumerate.chains.kinematic import count_chains
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import Interrupted, run
-from enumerate.runner.sinks import CountSink, RowSink
+from enumerate.runner.sinks import CountSink, RowSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from graphs.errors import StoreError
-
-SYNTH = [sys.executable, "-m", "synth.cli"]
-
-
-def complaints(errors):
-    """Lines of standard error, but for the one that says that code is compiled."""
-    return [line for line in errors.splitlines() if not line.startswith("synth: compiling")]
 
 
 def rows_of(job, **options):
@@ -88,7 +77,7 @@ def test_ctrl_c_stops_between_units_and_leaves_the_store_whole(tmp_path):
 
 def chains_command(links, dof, *words):
     """The command line that lists chains, in a process of its own."""
-    return [*SYNTH, "enumerate", "chains", "--links", str(links), "--dof", str(dof), *map(str, words)]
+    return enumerating("chains", "--links", links, "--dof", dof, *words)
 
 
 @pytest.mark.parametrize(
@@ -122,6 +111,30 @@ def test_a_complete_store_can_be_resumed_and_has_nothing_to_do(tmp_path):
     run(Squares(), SqliteSink(store))
     assert run(Squares(), SqliteSink(store, resume=True)).rows == 0
     assert len(list(read_rows(store))) == 200
+
+
+class _Asked(Squares):
+    """A job that notes how often it is asked for its units."""
+
+    times = 0
+
+    def units(self):
+        type(self).times += 1
+        return super().units()
+
+
+def test_the_units_of_a_job_are_found_once_and_not_for_a_store_that_is_refused(tmp_path, monkeypatch):
+    store = tmp_path / "squares.sqlite"
+    monkeypatch.setattr(_Asked, "times", 0)
+    run(_Asked(), SqliteSink(store))
+    assert _Asked.times == 1
+    run(_Asked(), SqliteSink(store, resume=True))
+    assert _Asked.times == 2
+    run(_Asked(), SortedSink(SqliteSink(tmp_path / "sorted.sqlite"), "n"))
+    assert _Asked.times == 3
+    with pytest.raises(StoreError, match="exists already"):
+        run(_Asked(), SqliteSink(store))
+    assert _Asked.times == 3
 
 
 def test_stores_that_are_refused(tmp_path):
@@ -205,150 +218,6 @@ def test_a_full_disk_gives_one_line_and_loses_nothing(tmp_path, name):
 def ids(links):
     job = ChainJob(ChainQuery(links, 1), bare=True)
     return [code for unit in job.units() for (code,) in job.work(unit.payload)]
-
-
-def killed_and_resumed(store, links, dof, kills, longest):
-    """Kill a run, or one of its workers, at random moments after it stored something; go on until it ends by itself.
-
-    Return how often.
-    """
-    command = chains_command(links, dof, "--workers", 2, "-o", store)
-    random.seed(links)
-    done = 0
-    while True:
-        before = units_in(store)
-        process = subprocess.Popen([*command, *(["--resume"] if store.exists() else [])])
-        if done < kills:
-            wait_for(lambda held=before, run=process: units_in(store) > held or run.poll() is not None)
-            time.sleep(random.uniform(0, longest))
-            workers = children(process.pid)
-            if done % 2 and workers:  # a worker now, the run itself a little later
-                os.kill(random.choice(workers), signal.SIGKILL)
-                time.sleep(random.uniform(0.1, longest))
-            process.kill()
-        code = process.wait(timeout=1800)
-        if code == 0:
-            return done
-        assert code == -signal.SIGKILL
-        done += 1
-        wait_for(lambda left=workers: all(not Path(f"/proc/{pid}").exists() or is_zombie(pid) for pid in left))
-
-
-def wait_for(true, seconds=600):
-    """Wait until something is so; a store of millions of rows is looked through for minutes before it grows."""
-    deadline = time.monotonic() + seconds
-    while not true():
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-
-
-def children(pid):
-    """Process ids of the worker processes of a run."""
-    found = []
-    for status in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            fields = status.read_text().rpartition(")")[2].split()
-        except OSError:
-            continue
-        if int(fields[1]) == pid:
-            found.append(int(status.parent.name))
-    return found
-
-
-def is_zombie(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
-
-
-def contents(store):
-    with sqlite3.connect(store) as connection:
-        units = connection.execute("SELECT id, state, rows FROM unit ORDER BY id").fetchall()
-        rows = connection.execute("SELECT rowid, * FROM type ORDER BY rowid").fetchall()
-    connection.close()
-    return units, rows
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """The store of a run that nobody stopped."""
-    store = tmp_path_factory.mktemp("whole") / "whole.sqlite"
-    run(ChainJob(ChainQuery(13, 2)), SqliteSink(store), workers=2)
-    return contents(store)
-
-
-@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for worker processes in /proc")
-def test_killed_runs_lose_nothing(tmp_path, whole):
-    store = tmp_path / "chains.sqlite"
-    assert killed_and_resumed(store, 13, 2, kills=2, longest=0.3) >= 1
-    assert contents(store) == whole
-    assert len({row[2] for row in whole[1]}) == count_chains(13, 2, "burnside") == 27_496
-
-
-@pytest.mark.slow
-def test_killed_runs_lose_nothing_at_sixteen_links(tmp_path):
-    whole = tmp_path / "whole.sqlite"
-    run(ChainJob(ChainQuery(16, 1)), SqliteSink(whole), workers=2)
-    store = tmp_path / "chains.sqlite"
-    assert killed_and_resumed(store, 16, 1, kills=10, longest=30.0) == 10
-    with sqlite3.connect(store) as connection:
-        connection.execute("ATTACH ? AS whole", (str(whole),))
-        for table in ("type", "unit"):
-            columns = "rowid, *" if table == "type" else "id, state, rows"
-            one, other = f"SELECT {columns} FROM main.{table}", f"SELECT {columns} FROM whole.{table}"
-            assert connection.execute(f"SELECT count(*) FROM ({one} EXCEPT {other})").fetchone() == (0,)
-            assert connection.execute(f"SELECT count(*) FROM ({other} EXCEPT {one})").fetchone() == (0,)
-        assert connection.execute("SELECT count(*), count(DISTINCT code) FROM type").fetchone() == (19819281,) * 2
-    connection.close()
-
-
-def test_a_cluster_that_loses_a_worker_gives_the_same_rows(tmp_path, whole):
-    pytest.importorskip("distributed", reason="needs Dask: pip install 'synthedra[dask]'")
-    port = free_port()
-    address = f"tcp://127.0.0.1:{port}"
-
-    def start(*words):
-        command = [sys.executable, "-m", "distributed.cli." + words[0], *words[1:]]
-        with (tmp_path / f"{len(processes)}.log").open("w") as log:
-            processes.append(subprocess.Popen(command, stdout=log, stderr=log))
-
-    processes = []
-    try:
-        start("dask_scheduler", "--host", "127.0.0.1", "--port", port, "--no-dashboard")
-        for _ in range(2):
-            start("dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
-        store = tmp_path / "chains.sqlite"
-        running = subprocess.Popen(chains_command(13, 2, "--scheduler", address, "-o", store))
-        processes.append(running)
-        wait_for(lambda: units_in(store) or running.poll() is not None)
-        assert running.poll() is None
-        processes[1].kill()
-        assert running.wait(timeout=120) == 0
-        assert contents(store) == whole
-    finally:
-        for process in reversed(processes):
-            process.kill()
-            process.wait()
-
-
-def free_port():
-    """A port that nobody listens at, so that runs of the tests beside this one have their own."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return str(free.getsockname()[1])
-
-
-def units_in(store):
-    if not store.exists():
-        return 0
-    try:
-        with sqlite3.connect(f"file:{store}?mode=ro", uri=True) as connection:
-            return connection.execute("SELECT count(*) FROM unit").fetchone()[0]
-    except sqlite3.OperationalError:
-        return 0
-    finally:
-        connection.close()
 
 
 def test_no_scheduler_there():

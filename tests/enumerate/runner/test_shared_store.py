@@ -6,8 +6,11 @@ import sys
 from contextlib import closing
 
 import pytest
+from runs import complaints, contents, enumerating, units_in, wait_for
 from toy_job import Squares
 
+from enumerate.chains.jobs import ChainJob
+from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import run
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from graphs.errors import StoreError
@@ -121,3 +124,33 @@ def test_two_runs_and_a_reader_on_one_store(tmp_path):
         with pytest.warns(UserWarning, match="is complete"):
             one.finish()
     assert list(read_rows(store)) == ROWS[:20]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("later", [False, True])
+def test_two_runs_of_chains_and_a_reader_in_processes_of_their_own(tmp_path, later):
+    job, store = ChainJob(ChainQuery(14, 1)), tmp_path / "chains.sqlite"
+    run(job, SqliteSink(tmp_path / "whole.sqlite"), workers=2)
+    whole = list(read_rows(tmp_path / "whole.sqlite"))
+    words = enumerating("chains", "--links", 14, "--dof", 1, "--workers", 1, "-o", store, "--resume")
+    runs = [subprocess.Popen(words, stderr=subprocess.PIPE, text=True)]
+    wait_for(lambda: units_in(store) >= 2 * later)
+    runs.append(subprocess.Popen(words, stderr=subprocess.PIPE, text=True))
+    wait_for(lambda: units_in(store) >= 1)
+    held = 0
+    while any(one.poll() is None for one in runs):
+        rows = list(read_rows(store))
+        assert held <= len(rows)
+        assert rows == whole[: len(rows)]
+        held = len(rows)
+    told = [complaints(one.communicate()[1]) for one in runs]
+    assert sorted(one.returncode for one in runs) == [0, 2]
+    for one, lines in zip(runs, told, strict=True):
+        if one.returncode:
+            assert lines == [f"{store}: another run is writing to it"]
+        else:
+            assert all("is complete; another process has it open" in line for line in lines)
+            assert len(lines) <= 1
+    assert run(job, SqliteSink(store, resume=True)).rows == 0
+    assert contents(store) == contents(tmp_path / "whole.sqlite")
+    assert files(tmp_path) == ["chains.sqlite", "whole.sqlite"]

@@ -214,3 +214,23 @@ def test_digests_are_those_of_every_version_of_python():
         assert table.entry(3).digest == "1b962a360dd55544c8e7a6a770e84763"
         assert table.rows(3) == rows
     connection.close()
+
+
+def test_what_a_repair_that_was_killed_left_is_removed(tmp_path, stores):
+    store = tmp_path / "squares.sqlite"
+    store.write_bytes(stores[1])
+    left = tmp_path / ".squares.sqlite.01234567.unfinished"
+    left.mkdir()
+    for name in ("squares.sqlite", "squares.sqlite-wal"):
+        (left / name).touch()
+    assert mended(store) == ([], 40)
+    assert list(tmp_path.iterdir()) == [store]
+
+
+def test_how_much_has_been_looked_through_is_told(tmp_path, stores):
+    store, parts = tmp_path / "squares.sqlite", []
+    store.write_bytes(stores[1])
+    altered(store, "UPDATE type SET square = square + 1 WHERE rowid = 355")
+    with pytest.warns(UserWarning, match="was damaged; 59 of 100 units are whole"):
+        SqliteSink(store, resume=True, looking=parts.append).start(JOB)
+    assert parts == [k / 60 for k in range(1, 60)]
