@@ -59,7 +59,7 @@ class PosedLinkage:
     graph : SCGraph
         Links and joints; columns of all arrays are its joints, in order.
     points : float[J, 3]
-        A point on each axis, in units of the extent, about the middle.
+        A point on each axis, of a crease its middle, in units of the extent, about the middle of all.
     directions : float[J, 3]
         Unit vectors. A positive angle turns the second link of a joint against the first, right-handed.
     angles : float[J]
@@ -176,7 +176,7 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
         marks = _marks(sheet)
         marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])
         angles = np.where(on_each_other & (marked != 0.0), np.copysign(np.pi, marked), angles)
-    return _posed(found.sc, corners[edges[:, 0]], directions, angles, corners)
+    return _posed(found.sc, corners[edges].mean(axis=1), directions, angles, corners)
 
 
 def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, all_points: Floats) -> PosedLinkage:

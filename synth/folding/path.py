@@ -63,6 +63,7 @@ def driven_path(
     *,
     direction: Floats | None = None,
     limited: Flags | None = None,
+    straight: bool = False,
     report: Callable[[int], None] | None = None,
 ) -> DrivenPath:
     """Return the closed poses at which a joint has given angles, one after the other.
@@ -81,6 +82,9 @@ def driven_path(
         least ones that move the driven joint.
     limited : bool[J], optional
         Joints that do not turn beyond 180 degrees: panels lie on each other there.
+    straight : bool, optional
+        With several freedoms, go on in the direction it began as far as that is possible; by default by the
+        least rates that move the driven joint.
     report : callable, optional
         Called with the number of frames after each.
 
@@ -98,7 +102,8 @@ def driven_path(
     >>> np.degrees(path.angles[-1]).round(3).tolist(), path.stopped
     ([89.943, -89.943, 89.943, -89.943], '')
     """
-    walk = _Walk(closure, driver, np.zeros(len(start), dtype=bool) if limited is None else limited)
+    never = np.zeros(len(start), dtype=bool)
+    walk = _Walk(closure, driver, never if limited is None else limited, straight)
     here = corrected(closure, start)
     if direction is None:
         way = np.sign(values[0] - start[driver]) if len(values) else 1.0
@@ -118,8 +123,8 @@ def driven_path(
 class _Walk:
     """Steps along a path; their length goes from one frame to the next."""
 
-    def __init__(self, closure: ClosureEquations, driver: int, limited: Flags) -> None:
-        self._closure, self._driver, self._limited = closure, driver, limited
+    def __init__(self, closure: ClosureEquations, driver: int, limited: Flags, straight: bool) -> None:
+        self._closure, self._driver, self._limited, self._straight = closure, driver, limited, straight
         self._length = _FIRST
 
     def to(self, here: Corrected, value: float, rates: Floats) -> tuple[Corrected, Floats, str]:
@@ -146,6 +151,8 @@ class _Walk:
 
     def _onwards(self, here: Corrected, rates: Floats) -> Floats:
         """Return the rates to go on with: the least that move the driver, unless it hardly moves."""
+        if self._straight:
+            return here.space.projected(rates)
         least = here.space.least_rates(self._driver)
         least = least * np.sign(least @ rates)
         if _alike(least, rates) and abs(least[self._driver]) > _HARDLY * np.abs(least).max():
