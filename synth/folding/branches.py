@@ -9,9 +9,9 @@ the sign of all rates together; farther off, two branches may be one curve. Theo
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import pi, radians
+from math import pi, radians, tan
 from typing import Literal
 
 import numpy as np
@@ -21,10 +21,11 @@ from graphs.loops.loop import Centre
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
-from synth.folding.path import driven_path
+from synth.folding.path import PathOptions, driven_path
+from synth.folding.placement import moved
 from synth.folding.second_order import Quadric, RateSpace, quadrics_of, rate_spaces, rates_at
 
-__all__ = ["Branch", "Branches", "Certainty", "branches_of", "freedoms_at"]
+__all__ = ["Branch", "Branches", "Certainty", "branches_of", "freedoms_at", "rates_towards"]
 
 Certainty = Literal["proved", "numerical", "not known"]
 
@@ -35,6 +36,7 @@ _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
 _AGREES = 1e-9
 _STILL = 1e-7
+_NEWTON, _ROUNDED = 30, 1e-14
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
 
@@ -50,8 +52,10 @@ class Branch:
     certainty : {"proved", "numerical", "not known"}
         Proved: the pose is regular, or the branch is linear in tan(fold / 2). Numerical: followed with closed
         loops. Not known: rates agree to second order, and no motion was found.
+    space : RateSpace
+        The rates at which it can begin.
     rates : float[J]
-        Of a motion along the branch, at the pose; the largest is 1 or -1.
+        Of one motion along the branch, at the pose; the largest is 1 or -1.
     still : tuple of int
         Places of the joints that do not move on it.
     sample : float[J]
@@ -64,6 +68,7 @@ class Branch:
 
     freedoms: int | None
     certainty: Certainty
+    space: RateSpace
     rates: Floats
     still: tuple[int, ...]
     sample: Floats
@@ -123,40 +128,71 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None) 
     whole = rates_at(closure, linkage.angles).shape[1]
     regular = len(spaces) == 1 and not spaces[0].left and spaces[0].basis.shape[1] == whole
     linear = _linear_in_half_tangents(linkage)
+    proved = regular and _full_row_rank(closure, linkage.angles)
     branches: list[Branch] = []
     for space in spaces:
-        proved = regular and _full_row_rank(closure, linkage.angles)
-        proved = proved or (linear and not space.left)
-        branches += [_followed(linkage, closure, space, rates, proved) for rates in _samples(space)]
-    return Branches(tuple(branches), complete and (linear or regular) and all(not s.left for s in spaces), regular)
+        follow = _in_half_tangents if linear and not space.left else _followed
+        for rates in _samples(space):
+            branches.append(follow(linkage, closure, space, rates / np.abs(rates).max()))
+            if proved:
+                branches[-1] = replace(branches[-1], certainty="proved")
+    every = complete and (linear or regular) and not any(space.left for space in spaces)
+    return Branches(tuple(branches), every, regular)
 
 
-def freedoms_at(closure: ClosureEquations, angles: Floats) -> int | None:
-    """Return the infinitesimal freedoms at a closed pose; None where singular values do not tell."""
-    _, jacobian = closure.at(angles)
-    rank = spectrum(jacobian.toarray(), _ERROR).rank
-    return None if rank is None else closure.joints - rank
+def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
+    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
+    start = space.basis.T @ wanted
+    if not start.any():
+        return np.zeros_like(wanted)
+    rates = _on_equations(space, np.asarray(start)) if space.left else space.basis @ start
+    return np.zeros_like(wanted) if rates is None else np.asarray(rates / np.abs(rates).max())
 
 
-def _followed(
-    linkage: PosedLinkage, closure: ClosureEquations, space: RateSpace, rates: Floats, proved: bool
-) -> Branch:
+def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
+
+    Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
+    folded along one straight line, for instance, has creases that lie in one plane.
+    """
+    spaces, _ = rate_spaces(closure, angles, quadrics_of(moved(linkage, angles)), _MOST)
+    if len(spaces) != 1 or spaces[0].left:
+        return None if spaces else 0
+    return int(spaces[0].basis.shape[1])
+
+
+def _followed(linkage: PosedLinkage, closure: ClosureEquations, space: RateSpace, rates: Floats) -> Branch:
     """Follow one branch and say what it is."""
-    rates = rates / np.abs(rates).max()
     driver = int(np.abs(rates).argmax())
     goal = linkage.angles[driver] + FOLLOWED * np.sign(rates[driver])
-    path = driven_path(closure, linkage.angles, driver, [goal], direction=rates, straight=True)
-    end, error = path.angles[-1], float(path.errors[-1])
-    came = float(np.abs(end - linkage.angles).max())
-    still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
-    moved = not path.stopped
-    freedoms = freedoms_at(closure, end) if moved else None
-    known: Certainty = "proved" if proved and moved else "numerical" if moved else "not known"
-    return Branch(freedoms, known, rates, still, end, error, came)
+    path = driven_path(closure, linkage.angles, [driver], goal, options=PathOptions(rates, straight=True))
+    end, came = path.angles[-1], not path.stopped
+    return Branch(
+        freedoms_at(linkage, closure, end) if came else None,
+        "numerical" if came else "not known",
+        space,
+        rates,
+        _still(space),
+        end,
+        float(path.errors[-1]),
+        float(np.abs(end - linkage.angles).max()),
+    )
+
+
+def _in_half_tangents(linkage: PosedLinkage, closure: ClosureEquations, space: RateSpace, rates: Floats) -> Branch:
+    """Return a branch along which tan(fold / 2) is any of its rates: it has as many freedoms as these."""
+    end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
+    freedoms = space.basis.shape[1]
+    return Branch(freedoms, "proved", space, rates, _still(space), end, closure.error(end), FOLLOWED)
+
+
+def _still(space: RateSpace) -> tuple[int, ...]:
+    return tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
 
 
 def _full_row_rank(closure: ClosureEquations, angles: Floats) -> bool:
-    return freedoms_at(closure, angles) == closure.joints - closure.rows
+    _, jacobian = closure.at(angles)
+    return spectrum(jacobian.toarray(), _ERROR).rank == closure.rows
 
 
 def _linear_in_half_tangents(linkage: PosedLinkage) -> bool:
@@ -171,7 +207,9 @@ def _folds_flat(linkage: PosedLinkage, joints: Sequence[int], centre: Centre) ->
     apex = _meeting_point(linkage, joints)
     away = linkage.points[list(joints)] - apex
     outward = away / np.linalg.norm(away, axis=1, keepdims=True)
-    sectors = [float(np.arccos(np.clip(a @ b, -1.0, 1.0))) for a, b in pairwise([*outward, outward[0]])]
+    sectors: list[float] = [
+        float(np.arccos(np.clip(a @ b, -1.0, 1.0))) for a, b in pairwise([*outward, outward[0]])
+    ]
     return abs(sectors[0] + sectors[2] - pi) <= _AGREES and abs(sum(sectors) - 2 * pi) <= _AGREES
 
 
@@ -179,7 +217,7 @@ def _meeting_point(linkage: PosedLinkage, joints: Sequence[int]) -> Floats:
     """Return the point nearest to some axes."""
     axes, points = linkage.directions[list(joints)], linkage.points[list(joints)]
     across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    return np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0]
+    return np.asarray(np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0])
 
 
 def _samples(space: RateSpace) -> list[Floats]:
@@ -191,12 +229,12 @@ def _samples(space: RateSpace) -> list[Floats]:
     split = [half for half in halves if half is not None]
     found: dict[tuple[int, ...], Floats] = {}
     for _ in range(_STARTS * 2 ** min(len(split), 6)):
-        rates = _on_all(space, chance)
+        rates = _on_equations(space, np.asarray(chance.normal(size=space.basis.shape[1])))
         if rates is None:
             continue
         signs = tuple(int(np.sign(half @ rates)) for half in split)
         if signs and signs[0] < 0:
-            rates, signs = -rates, tuple(-sign for sign in signs)
+            rates, signs = -rates, tuple(-one for one in signs)
         found.setdefault(signs, rates)
         if len(found) == 2 ** max(len(split) - 1, 0):
             break
@@ -207,22 +245,18 @@ def _general(chance: np.random.Generator, size: int) -> Floats:
     return np.asarray(chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size))
 
 
-def _on_all(space: RateSpace, chance: np.random.Generator) -> Floats | None:
-    """Return rates of a space on which all equations left hold, by Newton's method from a random start."""
-    x = chance.normal(size=space.basis.shape[1])
-    forms = [space.basis[list(q.joints)].T @ q.form @ space.basis[list(q.joints)] for q in space.left]
-    for _ in range(30):
+def _on_equations(space: RateSpace, x: Floats) -> Floats | None:
+    """Return rates of a space on which all equations left hold, by Newton's method from a start float[s]."""
+    forms = np.array([space.basis[list(q.joints)].T @ q.form @ space.basis[list(q.joints)] for q in space.left])
+    forms /= np.abs(forms).max(axis=(1, 2), keepdims=True)
+    for _ in range(_NEWTON):
         x = x / np.linalg.norm(x)
-        off = np.array([x @ form @ x for form in forms])
-        if np.abs(off).max() < 1e-15 * max(np.abs(form).max() for form in forms) * len(x):
-            break
-        slopes = np.array([2.0 * form @ x for form in forms])
-        x = x - np.linalg.lstsq(slopes, off, rcond=1e-12)[0]
-    else:
-        off = np.array([x @ form @ x for form in forms])
-    if np.abs(off).max() > _AGREES * max(np.abs(form).max() for form in forms):
-        return None
-    return np.asarray(space.basis @ x)
+        slopes = forms @ x
+        off = slopes @ x
+        if np.abs(off).max() <= _ROUNDED:
+            return np.asarray(space.basis @ x)
+        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
+    return None
 
 
 def _half_of(space: RateSpace, quadric: Quadric) -> Floats | None:

@@ -200,14 +200,17 @@ def _across(axes: Floats) -> Floats:
 
 def _rotation_vectors(rotations: Floats) -> Floats:
     """Return axis times angle of rotations: float[L, 3]."""
-    sine = np.stack(
-        [
-            rotations[:, 2, 1] - rotations[:, 1, 2],
-            rotations[:, 0, 2] - rotations[:, 2, 0],
-            rotations[:, 1, 0] - rotations[:, 0, 1],
-        ],
-        axis=1,
-    ) / 2.0
+    sine = (
+        np.stack(
+            [
+                rotations[:, 2, 1] - rotations[:, 1, 2],
+                rotations[:, 0, 2] - rotations[:, 2, 0],
+                rotations[:, 1, 0] - rotations[:, 0, 1],
+            ],
+            axis=1,
+        )
+        / 2.0
+    )
     s = np.linalg.norm(sine, axis=1)
     angle = np.arctan2(s, (np.trace(rotations, axis1=1, axis2=2) - 1.0) / 2.0)
     small = s < 1e-8  # the quotient is 1 to the last digit, or no axis is known

@@ -1,8 +1,8 @@
 """A linkage at a pose: links, joint axes in space, and the loops that have to close.
 
-The pose is that of the coordinates given. Joint angles count from a zero of their own: of a crease, from flat, with
-valley folds positive, as in FOLD files; of other joints, from the pose. Lengths are in units of the extent, about
-the middle of all points. Theory: docs/theory/folding.md.
+The pose is that of the coordinates given. Joint angles count from a zero of their own: of a crease, from flat,
+with valley folds positive, as in FOLD files; of other joints, from the pose. Lengths are in units of the extent,
+about the middle of all points. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -113,7 +113,9 @@ def linkage_of_axes(
         if joint not in axes:
             raise InvariantError("axis", f"joint {joint!r} has no axis", "one for each joint")
         if not np.any(axes[joint][1]):
-            raise InvariantError("axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero")
+            raise InvariantError(
+                "axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero"
+            )
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
@@ -156,13 +158,15 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
     corners = np.zeros((sheet.vertices, 3))
     corners[:, : len(sheet.coordinates[0])] = sheet.coordinates
     panels = _Panels(sheet)
-    joints: dict[int, tuple[int, int]] = dict(found.sc.joints.items())
+    joints: Mapping[int, tuple[int, int]] = found.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
     edges = np.array([found.hinges[joint] for joint in joints], dtype=np.int64).reshape(-1, 2)
     along = corners[edges[:, 1]] - corners[edges[:, 0]]
     lengths = np.linalg.norm(along, axis=1)
     for place in np.flatnonzero(lengths == 0.0):
         ends, part = tuple(edges[place].tolist()), ("edges", list(joints)[place])
-        raise InvariantError("hinge", f"the crease between vertices {ends[0]} and {ends[1]} has no length", part=part)
+        raise InvariantError(
+            "hinge", f"the crease between vertices {ends[0]} and {ends[1]} has no length", part=part
+        )
     beside = [
         panels.beside((a, b), found.panels[second])
         for (a, b), (_, second) in zip(edges.tolist(), joints.values(), strict=True)
@@ -170,7 +174,8 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
     ways = [panels.way((a, b), face) for (a, b), (_, face) in zip(edges.tolist(), beside, strict=True)]
     directions = along / lengths[:, None] * np.array(ways, dtype=float)[:, None]
     normals = panels.normals(corners)
-    angles = _fold_angles(*(normals[[pair[side] for pair in beside]] for side in (0, 1)), directions)
+    pairs = np.array(beside, dtype=np.int64).reshape(-1, 2)
+    angles = _fold_angles(normals[pairs[:, 0]], normals[pairs[:, 1]], directions)
     on_each_other = np.pi - np.abs(angles) < _ON_EACH_OTHER
     if on_each_other.any():
         marks = _marks(sheet)
@@ -184,7 +189,9 @@ def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, a
     loops = []
     for loop in independent_cycles(graph):
         signed = list(signed_cycle(loop.joints, graph.joints))
-        loops.append(PosedLoop(tuple(column[j] for j, _ in signed), tuple(sign for _, sign in signed), loop.centre))
+        loops.append(
+            PosedLoop(tuple(column[j] for j, _ in signed), tuple(sign for _, sign in signed), loop.centre)
+        )
     middle = all_points.mean(axis=0) if len(all_points) else np.zeros(3)
     extent = extent_of(all_points) or 1.0
     return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)

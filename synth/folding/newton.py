@@ -23,8 +23,9 @@ __all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected"]
 
 CLOSED = 1e-12
 """Loops that close to this, radians and units of the extent, are closed."""
-_REGULAR = 1e-11
-"""Part of the largest diagonal entry that is added to all: what is less than its root is no equation."""
+_REGULAR = 1e-9
+"""Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding along
+freedoms is multiplied by its inverse."""
 _DENSE = 40
 """Up to this many joints matrices are full; larger full ones would wait for threads of BLAS."""
 _STEPS = 12
@@ -32,6 +33,7 @@ _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
 _STILL = 1e-9
 """Squares of lengths of projected unit vectors below this are of joints that cannot move."""
+_MISSED = 1e-4
 
 
 class TangentSpace:
@@ -77,10 +79,14 @@ class TangentSpace:
             self._moves[joint] = self.projected(np.eye(1, self._jacobian.shape[1], joint)[0])
         return self._moves[joint]
 
-    def least_rates(self, joint: int) -> Floats:
-        """Return the least rates that move one joint; zeros if it cannot move: float[J]."""
-        move = self._move(joint)
-        return move if move[joint] > _STILL else np.zeros_like(move)
+    def least_rates(self, joints: Sequence[int], wanted: Floats) -> Floats:
+        """Return the least rates at which some joints have wanted ones; zeros if they cannot: float[J]."""
+        moves = np.stack([self._move(joint) for joint in joints])
+        places = list(joints)
+        shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=_STILL)
+        rates = shares @ moves
+        possible = rank and np.abs(rates[places] - wanted).max() <= _MISSED * np.abs(wanted).max()
+        return rates if possible and moves[:, places].max() > _STILL else np.zeros_like(rates)
 
 
 def _solver(jacobian: scipy.sparse.csr_matrix, transposed: scipy.sparse.csr_matrix) -> Callable[[Floats], Floats]:
@@ -148,9 +154,9 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
-    space = best.space if best.error > CLOSED / 10 else None
+    space = best.space if best.error > CLOSED / 100 else None
     for steps in range(1, _STEPS + 1):
-        if space is None or best.error <= CLOSED / 10:
+        if space is None or best.error <= CLOSED / 100:
             break
         moved = best.angles + space.step(off, held)
         residual, jacobian = closure.at(moved)

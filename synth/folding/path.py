@@ -13,12 +13,13 @@ from dataclasses import dataclass
 from math import degrees, pi
 
 import numpy as np
+import numpy.typing as npt
 
 from graphs.arrays import Flags, Floats, Ints
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import Corrected, corrected
 
-__all__ = ["DrivenPath", "driven_path"]
+__all__ = ["DrivenPath", "PathOptions", "driven_path"]
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
@@ -55,38 +56,50 @@ class DrivenPath:
     stopped: str
 
 
+@dataclass(frozen=True, slots=True)
+class PathOptions:
+    """How a path is followed.
+
+    Attributes
+    ----------
+    direction : float[J], optional
+        Rates to begin with, where the pose is singular: a flat sheet has several ways to fold. By default the
+        least ones that move the driven joints.
+    limited : bool[J] or False, optional
+        Joints that do not turn beyond 180 degrees: panels lie on each other there.
+    straight : bool, optional
+        With several freedoms, go on in the direction it began as far as that is possible; by default by the
+        least rates that move the driven joints.
+    report : callable, optional
+        Called with the number of frames after each.
+    """
+
+    direction: Floats | None = None
+    limited: Flags | bool = False
+    straight: bool = False
+    report: Callable[[int], None] | None = None
+
+
 def driven_path(
     closure: ClosureEquations,
     start: Floats,
-    driver: int,
-    values: Sequence[float],
+    drivers: Sequence[int],
+    values: npt.ArrayLike,
     *,
-    direction: Floats | None = None,
-    limited: Flags | None = None,
-    straight: bool = False,
-    report: Callable[[int], None] | None = None,
+    options: PathOptions | None = None,
 ) -> DrivenPath:
-    """Return the closed poses at which a joint has given angles, one after the other.
+    """Return the closed poses at which some joints have given angles, one after the other.
 
     Parameters
     ----------
     closure : ClosureEquations
     start : float[J]
         A closed pose, radians.
-    driver : int
-        Place of the joint that is driven.
-    values : sequence of float
-        Its angles, radians, in the order in which they are to come.
-    direction : float[J], optional
-        Rates to begin with, where the pose is singular: a flat sheet has several ways to fold. By default the
-        least ones that move the driven joint.
-    limited : bool[J], optional
-        Joints that do not turn beyond 180 degrees: panels lie on each other there.
-    straight : bool, optional
-        With several freedoms, go on in the direction it began as far as that is possible; by default by the
-        least rates that move the driven joint.
-    report : callable, optional
-        Called with the number of frames after each.
+    drivers : sequence of int
+        Places of the joints that are driven.
+    values : float[F, D]
+        Their angles in each frame, radians.
+    options : PathOptions, optional
 
     Examples
     --------
@@ -98,89 +111,99 @@ def driven_path(
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
     >>> linkage = linkage_of_axes(four_bar, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
-    >>> path = driven_path(ClosureEquations(linkage), linkage.angles, 0, [np.pi / 4, np.pi / 2 - 1e-3])
+    >>> path = driven_path(ClosureEquations(linkage), linkage.angles, [0], [[np.pi / 4], [np.pi / 2 - 1e-3]])
     >>> np.degrees(path.angles[-1]).round(3).tolist(), path.stopped
     ([89.943, -89.943, 89.943, -89.943], '')
     """
-    never = np.zeros(len(start), dtype=bool)
-    walk = _Walk(closure, driver, never if limited is None else limited, straight)
+    options = options or PathOptions()
+    walk = _Walk(closure, list(drivers), options)
     here = corrected(closure, start)
-    if direction is None:
-        way = np.sign(values[0] - start[driver]) if len(values) else 1.0
-        direction = way * here.space.least_rates(driver)
     frames, stopped = [here], ""
-    for value in values:
-        here, direction, stopped = walk.to(here, value, direction)
+    for value in np.asarray(values, dtype=float).reshape(-1, len(drivers)):
+        here, stopped = walk.to(here, value)
         if not stopped or not np.array_equal(here.angles, frames[-1].angles):
             frames.append(here)
         if stopped:
             break
-        if report is not None:
-            report(len(frames))
+        if options.report is not None:
+            options.report(len(frames))
     return DrivenPath(np.array([f.angles for f in frames]), np.array([f.error for f in frames]), stopped)
 
 
 class _Walk:
-    """Steps along a path; their length goes from one frame to the next."""
+    """Steps along a path; their length and direction go on from one frame to the next."""
 
-    def __init__(self, closure: ClosureEquations, driver: int, limited: Flags, straight: bool) -> None:
-        self._closure, self._driver, self._limited, self._straight = closure, driver, limited, straight
+    def __init__(self, closure: ClosureEquations, drivers: list[int], options: PathOptions) -> None:
+        self._closure, self._drivers, self._options = closure, drivers, options
         self._length = _FIRST
+        self._rates = options.direction
+        self._begun = False
 
-    def to(self, here: Corrected, value: float, rates: Floats) -> tuple[Corrected, Floats, str]:
-        """Go on until the driven joint has an angle; return where it ends, the rates there, why it stopped."""
-        way = float(np.sign(value - here.angles[self._driver])) or 1.0
+    def to(self, here: Corrected, value: Floats) -> tuple[Corrected, str]:
+        """Go on until the driven joints have given angles; return where it ends, and why if it is not there."""
+        left = value - here.angles[self._drivers]
+        lead = int(np.abs(left).argmax())
+        joint, way = self._drivers[lead], float(np.sign(left[lead]))
+        if self._begun and self._rates is not None and way * self._rates[joint] < 0.0:
+            self._rates = -self._rates
         for _ in range(_MOST_STEPS):
-            at = float(here.angles[self._driver])
-            if at == value:
-                return here, rates, ""
+            at = float(here.angles[joint])
+            if at == value[lead]:
+                return here, ""
+            left = value - here.angles[self._drivers]
+            rates = self._onwards(here, left)
             size = float(np.abs(rates).max(initial=0.0))
-            speed = way * float(rates[self._driver]) / size if size else 0.0
-            if size == 0.0 or 0.0 <= speed <= _STILL:
-                return here, rates, f"the driven joint cannot move from {_told(at)}"
+            speed = way * float(rates[joint]) / size if size else 0.0
+            if 0.0 <= speed <= _STILL:
+                return here, f"the driven joint cannot move from {_told(at)}"
             if speed < 0.0:
-                return here, rates, f"the driven joint turns back at {_told(at)}, before {_told(value)}"
-            end = self._step(here, rates / size, abs(value - at) / speed, value)
+                return here, f"the driven joint turns back at {_told(at)}, before {_told(value[lead])}"
+            self._rates = rates
+            end = self._step(here, rates / size, abs(left[lead]) / speed, left)
             if end is None:
-                return here, rates, f"no closed pose is found beyond {_told(at)} of the driven joint"
+                return here, f"no closed pose is found beyond {_told(at)} of the driven joint"
             over = np.flatnonzero(self._beyond(end.angles))
             if len(over):
-                return self._last_before(here, end), rates, f"panels lie on each other at joint(s) {_listed(over)}"
-            here, rates = end, self._onwards(end, rates)
-        return here, rates, f"{_MOST_STEPS} steps were not enough"
+                return self._last_before(here, end), f"panels lie on each other at joint(s) {_listed(over)}"
+            here, self._begun = end, True
+        return here, f"{_MOST_STEPS} steps were not enough"
 
-    def _onwards(self, here: Corrected, rates: Floats) -> Floats:
-        """Return the rates to go on with: the least that move the driver, unless it hardly moves."""
-        if self._straight:
-            return here.space.projected(rates)
-        least = here.space.least_rates(self._driver)
-        least = least * np.sign(least @ rates)
-        if _alike(least, rates) and abs(least[self._driver]) > _HARDLY * np.abs(least).max():
+    def _onwards(self, here: Corrected, left: Floats) -> Floats:
+        """Return the rates to go on with: the least that move the driven joints, unless they hardly can."""
+        before = self._rates
+        if before is not None and not self._begun:
+            return before  # at a singular pose: it was chosen
+        if before is not None and self._options.straight:
+            return here.space.projected(before)
+        least = here.space.least_rates(self._drivers, left)
+        if before is None or len(self._drivers) > 1:
             return least
-        return here.space.projected(rates)
+        least = least * np.sign(least @ before)
+        hardly = np.abs(least[self._drivers]).max() <= _HARDLY * np.abs(least).max(initial=0.0)
+        return here.space.projected(before) if hardly or not _alike(least, before) else least
 
-    def _step(self, here: Corrected, rates: Floats, most: float, value: float) -> Corrected | None:
-        """Take one step, of the length that can be trusted, at most as far as the value asked for."""
+    def _step(self, here: Corrected, rates: Floats, most: float, left: Floats) -> Corrected | None:
+        """Take one step of the length that can be trusted, at most to what is left of the driven joints' way."""
+        several = len(self._drivers) > 1
         while self._length >= _LEAST:
             lands = self._length >= most
             length = most if lands else self._length
             expected = here.angles + length * rates
-            if lands:
-                expected[self._driver] = value
-            end = corrected(self._closure, expected, [self._driver] if lands else ())
-            if lands and end.closed:
-                end.angles[self._driver] = value  # it was held but for rounding
-            if end.closed and np.abs(end.angles - expected).max() <= _STRAY * length:
-                if _alike(end.space.projected(rates), rates):
-                    if end.steps <= _EASY and not lands:
-                        self._length = min(1.5 * self._length, _LARGEST)
-                    return end
+            held = self._drivers if lands or several else []
+            expected[held] = here.angles[held] + (left if lands else length / most * left)[: len(held)]
+            end = corrected(self._closure, expected, held)
+            near = end.closed and np.abs(end.angles - expected).max() <= _STRAY * length
+            if near and (several or _alike(end.space.projected(rates), rates)):
+                end.angles[held] = expected[held]  # they were held but for rounding
+                if end.steps <= _EASY and not lands:
+                    self._length = min(1.5 * self._length, _LARGEST)
+                return end
             self._length = length / 2.0
         self._length = _FIRST
         return None
 
     def _beyond(self, angles: Floats) -> Flags:
-        return np.asarray(self._limited & (np.abs(angles) > pi + _ROUNDED))
+        return np.asarray(self._options.limited & (np.abs(angles) > pi + _ROUNDED))
 
     def _last_before(self, here: Corrected, end: Corrected) -> Corrected:
         """Return the last closed pose, between two, at which no panels have passed each other."""

@@ -14,15 +14,18 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+import scipy.sparse
 
 from graphs.arrays import Floats
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.folding.newton import TangentSpace
 
-__all__ = ["Quadric", "RateSpace", "quadrics_of", "rate_spaces", "rates_at", "space_of"]
+__all__ = ["Quadric", "RateSpace", "quadrics_of", "rate_spaces", "rates_at", "rates_near"]
 
 _ZERO = 1e-9
 """Singular values and eigenvalues below this part of the largest are zero."""
+_CLOSED, _STEPS = 1e-11, 40
 _SAME = 1e-6
 """Spaces that are this close are one."""
 
@@ -62,8 +65,8 @@ class RateSpace:
 def quadrics_of(linkage: PosedLinkage) -> list[Quadric]:
     """Return what second order adds to the closure of each loop at the pose.
 
-    Each loop has its own self-stresses: vectors across all twists of its joints. Those that only several loops have
-    together are not looked for.
+    Each loop has its own self-stresses: vectors across all twists of its joints. Those that
+    only several loops have together are not looked for.
     """
     quadrics = []
     for loop in linkage.loops:
@@ -118,7 +121,7 @@ def rate_spaces(
     """
     found: list[RateSpace] = []
     complete = True
-    for number, space in enumerate(_split(rates_at(closure, angles), tuple(quadrics), None)):
+    for number, space in enumerate(_split(rates_at(closure, angles), tuple(quadrics))):
         if number == most:
             complete = False
             break
@@ -127,10 +130,10 @@ def rate_spaces(
     return found, complete
 
 
-def space_of(
+def rates_near(
     closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], wanted: Floats
-) -> RateSpace | None:
-    """Return the space that is found first when at each choice the rates nearer to wanted ones are taken.
+) -> Floats | None:
+    """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 
     Parameters
     ----------
@@ -138,8 +141,30 @@ def space_of(
         As in `rate_spaces`.
     wanted : float[J]
         Rates, or their signs.
+
+    Returns
+    -------
+    float[J] or None
+        As long as the wanted ones; None where none were found near these.
     """
-    return next(_split(rates_at(closure, angles), tuple(quadrics), wanted), None)
+    _, jacobian = closure.at(angles)
+    size = float(np.linalg.norm(wanted))
+    rates = TangentSpace(jacobian).projected(wanted)
+    rows = np.repeat(np.arange(len(quadrics)), [len(quadric.joints) for quadric in quadrics])
+    columns = np.array([joint for quadric in quadrics for joint in quadric.joints], dtype=np.int64)
+    for _ in range(_STEPS):
+        if not np.linalg.norm(rates) > _SAME * size:
+            return None
+        rates = rates * (size / np.linalg.norm(rates))
+        slopes = [quadric.form @ rates[list(quadric.joints)] for quadric in quadrics]
+        values = np.concatenate([np.zeros(0), *slopes])
+        quadratic = scipy.sparse.csr_matrix((values, (rows, columns)), shape=(len(quadrics), len(rates)))
+        off = np.concatenate([jacobian @ rates, quadratic @ rates])
+        if np.abs(off).max(initial=0.0) <= _CLOSED:
+            return rates
+        both = scipy.sparse.vstack([jacobian, 2.0 * quadratic], format="csr")
+        rates = rates + TangentSpace(both).step(off)
+    return None
 
 
 def rates_at(closure: ClosureEquations, angles: Floats) -> Floats:
@@ -155,10 +180,13 @@ def _within(space: RateSpace, other: RateSpace) -> bool:
     outside = space.basis - other.basis @ (other.basis.T @ space.basis)
     if np.abs(outside).max(initial=0.0) > _SAME:
         return False
-    return all(any(mine is theirs for mine in space.left) or _on(space.basis, theirs) is None for theirs in other.left)
+    for theirs in other.left:
+        if not any(mine is theirs for mine in space.left) and _on(space.basis, theirs) is not None:
+            return False
+    return True
 
 
-def _split(basis: Floats, quadrics: tuple[Quadric, ...], wanted: Floats | None) -> Iterator[RateSpace]:
+def _split(basis: Floats, quadrics: tuple[Quadric, ...]) -> Iterator[RateSpace]:
     """Yield the spaces of solutions within a space, depth first."""
     basis, left, factors = _simplified(basis, quadrics)
     if not basis.shape[1]:
@@ -166,11 +194,8 @@ def _split(basis: Floats, quadrics: tuple[Quadric, ...], wanted: Floats | None) 
     if factors is None:
         yield RateSpace(basis, left)
         return
-    parts = [_across(basis, normal) for normal in factors]
-    if wanted is not None:
-        parts.sort(key=lambda part: -float(np.linalg.norm(part.T @ wanted)))
-    for part in parts:
-        yield from _split(part, left, wanted)
+    for normal in factors:
+        yield from _split(_across(basis, normal), left)
 
 
 def _simplified(
