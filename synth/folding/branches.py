@@ -120,7 +120,7 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None) 
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
     >>> found = branches_of(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
     >>> [(branch.freedoms, branch.certainty) for branch in found.branches], found.exhaustive
-    ([(1, 'numerical'), (1, 'numerical')], True)
+    ([(1, 'numerical'), (1, 'numerical')], False)
     """
     closure = closure or ClosureEquations(linkage)
     quadrics = quadrics_of(linkage)

@@ -149,7 +149,7 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
     >>> corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1))
     >>> book = Sheet(6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
     >>> linkage = linkage_of_sheet(book)
-    >>> linkage.angles.round(6).tolist(), linkage.directions.tolist()
+    >>> linkage.angles.round(6).tolist(), (linkage.directions + 0.0).tolist()
     ([1.570796], [[-1.0, 0.0, 0.0]])
     """
     if sheet.coordinates is None:

@@ -24,8 +24,8 @@ __all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected"]
 CLOSED = 1e-12
 """Loops that close to this, radians and units of the extent, are closed."""
 _REGULAR = 1e-9
-"""Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding along
-freedoms is multiplied by its inverse."""
+"""Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding
+along freedoms is multiplied by its inverse."""
 _DENSE = 40
 """Up to this many joints matrices are full; larger full ones would wait for threads of BLAS."""
 _STEPS = 12

@@ -65,7 +65,7 @@ def test_a_flat_vertex_has_three_freedoms_less_than_creases(creases, rng):
         while True:
             directions = np.sort(rng.uniform(0, 2 * np.pi, creases))
             sectors = np.diff([*directions, directions[0] + 2 * np.pi])
-            if 0.1 < sectors.min() and sectors.max() < np.pi - 0.05:
+            if sectors.min() > 0.1 and sectors.max() < np.pi - 0.05:
                 break
         found = branches(fan(directions))
         assert {branch.freedoms for branch in found.branches} == {creases - 3}

@@ -123,7 +123,7 @@ def test_what_cannot_be_folded_is_refused(data):
         fold(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1))))
     with pytest.raises(UnsolvableError, match="needs coordinates"):
         fold(Sheet(3, (), "", ((0, 1, 2),)))
-    with pytest.raises(InvariantError, match="'9' is no joint|9 is no joint"):
+    with pytest.raises(InvariantError, match="9 is no joint"):
         fold(VERTEX, drive={9: 1.0})
     with pytest.raises(InvariantError, match="between -180 and 180"):
         fold(VERTEX, drive={1: 4.0})
@@ -149,7 +149,7 @@ def test_files_hold_every_pose(tmp_path):
     assert synth.mobility(sheet, pose=4).pose.dof == 1
     assert [p.name for p in write_folding(folded, tmp_path / "f.obj")] == [f"f-{k:03d}.obj" for k in range(4)]
     assert len(list(read_all(tmp_path / "f-003.obj"))) == 1
-    with pytest.raises(FileError, match="exists already|is there already"):
+    with pytest.raises(FileError, match="exists already"):
         write_folding(folded, tmp_path / "folded.fold")
     with pytest.raises(FileError, match="cannot hold a folding"):
         write_folding(folded, tmp_path / "folded.txt")
