@@ -24,6 +24,7 @@ _COMMANDS = {
     "convert": "synth.cli.graphs.convert:convert",
     "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
     "id": "synth.cli.graphs.id:id_command",
+    "fold": "synth.cli.things.fold:fold",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",

@@ -1,0 +1,88 @@
+"""``synth fold``: a crease pattern folded, panels rigid, along one of its branches."""
+
+from __future__ import annotations
+
+from math import radians
+
+import click
+
+from synth.cli.output import FORCE, about, console, plain, print_json, table
+
+__all__ = ["fold"]
+
+
+@click.command(short_help="Fold a crease pattern with rigid panels; list its ways to fold.")
+@click.argument("file", metavar="FILE")
+@click.option("--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease so far; may be repeated.")
+@click.option("--branch", metavar="K", help="Take this way from a flat state: its number, or its signs.")
+@click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
+@click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses to make.")
+@click.option(
+    "-o", "--output", metavar="OUT", help="Write the poses: .fold with frames, or a series of .obj files."
+)
+@FORCE
+@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+def fold(
+    file: str,
+    drive: tuple[str, ...],
+    branch: str | None,
+    listed: bool,
+    frames: int,
+    output: str | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Fold a crease pattern. Panels stay rigid; all loops of creases close to 1e-12 in every pose.
+
+    Fold angles are in degrees, valleys positive. From a flat state there are several ways to fold; without
+    --branch it is the one that agrees best with the mountains and valleys of the file. Without --drive the crease
+    that moves most is folded as far as it goes. JOINT is an id, a number in the list of edges, or two links A,B.
+
+    \b
+    Examples:
+      synth fold data/patterns/bird-base.fold --branches
+      synth fold data/patterns/four-bar-vertex.fold --drive 2=90 --frames 5 -o folded.fold
+    """
+    from graphs.convert.duality import mechanism_of_sheet
+    from graphs.edit.named import joint_named
+    from graphs.errors import UnsolvableError
+    from graphs.files.formats import read
+    from graphs.mechanism.sheet import Sheet
+    from synth.folding.motion import fold as folded
+    from synth.folding.written import check_output, write_folding
+
+    if output is not None:
+        check_output(output, force=force)
+    thing = read(file)
+    with about(file):
+        if not isinstance(thing, Sheet):
+            raise UnsolvableError(f"only crease patterns fold, and this is {thing!r}")
+        sheet = thing.frames.first_placed() if thing.frames is not None else thing
+        graph = mechanism_of_sheet(sheet).sc
+        goals = {joint_named(graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
+        way: int | str | None = int(branch) if branch is not None and branch.isdigit() else branch
+        found = folded(sheet, drive=goals or None, branch=way, frames=frames)
+        written = [] if output is None else write_folding(found, output, force=force)
+    if as_json:
+        print_json({"file": file, "output": output, **found.to_json()})
+        return
+    if listed and found.branches is not None:
+        rows = table("way", "freedoms", "known", "still", "signs", numbers=["way", "freedoms", "still"])
+        for number, one in enumerate(found.branches.branches):
+            freedoms = "?" if one.freedoms is None else str(one.freedoms)
+            rows.add_row(str(number), freedoms, one.certainty, str(len(one.still)), plain(one.signs, 4096))
+        console().print(rows)
+    for line in str(found).splitlines():
+        click.echo(line)
+    for place in written:
+        click.echo(f"written: {plain(str(place), 4096)}")
+
+
+def _asked(text: str) -> tuple[str, float]:
+    joint, equals, angle = text.rpartition("=")
+    try:
+        if not equals or not joint:
+            raise ValueError
+        return joint.strip(), float(angle)
+    except ValueError:
+        raise click.BadParameter(f"{plain(text)!r} is not JOINT=DEGREES", param_hint="--drive") from None

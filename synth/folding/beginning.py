@@ -1,0 +1,122 @@
+"""Which way a folding begins: the branch that is asked for, or that marks of creases choose, and rates on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.linalg
+
+from graphs.arrays import Floats
+from graphs.edit.named import known
+from graphs.errors import InvariantError, UnsolvableError, shown
+from synth.folding.branches import Branch, Branches, rates_towards
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.second_order import RateSpace, quadrics_of, rates_near
+
+__all__ = ["MOST_JOINTS", "Wanted", "beginning"]
+
+MOST_JOINTS = 120
+"""Of larger linkages the branches are not looked for: there may be twice as many for each two panels more."""
+
+_STILL = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What is asked of a folding.
+
+    Attributes
+    ----------
+    branch : int, str or None
+        Number or signs of a branch.
+    marks : float[J]
+        1 for valleys, -1 for mountains, 0 for what is not marked.
+    driven : sequence of int
+        Places of the joints that are driven.
+    turns : float[D]
+        How far each is to turn, radians.
+    """
+
+    branch: int | str | None
+    marks: Floats
+    driven: Sequence[int]
+    turns: Floats
+
+
+def beginning(
+    closure: ClosureEquations, linkage: PosedLinkage, found: Branches | None, wanted: Wanted
+) -> tuple[int | None, Floats]:
+    """Return the branch to take, None where there is no choice, and rates on it, near to what is marked.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    linkage : PosedLinkage
+    found : Branches or None
+        The branches, where they were looked for.
+    wanted : Wanted
+
+    Raises
+    ------
+    UnsolvableError
+        If no motion begins at the pose, or none with the driven joints.
+    InvariantError
+        If there is no such branch.
+    """
+    if found is None:
+        if wanted.branch is not None:
+            raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
+        near = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted.marks)
+        if near is None:
+            raise UnsolvableError("no motion that begins as the edges are marked was found at this pose")
+        return None, near
+    if not found.branches:
+        raise UnsolvableError("nothing folds: no motion begins at this pose")
+    number = _chosen(found, wanted)
+    taken = found.branches[number]
+    return None if found.regular else number, _rates(taken, wanted)
+
+
+def _chosen(found: Branches, wanted: Wanted) -> int:
+    every, asked = found.branches, wanted.branch
+    if isinstance(asked, int):
+        if not 0 <= asked < len(every):
+            raise InvariantError("branch", f"there is no branch {asked}", f"one from 0 to {len(every) - 1}")
+        return asked
+    if isinstance(asked, str):
+        mirrored = asked.translate(str.maketrans("+-", "-+"))
+        for number, one in enumerate(every):
+            if one.signs in (asked, mirrored):
+                return number
+        signs = known([one.signs for one in every], asked)
+        raise InvariantError("branch", f"no branch has the signs {shown(asked)}", signs)
+    return max(range(len(every)), key=lambda number: (_agreement(every[number], wanted.marks), -number))
+
+
+def _agreement(branch: Branch, marks: Floats) -> int:
+    """Return how many marked joints begin on a branch as they are marked, less those that do not."""
+    rates = rates_towards(branch.space, marks)
+    return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+
+
+def _rates(branch: Branch, wanted: Wanted) -> Floats:
+    """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
+    space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
+    towards = rates_towards(space, wanted.marks) if wanted.branch is None else branch.rates
+    if len(wanted.driven) < 2:
+        return towards if towards.any() else branch.rates
+    for start in (wanted.marks, space.basis.sum(axis=1)):
+        towards = rates_towards(space, start)
+        if np.abs(towards[list(wanted.driven)]).max() > _STILL:
+            return towards
+    raise UnsolvableError("the driven joints cannot begin to turn in these proportions on this branch")
+
+
+def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
+    """Return the part of a space in which driven joints turn in proportion."""
+    across = scipy.linalg.null_space(wanted.turns[None])
+    normals = space.basis[list(wanted.driven)].T @ across
+    return replace(space, basis=np.asarray(space.basis @ scipy.linalg.null_space(normals.T, rcond=_STILL)))

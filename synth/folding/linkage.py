@@ -1,0 +1,253 @@
+"""A linkage at a pose: links, joint axes in space, and the loops that have to close.
+
+The pose is that of the coordinates given. Joint angles count from a zero of their own: of a crease, from flat,
+with valley folds positive, as in FOLD files; of other joints, from the pose. Lengths are in units of the extent,
+about the middle of all points. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import radians
+
+import networkx as nx
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.ids import JointId
+from graphs.loops.cycle_space import signed_cycle
+from graphs.loops.loop import Centre
+from graphs.mechanism.precision import extent_of
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.rank.closure import independent_cycles
+
+__all__ = ["PosedLinkage", "PosedLoop", "linkage_of_axes", "linkage_of_sheet"]
+
+_ON_EACH_OTHER = 1e-6
+"""Panels this close to a fold of 180 degrees, in radians, lie on each other: the file says which way."""
+
+
+@dataclass(frozen=True, slots=True)
+class PosedLoop:
+    """A loop of a linkage at a pose.
+
+    Attributes
+    ----------
+    joints : tuple of int
+        Places in the list of joints, in loop order.
+    signs : tuple of int
+        1 where the loop goes from a joint's first link to its second.
+    centre : Centre
+        Finite: the axes meet in a point, and directions close. Infinite: they are parallel.
+    """
+
+    joints: tuple[int, ...]
+    signs: tuple[int, ...]
+    centre: Centre
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class PosedLinkage:
+    """Links and joint axes in space.
+
+    Attributes
+    ----------
+    graph : SCGraph
+        Links and joints; columns of all arrays are its joints, in order.
+    points : float[J, 3]
+        A point on each axis, of a crease its middle, in units of the extent, about the middle of all.
+    directions : float[J, 3]
+        Unit vectors. A positive angle turns the second link of a joint against the first, right-handed.
+    angles : float[J]
+        Joint angles at the pose, radians.
+    loops : tuple of PosedLoop
+        A basis of the cycles.
+    extent : float
+        Unit of length of the points, in that of the coordinates.
+    middle : float[3]
+        Their origin.
+    """
+
+    graph: SCGraph
+    points: Floats
+    directions: Floats
+    angles: Floats
+    loops: tuple[PosedLoop, ...]
+    extent: float
+    middle: Floats
+
+    def __repr__(self) -> str:
+        return f"<PosedLinkage: {len(self.graph)} links, {len(self.graph.joints)} joints, {len(self.loops)} loops>"
+
+
+def linkage_of_axes(
+    graph: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]]
+) -> PosedLinkage:
+    """Return a linkage whose joint axes are given.
+
+    Loops that the graph gives a centre close about it; all others close with six equations.
+
+    Parameters
+    ----------
+    graph : SCGraph
+    axes : mapping of joint id to (point, direction)
+        Three coordinates each, any unit of length.
+
+    Raises
+    ------
+    InvariantError
+        If an axis is missing or has no direction.
+
+    Examples
+    --------
+    >>> square = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    >>> linkage_of_axes(square, {joint: (corners[joint], (0, 0, 2)) for joint in range(4)})
+    <PosedLinkage: 4 links, 4 joints, 1 loops>
+    """
+    for joint in graph.joints:
+        if joint not in axes:
+            raise InvariantError("axis", f"joint {joint!r} has no axis", "one for each joint")
+        if not np.any(axes[joint][1]):
+            raise InvariantError(
+                "axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero"
+            )
+    points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
+    directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return _posed(graph, points, directions, np.zeros(len(points)), points)
+
+
+def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> PosedLinkage:
+    """Return the linkage that a crease pattern is as it lies: panels are links, creases are joints.
+
+    Joint angles are fold angles. Where panels lie on each other, the fold angles of the file say to which side, or
+    else the letters of its edges.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates, flat or folded.
+    mechanism : SheetMechanism, optional
+        Of this sheet, where it is at hand.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates.
+    InvariantError
+        If a crease has no length.
+
+    Examples
+    --------
+    Two squares at a right angle, a valley:
+
+    >>> corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1))
+    >>> book = Sheet(6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
+    >>> linkage = linkage_of_sheet(book)
+    >>> linkage.angles.round(6).tolist(), (linkage.directions + 0.0).tolist()
+    ([1.570796], [[-1.0, 0.0, 0.0]])
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError("folding needs coordinates, and the sheet has none")
+    found = mechanism or mechanism_of_sheet(sheet)
+    corners = np.zeros((sheet.vertices, 3))
+    corners[:, : len(sheet.coordinates[0])] = sheet.coordinates
+    panels = _Panels(sheet)
+    joints: Mapping[int, tuple[int, int]] = found.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
+    edges = np.array([found.hinges[joint] for joint in joints], dtype=np.int64).reshape(-1, 2)
+    along = corners[edges[:, 1]] - corners[edges[:, 0]]
+    lengths = np.linalg.norm(along, axis=1)
+    for place in np.flatnonzero(lengths == 0.0):
+        ends, part = tuple(edges[place].tolist()), ("edges", list(joints)[place])
+        raise InvariantError(
+            "hinge", f"the crease between vertices {ends[0]} and {ends[1]} has no length", part=part
+        )
+    beside = [
+        panels.beside((a, b), found.panels[second])
+        for (a, b), (_, second) in zip(edges.tolist(), joints.values(), strict=True)
+    ]
+    ways = [panels.way((a, b), face) for (a, b), (_, face) in zip(edges.tolist(), beside, strict=True)]
+    directions = along / lengths[:, None] * np.array(ways, dtype=float)[:, None]
+    normals = panels.normals(corners)
+    pairs = np.array(beside, dtype=np.int64).reshape(-1, 2)
+    angles = _fold_angles(normals[pairs[:, 0]], normals[pairs[:, 1]], directions)
+    on_each_other = np.pi - np.abs(angles) < _ON_EACH_OTHER
+    if on_each_other.any():
+        marks = _marks(sheet)
+        marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])
+        angles = np.where(on_each_other & (marked != 0.0), np.copysign(np.pi, marked), angles)
+    return _posed(found.sc, corners[edges].mean(axis=1), directions, angles, corners)
+
+
+def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, all_points: Floats) -> PosedLinkage:
+    column = {joint: place for place, joint in enumerate(graph.joints)}
+    loops = []
+    for loop in independent_cycles(graph):
+        signed = list(signed_cycle(loop.joints, graph.joints))
+        loops.append(
+            PosedLoop(tuple(column[j] for j, _ in signed), tuple(sign for _, sign in signed), loop.centre)
+        )
+    middle = all_points.mean(axis=0) if len(all_points) else np.zeros(3)
+    extent = extent_of(all_points) or 1.0
+    return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
+
+
+class _Panels:
+    """Faces of a sheet, turned so that neighbours agree where that is possible."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self._beside: dict[tuple[int, int], list[int]] = {}
+        for number, face in enumerate(sheet.faces):
+            for a, b in sides_of_face(face):
+                self._beside.setdefault((min(a, b), max(a, b)), []).append(number)
+        self._faces = self._turned(sheet)
+        self._sides = [set(sides_of_face(face)) for face in self._faces]
+
+    def _turned(self, sheet: Sheet) -> list[tuple[int, ...]]:
+        """Return the faces, some of them reversed: two that share a side pass it in opposite directions."""
+        faces = list(sheet.faces)
+        neighbours = nx.Graph()
+        neighbours.add_nodes_from(range(len(faces)))
+        neighbours.add_edges_from(pair for pair in self._beside.values() if len(pair) == 2)
+        for first, second in nx.dfs_edges(neighbours):  # of all parts
+            if set(sides_of_face(faces[first])) & set(sides_of_face(faces[second])):
+                faces[second] = faces[second][::-1]
+        return faces
+
+    def beside(self, edge: tuple[int, int], second: Sequence[int]) -> tuple[int, int]:
+        """Return the faces at an edge, that of the second panel last."""
+        one, other = self._beside[min(edge), max(edge)]
+        return (one, other) if other in second else (other, one)
+
+    def way(self, edge: tuple[int, int], face: int) -> int:
+        """Return 1 if a face passes an edge from its first end to its second, else -1."""
+        return 1 if edge in self._sides[face] else -1
+
+    def normals(self, corners: Floats) -> Floats:
+        """Return the unit normals of the faces (Newell), zeros where a face has no area: float[faces, 3]."""
+        ends = np.array([side for face in self._faces for side in sides_of_face(face)]).reshape(-1, 2)
+        of = np.repeat(np.arange(len(self._faces)), [len(face) for face in self._faces])
+        normals = np.zeros((len(self._faces), 3))
+        np.add.at(normals, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
+        sizes = np.linalg.norm(normals, axis=1, keepdims=True)
+        return np.asarray(normals / np.where(sizes == 0.0, 1.0, sizes))
+
+
+def _fold_angles(first: Floats, second: Floats, axes: Floats) -> Floats:
+    """Return the angles about axes from first to second normals, radians."""
+    return np.asarray(np.arctan2((np.cross(first, second) * axes).sum(axis=1), (first * second).sum(axis=1)))
+
+
+def _marks(sheet: Sheet) -> dict[tuple[int, int], float]:
+    """Return the fold angle that a sheet gives for each edge, radians, or 1 for a valley and -1 for a mountain."""
+    marks = {}
+    for number, (a, b) in enumerate(sheet.edges):
+        given = None if sheet.fold_angles is None else sheet.fold_angles[number]
+        letter = {"V": 1.0, "M": -1.0}.get(sheet.assignments[number], 0.0)
+        marks[min(a, b), max(a, b)] = radians(given) if given else letter
+    return marks

@@ -1,0 +1,252 @@
+"""Folding: a crease pattern taken along one of its branches, frame by frame.
+
+Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import degrees, pi, radians
+from typing import Any
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.edit.named import known
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.ids import JointId
+from graphs.mechanism.sheet import Sheet
+from graphs.printing import Block, html_of, text_of
+from synth.folding.beginning import MOST_JOINTS, Wanted, beginning
+from synth.folding.branches import Branch, Branches, branches_of
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage, linkage_of_sheet
+from synth.folding.newton import CLOSED
+from synth.folding.path import DrivenPath, PathOptions, driven_path
+from synth.folding.placement import vertex_places
+
+__all__ = ["Folding", "fold"]
+
+_FRAMES = 20
+_WHOLE = radians(179.0)
+"""How far a pattern is folded if nothing is said; at 180 degrees panels lie on each other."""
+_CLOSE = 1e-9
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Folding:
+    """A crease pattern on its way.
+
+    It prints as ``synth fold`` does.
+
+    Attributes
+    ----------
+    sheet : Sheet
+        As it was given.
+    linkage : PosedLinkage
+    branches : Branches or None
+        The ways to move from the pose; None where they were not looked for.
+    branch : int or None
+        The one that was taken; None at a regular pose, or where all were not looked for.
+    joints : tuple of joint ids
+        Columns of the angles.
+    path : DrivenPath
+        Fold angles, radians, of each frame.
+    driven : mapping of joint id to float
+        The fold angles that were asked for, radians.
+    apart : float
+        How far panels disagree on the place of a vertex, at most, in units of the extent.
+    places : float[F, vertices, 3]
+        Of the vertices in each frame, in the unit of the coordinates.
+    """
+
+    sheet: Sheet
+    linkage: PosedLinkage
+    branches: Branches | None
+    branch: int | None
+    joints: tuple[JointId, ...]
+    path: DrivenPath
+    driven: Mapping[JointId, float]
+    apart: float
+    places: Floats
+
+    @property
+    def closure(self) -> float:
+        """By how much loops do not close, at most, over all frames."""
+        return float(self.path.errors.max(initial=0.0))
+
+    @property
+    def freedoms(self) -> int | None:
+        """Of the branch that was taken."""
+        if self.branches is None or not self.branches.branches:
+            return None
+        return self.branches.branches[self.branch or 0].freedoms
+
+    def frames(self) -> list[Sheet]:
+        """Return the sheet in each frame, with coordinates in space and fold angles."""
+        column = {joint: place for place, joint in enumerate(self.joints)}
+        made = []
+        for places, angles in zip(self.places, self.path.angles, strict=True):
+            turned = tuple(
+                degrees(float(angles[column[edge]])) if edge in column else None
+                for edge in range(len(self.sheet.edges))
+            )
+            made.append(replace(self.sheet, coordinates=tuple(map(tuple, places.tolist())), fold_angles=turned))
+        return made
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        found = self.branches
+        return {
+            "freedoms": self.freedoms,
+            "branches": None if found is None else [_branch_json(one) for one in found.branches],
+            "exhaustive": None if found is None else found.exhaustive,
+            "branch": self.branch,
+            "driven": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
+            "frames": len(self.path.angles),
+            "closure": self.closure,
+            "panels_apart": self.apart,
+            "fold_angles_deg": {
+                str(joint): np.degrees(column).tolist()
+                for joint, column in zip(self.joints, self.path.angles.T, strict=True)
+            },
+            "stopped": self.path.stopped or None,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        lines: list[Block] = []
+        if self.branches is not None and not self.branches.regular:
+            how = "all there are" if self.branches.exhaustive else "those that were found"
+            lines.append(f"from this pose {len(self.branches.branches)} way(s) to move, {how}")
+        if self.branch is not None and self.branches is not None:
+            taken = self.branches.branches[self.branch]
+            lines.append(f"way {self.branch}: {taken.freedoms} freedom(s), {taken.certainty}; signs {taken.signs}")
+        driven = ", ".join(f"joint {shown(joint)} to {degrees(angle):g}" for joint, angle in self.driven.items())
+        largest = np.degrees(np.abs(self.path.angles[-1]).max(initial=0.0))
+        lines.append(
+            f"driven: {driven} degrees; {len(self.path.angles)} frames, folds up to {largest:.4g} degrees"
+        )
+        lines.append(f"loops close to {self.closure:.1e}, panels meet to {self.apart:.1e} of the extent")
+        if self.path.stopped:
+            lines.append(f"stopped: {self.path.stopped}")
+        return lines
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<Folding: {len(self.path.angles)} frames of {self.sheet!r}>"
+
+
+def _branch_json(branch: Branch) -> dict[str, Any]:
+    return {
+        "signs": branch.signs,
+        "freedoms": branch.freedoms,
+        "certainty": branch.certainty,
+        "still": len(branch.still),
+        "followed_deg": degrees(branch.followed),
+        "closure": branch.error,
+    }
+
+
+def fold(
+    sheet: Sheet,
+    *,
+    drive: Mapping[JointId, float] | None = None,
+    branch: int | str | None = None,
+    frames: int = _FRAMES,
+    report: Callable[[int], None] | None = None,
+) -> Folding:
+    """Fold a crease pattern from its pose, panels rigid, until driven creases have the angles asked for.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates, flat or folded; loops closed at its pose.
+    drive : mapping of joint id to float, optional
+        Fold angles, radians, valleys positive. By default the crease that moves most is folded as far as it goes.
+    branch : int or str, optional
+        Which of the ways to move from a singular pose, a flat one above all: its number among
+        `synth.folding.branches_of`, or its signs. By default the one that agrees best with the letters of the
+        edges.
+    frames : int, optional
+        How many after the first.
+    report : callable, optional
+        Called with the number of frames after each.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, its panels do not fit at its pose, or nothing moves.
+    InvariantError
+        If there is no such joint or branch, or an angle is out of range.
+
+    Examples
+    --------
+    A vertex of four creases of which two are in line:
+
+    >>> from math import radians
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> sheet = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", faces, corners)
+    >>> folded = fold(sheet, drive={1: radians(90)}, frames=3)
+    >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
+    ([-48.19, 90.0, 48.19, 90.0], 1)
+    """
+    mechanism = mechanism_of_sheet(sheet)
+    linkage = linkage_of_sheet(sheet, mechanism)
+    closure = ClosureEquations(linkage)
+    _check_closed(closure, linkage)
+    joints = tuple(linkage.graph.joints)
+    if not joints:
+        raise UnsolvableError("nothing folds: the sheet has no creases between panels")
+    places, goals = _asked(joints, drive or {})
+    found = branches_of(linkage, closure) if len(joints) <= MOST_JOINTS else None
+    wanted = Wanted(branch, _marks(sheet, linkage), places, goals - linkage.angles[places])
+    number, rates = beginning(closure, linkage, found, wanted)
+    if not places:
+        places = [int(np.abs(rates).argmax())]
+        goals = _WHOLE * np.sign(rates[places])
+    start = linkage.angles[places]
+    if (goals - start) @ rates[places] < 0.0:
+        rates = -rates
+    steps = np.arange(1, frames + 1)[:, None] / frames
+    options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report)
+    path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
+    driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
+    return Folding(sheet, linkage, found, number, joints, path, driven, apart, vertices)
+
+
+def _check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
+    error = closure.error(linkage.angles)
+    if error > CLOSED:
+        told = f"loops miss closing by {error:.1e}, expected {CLOSED:.0e}"
+        raise UnsolvableError(f"the panels do not fit at the pose of the file: {told}")
+
+
+def _marks(sheet: Sheet, linkage: PosedLinkage) -> Floats:
+    """Return 1 for valleys and -1 for mountains, as marked; without marks, as they are folded, or all 1."""
+    letters = {joint: sheet.assignments[joint] for joint in linkage.graph.joints if joint < len(sheet.edges)}  # type: ignore[operator,index]
+    marks = np.array([{"V": 1.0, "M": -1.0}.get(letters.get(joint, "U"), 0.0) for joint in linkage.graph.joints])
+    if marks.any():
+        return marks
+    folded = np.abs(linkage.angles) > _CLOSE
+    return np.where(folded, np.sign(linkage.angles), 0.0 if folded.any() else 1.0)
+
+
+def _asked(joints: tuple[JointId, ...], drive: Mapping[JointId, float]) -> tuple[list[int], Floats]:
+    """Return the places and goals of driven joints."""
+    for joint, angle in drive.items():
+        if joint not in joints:
+            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
+        if not abs(angle) <= pi:
+            told = f"joint {shown(joint)} is to fold by {degrees(angle):g} degrees"
+            raise InvariantError("fold angle", told, "between -180 and 180")
+    return [joints.index(joint) for joint in drive], np.array(list(drive.values()), dtype=float)

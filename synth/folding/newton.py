@@ -1,0 +1,177 @@
+"""Newton's method for closure equations: the nearest joint angles that close.
+
+The equations may depend on each other (most linkages that move are overconstrained) and leave freedoms, so each
+step is the least one in the sense of least squares, by normal equations with a trace of regularisation. Rounding
+of these does no harm: the residual is always that of the loops themselves. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse
+from scipy.sparse.linalg import splu
+
+from graphs.arrays import Floats
+from synth.folding.closure import ClosureEquations
+
+__all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected"]
+
+CLOSED = 1e-12
+"""Loops that close to this, radians and units of the extent, are closed."""
+_REGULAR = 1e-9
+"""Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding
+along freedoms is multiplied by its inverse."""
+_DENSE = 40
+"""Up to this many joints matrices are full; larger full ones would wait for threads of BLAS."""
+_STEPS = 12
+_SLOW = 0.1
+"""A step that leaves more of the error than this is the last with its derivatives."""
+_STILL = 1e-9
+"""Squares of lengths of projected unit vectors below this are of joints that cannot move."""
+_MISSED = 1e-4
+
+
+class TangentSpace:
+    """Least-squares solutions with the derivatives of closure equations at one place.
+
+    Parameters
+    ----------
+    jacobian : sparse float[rows, J]
+    """
+
+    def __init__(self, jacobian: scipy.sparse.csr_matrix) -> None:
+        self._jacobian = jacobian
+        self._transposed = jacobian.T.tocsr()
+        self._solve = _solver(jacobian, self._transposed)
+        self._moves: dict[int, Floats] = {}
+
+    def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
+        """Return the least change of joint angles that takes a residual away to first order.
+
+        Parameters
+        ----------
+        residual : float[rows]
+        held : sequence of int
+            Places of joints that are not to move, if they need not.
+        """
+        change = self._solve(-(self._transposed @ residual))
+        if not held:
+            return change
+        moves = np.stack([self._move(joint) for joint in held])
+        places = list(held)
+        shares = np.linalg.lstsq(moves[:, places], change[places], rcond=_STILL)[0]
+        return np.asarray(change - shares @ moves)
+
+    def projected(self, rates: Floats) -> Floats:
+        """Return the rates nearest to given ones at which all loops stay closed to first order: float[J]."""
+        kept = rates
+        for _ in range(2):  # the second takes off what regularisation left
+            kept = kept - self._solve(self._transposed @ (self._jacobian @ kept))
+        return kept
+
+    def _move(self, joint: int) -> Floats:
+        if joint not in self._moves:
+            self._moves[joint] = self.projected(np.eye(1, self._jacobian.shape[1], joint)[0])
+        return self._moves[joint]
+
+    def least_rates(self, joints: Sequence[int], wanted: Floats) -> Floats:
+        """Return the least rates at which some joints have wanted ones; zeros if they cannot: float[J]."""
+        moves = np.stack([self._move(joint) for joint in joints])
+        places = list(joints)
+        shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=_STILL)
+        rates = shares @ moves
+        possible = rank and np.abs(rates[places] - wanted).max() <= _MISSED * np.abs(wanted).max()
+        return rates if possible and moves[:, places].max() > _STILL else np.zeros_like(rates)
+
+
+def _solver(jacobian: scipy.sparse.csr_matrix, transposed: scipy.sparse.csr_matrix) -> Callable[[Floats], Floats]:
+    """Return what solves the normal equations."""
+    if jacobian.shape[1] <= _DENSE:
+        full = jacobian.toarray()
+        normal = full.T @ full
+        diagonal = np.einsum("ii->i", normal)
+        diagonal += _REGULAR * max(float(diagonal.max(initial=0.0)), 1.0)
+        factor = scipy.linalg.cho_factor(normal, lower=True, overwrite_a=True, check_finite=False)
+        return lambda given: np.asarray(scipy.linalg.cho_solve(factor, given, check_finite=False))
+    sparse = (transposed @ jacobian).tocsc()
+    diagonal = sparse.diagonal()
+    sparse.setdiag(diagonal + _REGULAR * max(float(diagonal.max(initial=0.0)), 1.0))
+    factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return lambda given: np.asarray(factors.solve(given))
+
+
+@dataclass(frozen=True)
+class Corrected:
+    """Where Newton's method came to.
+
+    Attributes
+    ----------
+    angles : float[J]
+        Radians.
+    error : float
+        By how much loops do not close, at most.
+    steps : int
+    jacobian : sparse float[rows, J]
+        Derivatives there.
+    """
+
+    angles: Floats
+    error: float
+    steps: int
+    jacobian: scipy.sparse.csr_matrix
+
+    @property
+    def closed(self) -> bool:
+        """Whether all loops close."""
+        return self.error <= CLOSED
+
+    @cached_property
+    def space(self) -> TangentSpace:
+        """Rates there. A little beside a closed pose overconstrained linkages have none."""
+        return TangentSpace(self.jacobian)
+
+
+def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
+    """Return joint angles near given ones at which all loops close.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    angles : float[J]
+        Radians.
+    held : sequence of int
+        Places of joints that stay as they are, if the others can follow.
+
+    Notes
+    -----
+    Matrices are factorised anew only where a step with the last one left too much. It ends when loops are closed
+    and a further step would not make them better, or steps do not make the error less.
+    """
+    residual, jacobian = closure.at(angles)
+    best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
+    space = best.space if best.error > CLOSED / 100 else None
+    for steps in range(1, _STEPS + 1):
+        if space is None or best.error <= CLOSED / 100:
+            break
+        moved = best.angles + space.step(off, held)
+        residual, jacobian = closure.at(moved)
+        tried = Corrected(moved, _largest(residual), steps, jacobian)
+        slow, fresh = tried.error > _SLOW * best.error, space is best.space
+        if tried.error < best.error:
+            best, off = tried, residual
+        elif fresh:
+            break
+        if slow:
+            if best.closed:
+                break
+            space = best.space
+    return best
+
+
+def _largest(residual: Floats) -> float:
+    return float(np.abs(residual).max(initial=0.0))

@@ -1,0 +1,69 @@
+"""Foldings as files: FOLD with a frame for each pose, or a series of OBJ files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from graphs.errors import FileError
+from graphs.files.atomic import check_place, write_text
+from graphs.files.patterns.fold_poses import fold_text_of_poses
+from graphs.files.patterns.obj import obj_text
+from synth.folding.motion import Folding
+
+__all__ = ["check_output", "write_folding"]
+
+
+def check_output(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a name that a folding cannot be written to.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or something is there already.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in (".fold", ".obj"):
+        raise FileError(
+            path, "", f"files ending in {suffix!r} cannot hold a folding", ".fold, or .obj for a series"
+        )
+    check_place(_of_series(path, 0) if suffix == ".obj" else path, force=force)
+
+
+def write_folding(folding: Folding, path: str | Path, *, force: bool = False) -> list[Path]:
+    """Write a folding.
+
+    Parameters
+    ----------
+    folding : Folding
+    path : str or Path
+        ``.fold``: one file, its frames the poses. ``.obj``: a file for each pose, numbered from 000.
+    force : bool, optional
+        Replace files that are there.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or a file cannot be written or is there already.
+    """
+    path = Path(path)
+    check_output(path, force=force)
+    poses = folding.frames()
+    if path.suffix.lower() == ".fold":
+        write_text(path, fold_text_of_poses(folding.sheet, poses), force=force)
+        return [path]
+    places = [_of_series(path, number) for number in range(len(poses))]
+    for place in places:
+        check_place(place, force=force)
+    for place, pose in zip(places, poses, strict=True):
+        write_text(place, obj_text(pose), force=force)
+    return places
+
+
+def _of_series(path: Path, number: int) -> Path:
+    return path.with_name(f"{path.stem}-{number:03d}{path.suffix}")

@@ -1,0 +1,171 @@
+"""Folding crease patterns: closed forms, rigid panels, limits, files, the command line, bad input."""
+
+import json
+
+import numpy as np
+import pytest
+from commands import run
+from creased import fan, is_zigzag, miura
+
+import synth
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.files.formats import read, read_all
+from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet, sides_of_face
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
+from synth.folding.motion import fold
+from synth.folding.path import PathOptions, driven_path
+from synth.folding.written import write_folding
+
+VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "sector"),
+    [
+        (2, 2, 60),
+        (3, 4, 35),
+        pytest.param(4, 3, 80, marks=pytest.mark.slow),
+        pytest.param(10, 10, 60, marks=pytest.mark.slow),
+    ],
+)
+def test_a_miura_sheet_folds_by_its_formula(rows, columns, sector):
+    sheet = miura(rows, columns, np.radians(sector))
+    joints = tuple(mechanism_of_sheet(sheet).sc.joints)
+    zigzag = is_zigzag(sheet, joints)
+    driven = joints[int(np.flatnonzero(zigzag)[0])]
+    sign = 1.0 if sheet.assignments[driven] == "V" else -1.0
+    folded = fold(sheet, drive={driven: sign * np.radians(179)}, frames=179)
+    assert folded.path.stopped == ""
+    assert folded.closure < 1e-12
+    assert folded.apart < 1e-12 * len(joints)
+    a = np.radians(np.arange(180.0))[:, None]
+    b = 2.0 * np.arctan(np.cos(np.radians(sector)) * np.tan(a / 2))
+    expected = np.where(zigzag, a, b) * [1.0 if sheet.assignments[joint] == "V" else -1.0 for joint in joints]
+    assert np.abs(folded.path.angles - expected).max() < 1e-11
+
+
+def test_panels_stay_rigid(data):
+    sheet = read(data / "patterns" / "bird-base.fold")
+    folded = fold(sheet, frames=6)
+    assert folded.apart < 1e-12
+    assert folded.freedoms == 5
+    flat = np.zeros((sheet.vertices, 3))
+    flat[:, :2] = sheet.coordinates
+    for frame in folded.places:
+        for face in sheet.faces:
+            for a, b in sides_of_face(face):
+                assert np.linalg.norm(frame[a] - frame[b]) == pytest.approx(
+                    np.linalg.norm(flat[a] - flat[b]), abs=1e-12
+                )
+    last = folded.frames()[-1]
+    column = {joint: place for place, joint in enumerate(folded.joints)}
+    again = linkage_of_sheet(last)
+    assert again.angles == pytest.approx(folded.path.angles[-1], abs=1e-9)
+    assert last.fold_angles[folded.joints[0]] == pytest.approx(
+        np.degrees(folded.path.angles[-1][column[folded.joints[0]]])
+    )
+
+
+def test_signs_of_the_file_choose_the_branch():
+    for letters in ("MVVV", "VMMM"):
+        folded = fold(fan(np.radians([0, 60, 180, 300]), letters), frames=2)
+        signs = [1 if letter == "V" else -1 for letter in letters]
+        assert np.sign(folded.path.angles[-1]).tolist() in (signs, [-s for s in signs])
+    both = [np.sign(fold(VERTEX, branch=k, frames=1).path.angles[-1]).tolist() for k in range(2)]
+    assert both[0] not in (both[1], [-s for s in both[1]])
+
+
+def test_several_creases_are_driven_together():
+    star = fan(np.radians([0, 50, 130, 180, 250, 310]), "VVVVVV")
+    asked = {0: np.radians(20), 2: np.radians(35), 4: np.radians(-15)}
+    folded = fold(star, drive=asked, frames=4)
+    assert folded.path.stopped == ""
+    assert {joint: folded.path.angles[-1][joint] for joint in asked} == pytest.approx(asked, abs=1e-12)
+    assert folded.closure < 1e-12
+
+
+def test_a_joint_turns_back_where_it_must():
+    """A planar crank and rocker: the rocker's end is where crank and coupler lie in line."""
+    graph = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
+    places = [(0, 0, 0), (0, 1, 0), (3.0, 2.5, 0), (4, 0, 0)]
+    linkage = linkage_of_axes(graph, {j: (places[j], (0, 0, 1)) for j in range(4)})
+    crank, coupler = 1.0, np.hypot(3.0, 1.5)
+    rocker, ground = np.hypot(1.0, 2.5), 4.0
+    closure = ClosureEquations(linkage)
+    path = driven_path(closure, linkage.angles, [3], np.radians(np.arange(1, 120)))
+    assert "turns back" in path.stopped
+    start = np.arctan2(2.5, -1.0)
+    reached = start - path.angles[:, 3].max()  # the joint's second link is the ground
+    at_end = [
+        np.pi - np.arccos((ground**2 + rocker**2 - reach**2) / (2 * ground * rocker))
+        for reach in (coupler - crank, coupler + crank)
+    ]
+    assert min(abs(end - reached) for end in at_end) < np.radians(1.5)
+
+
+def test_panels_do_not_pass_each_other():
+    folded = fold(VERTEX, drive={1: np.pi}, frames=5)
+    assert np.abs(folded.path.angles).max() <= np.pi + 1e-8
+    linkage = linkage_of_sheet(VERTEX)
+    options = PathOptions(folded.branches.branches[folded.branch].rates, np.ones(4, dtype=bool))
+    path = driven_path(ClosureEquations(linkage), linkage.angles, [0], [-3.0, -3.2], options=options)
+    assert path.stopped
+
+
+def test_what_cannot_be_folded_is_refused(data):
+    with pytest.raises(UnsolvableError, match="no motion begins"):
+        fold(fan(np.radians([0, 30, 70, 100])))
+    with pytest.raises(UnsolvableError, match="no creases"):
+        fold(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1))))
+    with pytest.raises(UnsolvableError, match="needs coordinates"):
+        fold(Sheet(3, (), "", ((0, 1, 2),)))
+    with pytest.raises(InvariantError, match="9 is no joint"):
+        fold(VERTEX, drive={9: 1.0})
+    with pytest.raises(InvariantError, match="between -180 and 180"):
+        fold(VERTEX, drive={1: 4.0})
+    with pytest.raises(InvariantError, match="no branch 7; expected one from 0 to 1"):
+        fold(VERTEX, branch=7)
+    with pytest.raises(InvariantError, match="no branch has the signs"):
+        fold(VERTEX, branch="++++")
+    bent = fan(np.radians([0, 60, 180, 300]))
+    raised = Sheet(
+        5, bent.edges, bent.assignments, bent.faces, tuple((*p, 0.1 * k) for k, p in enumerate(bent.coordinates))
+    )
+    assert fold(raised, drive={0: float(linkage_of_sheet(raised).angles[0]) + 0.05}, frames=1).closure < 1e-12
+
+
+def test_files_hold_every_pose(tmp_path):
+    folded = synth.fold(VERTEX, drive={1: np.radians(90)}, frames=3)
+    [place] = write_folding(folded, tmp_path / "folded.fold")
+    sheet = read(place)
+    assert sheet.frames.others == 4
+    pose = sheet.frames.frame(4)
+    np.testing.assert_allclose(pose.coordinates, folded.places[-1], atol=1e-12)
+    assert pose.fold_angles[1] == pytest.approx(90)
+    assert synth.mobility(sheet, pose=4).pose.dof == 1
+    assert [p.name for p in write_folding(folded, tmp_path / "f.obj")] == [f"f-{k:03d}.obj" for k in range(4)]
+    assert len(list(read_all(tmp_path / "f-003.obj"))) == 1
+    with pytest.raises(FileError, match="exists already"):
+        write_folding(folded, tmp_path / "folded.fold")
+    with pytest.raises(FileError, match="cannot hold a folding"):
+        write_folding(folded, tmp_path / "folded.txt")
+
+
+def test_the_command_line(tmp_path, data):
+    bird = data / "patterns" / "bird-base.fold"
+    listed = run("fold", bird, "--branches", "--frames", 2).stdout
+    assert "from this pose 16 way(s) to move" in listed
+    told = json.loads(run("fold", bird, "--drive", "0=20", "--branch", 3, "--frames", 2, "--json").stdout)
+    assert {"freedoms", "branches", "exhaustive", "frames", "closure", "stopped"} <= set(told)
+    assert (told["freedoms"], len(told["branches"]), told["frames"], told["branch"]) == (5, 16, 3, 3)
+    assert told["fold_angles_deg"]["0"] == pytest.approx([0, 10, 20])
+    out = tmp_path / "out.fold"
+    run("fold", data / "patterns" / "four-bar-vertex.fold", "--frames", 2, "-o", out)
+    assert read(out).frames.others == 3
+    assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
+    assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
+    assert "only crease patterns fold" in run("fold", data / "wiener" / "watt.json", code=2).stderr
