@@ -51,17 +51,17 @@ def our_jobs(folder: str) -> dict[str, list[str]]:
         **{f"count {links}": synth(links, "--count") for links in (8, 10, 12, 14, 16, 18)},
         "count 16 burnside": synth(16, "--count", "--method", "burnside"),
         "count 14, inversions": synth(14, "--count", "--inversions"),
-        "write 12 g6": synth(12, "-o", f"{folder}/12.g6"),
-        "write 14 g6": synth(14, "-o", f"{folder}/14.g6"),
-        "write 14 g6, one worker": synth(14, "-o", f"{folder}/14.g6", "--workers", "1"),
-        "write 16 g6": synth(16, "-o", f"{folder}/16.g6"),
+        "write 12 g6": synth(12, "-o", f"{folder}/12.g6", "--force"),
+        "write 14 g6": synth(14, "-o", f"{folder}/14.g6", "--force"),
+        "write 14 g6, one worker": synth(14, "-o", f"{folder}/14.g6", "--force", "--workers", "1"),
+        "write 16 g6": synth(16, "-o", f"{folder}/16.g6", "--force"),
     }
 
 
 def cold() -> float:
     """Return the time of a first run that compiles everything and writes 14-link chains."""
     with tempfile.TemporaryDirectory() as folder:
-        return round(seconds(synth(14, "-o", f"{folder}/14.g6"), SYNTHEDRA_CACHE=folder), 3)
+        return round(seconds(synth(14, "-o", f"{folder}/14.g6", "--force"), SYNTHEDRA_CACHE=folder), 3)
 
 
 def geng(links: int) -> list[str] | None:
@@ -108,7 +108,7 @@ def main() -> None:
 
     with tempfile.TemporaryDirectory() as folder:
         for name, command in our_jobs(folder).items():
-            seconds(synth(8, "-o", f"{folder}/8.g6"))
+            seconds(synth(8, "-o", f"{folder}/8.g6", "--force"))
             note(name, lambda command=command, name=name: times(command, 1 if name == "write 16 g6" else RUNS))
     note("cold, write 14 g6", cold)
     for links in (12, 14, 16):

@@ -97,7 +97,7 @@ class Reduction:
             self._work.put_back(removal)
         graph = self._work.graph()
         for removal in last:
-            self._work.remove(removal.joints[1], removal.dropped, removal.changed, removal.reopened)
+            self._work.repeat(removal)
         return graph
 
     def chains(self) -> list[nx.DiGraph]:

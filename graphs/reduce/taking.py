@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from graphs.ids import JointId, LinkId
 from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
-from graphs.reduce.working import Removal, WorkingGraph
+from graphs.reduce.working import Path, Removal, WorkingGraph
 
 __all__ = ["RULES", "Taken", "Terms", "take_all"]
 
@@ -52,6 +52,10 @@ class Taken(NamedTuple):
     onto: tuple[LinkId, LinkId]
 
 
+_Cycle = tuple[JointId, frozenset[JointId]]
+"""A joint, and the cycle that it closes."""
+
+
 def take_all(work: WorkingGraph, terms: Terms) -> list[Taken]:
     """Take addenda off a working graph until none is left; return them in their order.
 
@@ -59,19 +63,23 @@ def take_all(work: WorkingGraph, terms: Terms) -> list[Taken]:
     settle them at once.
     """
     ride_alongs = terms.rule == "ride-along"
-    take = _take_ride_along if ride_alongs else _take_dyad
     taken: list[Taken] = []
     waiting = dict.fromkeys(reversed(list(work.joints)))
     hard: dict[JointId, None] = {}
     while waiting or hard:
         easy_first = bool(waiting)
         middle, _ = waiting.popitem() if waiting else hard.popitem()
-        if not _may_go(work, middle, terms):
+        path = _path_that_may_go(work, middle, terms)
+        if path is None:
             continue
-        if ride_alongs and easy_first and _needs_elimination(work, middle):
-            hard[middle] = None
-            continue
-        step = take(work, middle)
+        if ride_alongs:
+            cycles = _cycles(work, path)
+            if easy_first and _needs_elimination(work, middle, cycles):
+                hard[middle] = None
+                continue
+            step = _take_ride_along(work, path, cycles)
+        else:
+            step = _take_dyad(work, path)
         if step is None:
             continue
         taken.append(step)
@@ -85,29 +93,26 @@ def take_all(work: WorkingGraph, terms: Terms) -> list[Taken]:
     return taken
 
 
-def _may_go(work: WorkingGraph, middle: JointId, terms: Terms) -> bool:
-    """Tell whether a joint joins two binary links between two others that nothing protects."""
-    found = work.path(middle) if middle in work.joints else None
-    if found is None:
-        return False
-    a, _, u, v, _, b = found
-    if a == b or u in terms.protected or v in terms.protected:
-        return False
-    return terms.fully or work.loops_in_block[work.block_of[middle]] > 1
+def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: Terms) -> Path | None:
+    """Return the path of a joint that joins two binary links between two others, if nothing protects them."""
+    path = work.path(middle) if middle in work.joints else None
+    if path is None:
+        return None
+    if path.a == path.b or path.u in terms.protected or path.v in terms.protected:
+        return None
+    return path if terms.fully or work.loops_in_block[work.block_of[middle]] > 1 else None
 
 
-def _cycles(work: WorkingGraph, middle: JointId) -> list[tuple[JointId, frozenset[JointId]]]:
-    """Return the joints between a and b, each with the cycle that it closes with the path a-u-v-b."""
-    found = work.path(middle)
-    assert found is not None
-    a, before, _, _, after, b = found
+def _cycles(work: WorkingGraph, path: Path) -> list[_Cycle]:
+    """Return the joints between the ends of a path, each with the cycle that it closes with it."""
+    a, before, _, middle, _, after, b = path
     between = work.original[a][b] if work.original.has_edge(a, b) else ()
     return [(joint, frozenset((before, middle, after, joint))) for joint in sorted(between, key=str)]
 
 
-def _needs_elimination(work: WorkingGraph, middle: JointId) -> bool:
+def _needs_elimination(work: WorkingGraph, middle: JointId, cycles: list[_Cycle]) -> bool:
     """Tell whether it takes an elimination to know if the two links that a joint joins are a ride-along."""
-    for _, cycle in _cycles(work, middle):
+    for _, cycle in cycles:
         known, member = work.member_at_once(cycle, middle)
         if not known:
             return True
@@ -116,11 +121,10 @@ def _needs_elimination(work: WorkingGraph, middle: JointId) -> bool:
     return False
 
 
-def _take_ride_along(work: WorkingGraph, middle: JointId) -> Taken | None:
-    """Take off the ride-along whose two links a joint joins, if it is one."""
-    found = work.path(middle)
-    assert found is not None
-    for joint, cycle in _cycles(work, middle):
+def _take_ride_along(work: WorkingGraph, path: Path, cycles: list[_Cycle]) -> Taken | None:
+    """Take off the two links within a path, if they are a ride-along."""
+    middle = path.middle
+    for joint, cycle in cycles:
         dropped = work.member_through(cycle, middle)
         if dropped is None:
             continue
@@ -130,8 +134,8 @@ def _take_ride_along(work: WorkingGraph, middle: JointId) -> Taken | None:
             if reopened is None:
                 continue
         others = sorted(work.through[middle] - {dropped})
-        removal = work.remove(middle, dropped, [(index, cycle) for index in others], reopened)
-        return Taken(removal, joint, (found[0], found[5]))
+        removal = work.remove(path, dropped, [(index, cycle) for index in others], reopened)
+        return Taken(removal, joint, (path.a, path.b))
     return None
 
 
@@ -147,8 +151,9 @@ def _independent_member(work: WorkingGraph, cycle: frozenset[JointId], middle: J
     )
 
 
-def _take_dyad(work: WorkingGraph, middle: JointId) -> Taken | None:
-    """Take off the dyad whose two links a joint joins, if a loop through it has a centre."""
+def _take_dyad(work: WorkingGraph, path: Path) -> Taken | None:
+    """Take off the two links within a path, a dyad, if a loop through it has a centre."""
+    middle = path.middle
     passing = [i for i in work.centred_through(middle) if i not in work.closing]
     if not passing:
         return None
@@ -159,12 +164,10 @@ def _take_dyad(work: WorkingGraph, middle: JointId) -> Taken | None:
         if merged is None:
             return None
         deltas.append((index, frozenset(work.loops[index] ^ merged)))
-    found = work.path(middle)
-    assert found is not None
     block = work.block_of[middle]
-    removal = work.remove(middle, dropped, deltas)
+    removal = work.remove(path, dropped, deltas)
     work.renumber_block(block)
-    return Taken(removal, None, (found[0], found[5]))
+    return Taken(removal, None, (path.a, path.b))
 
 
 def _one_cycle(work: WorkingGraph, index: int, dropped: int, done: list[int]) -> set[JointId] | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import networkx as nx
 
@@ -18,7 +19,7 @@ from graphs.loops.cycle_space import in_span_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["Removal", "WorkingGraph"]
+__all__ = ["Path", "Removal", "WorkingGraph"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +48,18 @@ class Removal:
     dropped: int
     changed: tuple[tuple[int, frozenset[JointId]], ...]
     reopened: int | None
+
+
+class Path(NamedTuple):
+    """Two binary links u and v in a row, between two others a and b: links and joints as they are passed."""
+
+    a: LinkId
+    before: JointId
+    u: LinkId
+    middle: JointId
+    v: LinkId
+    after: JointId
+    b: LinkId
 
 
 class WorkingGraph:
@@ -113,15 +126,15 @@ class WorkingGraph:
         # The dict itself: the views of networkx triple the time of a reduction.
         return [joint for keys in self.original._adj[link].values() for joint in keys if joint in self.joints]
 
-    def path(self, middle: JointId) -> tuple[LinkId, JointId, LinkId, LinkId, JointId, LinkId] | None:
-        """Return (a, a-u, u, v, v-b, b) if a joint joins two binary links u and v of a path a-u-v-b."""
+    def path(self, middle: JointId) -> Path | None:
+        """Return the path of a joint that joins two binary links."""
         u, v = self.joints[middle]
         if self.degree[u] != 2 or self.degree[v] != 2:
             return None
         (before,) = (joint for joint in self.joints_at(u) if joint != middle)
         (after,) = (joint for joint in self.joints_at(v) if joint != middle)
         a, b = self.other_end(before, u), self.other_end(after, v)
-        return None if v == a else (a, before, u, v, after, b)
+        return None if v == a else Path(a, before, u, middle, v, after, b)
 
     def centred_through(self, joint: JointId) -> list[int]:
         """Return the loops with a centre that pass a joint; round a binary path they are of one class."""
@@ -161,15 +174,13 @@ class WorkingGraph:
 
     def remove(
         self,
-        middle: JointId,
+        path: Path,
         dropped: int,
         deltas: Sequence[tuple[int, frozenset[JointId]]],
         reopened: int | None = None,
     ) -> Removal:
-        """Take out the two links that a joint joins; ``deltas`` says how the other loops through it change."""
-        found = self.path(middle)
-        assert found is not None
-        _, before, u, v, after, _ = found
+        """Take out the two links within a path; ``deltas`` says how the other loops through it change."""
+        _, before, u, middle, v, after, _ = path
         removal = Removal(
             (u, v),
             (before, middle, after),
@@ -178,17 +189,22 @@ class WorkingGraph:
             tuple(deltas),
             reopened,
         )
-        if reopened is not None:
-            self.closing ^= {dropped, reopened}
-        self._set_alive(dropped, False)
+        self.repeat(removal)
+        return removal
+
+    def repeat(self, removal: Removal) -> None:
+        """Make a removal, as it was made before."""
+        if removal.reopened is not None:
+            self.closing ^= {removal.dropped, removal.reopened}
+        self._set_alive(removal.dropped, False)
         for index, delta in removal.changed:
             self._toggle(index, delta)
-        self.loops_in_block[self.block_of[middle]] -= 1
+        self.loops_in_block[self.block_of[removal.joints[1]]] -= 1
         for joint in removal.joints:
             for link in self.joints.pop(joint):
                 self.degree[link] -= 1
-        del self.degree[u], self.degree[v]
-        return removal
+        for link in removal.links:
+            del self.degree[link]
 
     def renumber_block(self, block: int) -> None:
         """Find the blocks that are left of a block."""
