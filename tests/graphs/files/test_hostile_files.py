@@ -80,16 +80,42 @@ def test_a_shape_that_uses_itself(tmp_path):
         read(path)
 
 
-def test_shapes_nested_deeply(tmp_path):
-    """Groups in groups are counted without recursion; what the drawing of them does is told in one line."""
+def nested_groups(levels):
+    """A square with a diagonal, a quarter to the right of where each group around it begins; levels in all."""
+    around = levels - 2  # the svg element and the shapes
+    shapes = '<rect width="4" height="3" stroke="black"/><line x1="0" y1="0" x2="4" y2="3" stroke="red"/>'
+    return SVG + '<g transform="translate(0.25)">' * around + shapes + "</g>" * around + "</svg>"
+
+
+def chained_uses(levels):
+    """A line in a row of groups that use each other: each group is a level, and its use is another."""
+    number = (levels - 3) // 2  # beside them the svg element, the last use, the line
+    groups = "".join(f'<g id="a{i}"><use href="#a{i - 1}"/></g>' for i in range(1, number + 1))
+    line = '<line id="a0" x2="4" y2="3" stroke="red"/>'
+    return f'{SVG}<defs>{line}{groups}</defs><use href="#a{number}"/></svg>'
+
+
+def test_shapes_nested_deeply(tmp_path, monkeypatch):
+    """Up to the limit each group moves what is in it; beyond, time grew with the square and the stack ended."""
     path = tmp_path / "a.svg"
-    path.write_text(
-        SVG + "<g>" * 5_000 + '<line x1="0" y1="0" x2="1" y2="1" stroke="red"/>' + "</g>" * 5_000 + "</svg>"
-    )
-    try:
+    path.write_text(nested_groups(LIMITS["levels"]))
+    sheet = read(path)
+    assert (len(sheet.faces), sheet.assignments.count("M")) == (2, 1)
+    assert np.ptp(np.array(sheet.coordinates), axis=0).tolist() == [4, 3]
+    assert np.min(np.array(sheet.coordinates)[:, 0]) == 0.25 * (LIMITS["levels"] - 2)
+    for levels in (LIMITS["levels"] + 1, 900, 5_000):
+        path.write_text(nested_groups(levels))
+        assert f"{levels} levels" in refused(path, "levels")
+    monkeypatch.setenv(VARIABLE, "levels=5000")
+    path.write_text(SVG + "<g>" * 1_200 + "</g>" * 1_200 + "</svg>")
+    with pytest.raises(FileError, match=r"a\.svg: elements nested more deeply than Python can follow; expected "):
         read(path)
-    except FileError as error:
-        assert "\n" not in str(error)
+
+
+def test_uses_count_as_levels(tmp_path):
+    path = tmp_path / "a.svg"
+    path.write_text(chained_uses(301))  # of 149 groups, none of them in another
+    assert "301 levels" in refused(path, "levels")
 
 
 def test_frames_that_inherit_from_frames(tmp_path):

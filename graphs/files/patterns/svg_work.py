@@ -1,4 +1,4 @@
-"""How many shapes an SVG file draws, when each ``use`` draws what it names again."""
+"""How much work an SVG file is: shapes that ``use`` draws again, and groups in groups."""
 
 from __future__ import annotations
 
@@ -8,24 +8,26 @@ from xml.etree import ElementTree
 from graphs.errors import FileError, shown
 from graphs.work_limits import how_to_raise, most
 
-__all__ = ["check_uses"]
+__all__ = ["check_work_of_svg"]
 
 _LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 
 
-def check_uses(text: str, path: Path) -> None:
-    """Refuse a file whose shapes use shapes too often, or themselves; found without drawing any.
+def check_work_of_svg(text: str, path: Path) -> None:
+    """Refuse shapes that use shapes too often, or themselves, or nest too deeply; found without drawing any.
 
     Raises
     ------
     FileError
-        If what is used is drawn again more often than the limit ``shapes``, or a shape uses itself.
+        If what is used is drawn again more often than the limit ``shapes``, if elements, those that are used
+        among them, are nested more deeply than the limit ``levels``, or a shape uses itself.
     ElementTree.ParseError
         If it is not XML.
     """
     root = ElementTree.fromstring(text)
     named = {one.get("id"): one for one in root.iter() if one.get("id") is not None}
     drawn: dict[ElementTree.Element, int] = {}
+    levels: dict[ElementTree.Element, int] = {}
     waiting, open_ones = [root], set[ElementTree.Element]()
     while waiting:  # depth first, without recursion: files nest as deep as they like
         element = waiting[-1]
@@ -36,6 +38,7 @@ def check_uses(text: str, path: Path) -> None:
         missing = [one for one in inner if one not in drawn]
         if not missing:
             drawn[element] = 1 + sum(drawn[one] for one in inner)
+            levels[element] = 1 + max((levels[one] for one in inner), default=0)
             open_ones.discard(element)
             waiting.pop()
             continue
@@ -43,9 +46,13 @@ def check_uses(text: str, path: Path) -> None:
         if around := [one for one in missing if one in open_ones]:
             raise FileError(path, "", f"the shape {shown(around[0].get('id'))} uses itself", "an end to it")
         waiting += missing
-    more = drawn[root] - len(drawn)
-    if more > most("shapes"):
-        raise FileError(path, "", f"{more} shapes drawn by 'use'", how_to_raise("shapes", more))
+    _check(path, "shapes", drawn[root] - len(drawn), "shapes drawn by 'use'")
+    _check(path, "levels", levels[root], "levels of elements in elements")
+
+
+def _check(path: Path, limit: str, needed: int, what: str) -> None:
+    if needed > most(limit):
+        raise FileError(path, "", f"{needed} {what}", how_to_raise(limit, needed))
 
 
 def _used(element: ElementTree.Element, named: dict[str | None, ElementTree.Element]) -> list[ElementTree.Element]:
