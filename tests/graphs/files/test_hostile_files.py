@@ -207,6 +207,18 @@ def test_keys_and_ids_that_come_twice(tmp_path):
         read(ids)
 
 
+@pytest.mark.parametrize("filling", [" ", " {"])
+def test_a_long_line_is_read_once(tmp_path, filling):
+    """From each of its blanks on the rest was looked through for a dictionary: a megabyte took most of an hour."""
+    path = tmp_path / "a.edges"
+    path.write_text("0 1" + filling * 500_000 + "x\n1 2\n2 0\n")
+    if filling == " ":
+        assert len(read(path)) == 3
+        return
+    with pytest.raises(FileError, match=r"line 1: 500002 word\(s\); expected two links"):
+        read(path)
+
+
 def test_a_crease_at_many_vertices(tmp_path):
     """The ends of a crease were copied for each."""
     path = tmp_path / "a.json"
