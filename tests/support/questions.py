@@ -20,7 +20,7 @@ from graphs.files.formats import WRITERS, read_all
 Question = Callable[[], object]
 
 _SHARE = 4
-"""One file in so many is asked everything, the others how they move."""
+"""One file in so many is asked everything and its answers laid out, the others how they move."""
 
 _MOST = 3
 """Mechanisms of one file that are asked everything."""
@@ -52,22 +52,26 @@ def count_only(path: Path, _rng: random.Random) -> Iterator[str | None]:
 def front_door(path: Path, rng: random.Random) -> Iterator[str | None]:
     """Read a file and ask how each mechanism moves; then, of some files, all else that can be asked."""
     mechanisms: list[Mechanism] = []
+    everything = rng.randrange(_SHARE) == 0
 
     def moves() -> None:
         mechanisms.extend(entry.mechanism for entry in read_all(path))
         for mechanism in mechanisms:
-            _told(synth.mobility(mechanism))
+            _told(synth.mobility(mechanism), laid_out=everything)
 
     yield refusal(moves)
-    if rng.randrange(_SHARE) == 0:
+    if everything:
         for mechanism in islice(mechanisms, _MOST):
             yield from (refusal(ask) for ask in _other_questions(mechanism, path.parent, rng))
 
 
-def _told(answer: Any) -> None:
-    """Tell an answer as scripts and people read it."""
+def _told(answer: Any, *, laid_out: bool = True) -> None:
+    """Tell an answer as scripts read it, and as people do: to lay tables out takes longer than all else."""
     json.dumps(answer.to_json(), allow_nan=False)
-    str(answer)
+    if laid_out:
+        str(answer)
+    else:
+        answer.blocks()
 
 
 def _other_questions(mechanism: Mechanism, folder: Path, rng: random.Random) -> Iterator[Question]:

@@ -22,7 +22,7 @@ def asked(questions, suffixes, number, seed, folder, data):
         capture_output=True,
         text=True,
         check=False,
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},  # else numpy's threads share the seconds
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"},
     )
     if done.returncode != 0:
         last = max(folder.glob("mutated*"), key=lambda path: path.stat().st_mtime_ns)
