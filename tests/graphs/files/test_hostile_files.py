@@ -118,6 +118,33 @@ def test_uses_count_as_levels(tmp_path):
     assert "301 levels" in refused(path, "levels")
 
 
+@pytest.mark.parametrize(
+    ("odd", "message"),
+    [
+        ('<polyline stroke="black" points="' + "1" * 5_000 + '"/>', "polyline: points: a number of more than 100"),
+        ('<line stroke="rgb(' + "1" * 90_000 + '"/>', "line: stroke: a number of more than 100 digits"),
+        ("<style>a{" + " " * 9_000 + "x</style>", "style: a rule that does not end; expected '}'"),
+        ("<style>" + "x" * 200_000 + "</style>", f"200000 letters in a style sheet; .*{VARIABLE}=letters=200000 allows"),
+        ('<g transform="' + "scale(" * 50_000 + '"/>', f"300000 letters in a transform; .*{VARIABLE}=letters=300000"),
+    ],
+    ids=["points", "colour", "open rule", "style", "transform"],
+)  # fmt: skip
+def test_text_that_is_looked_through_again_and_again(tmp_path, odd, message):
+    """The patterns of svgelements take time with the square or cube of such text: minutes, or days."""
+    path = tmp_path / "a.svg"
+    path.write_text(f'{SVG}<rect width="4" height="3" stroke="black"/>{odd}</svg>')
+    with pytest.raises(FileError, match=message):
+        read(path)
+
+
+def test_styles_transforms_and_long_numbers_are_read(tmp_path):
+    path = tmp_path / "a.svg"
+    style = "<style>rect {stroke: black} .m {stroke: red}</style>"
+    line = '<line class="m" x1="0" y1="0" x2="4" y2="3.' + "0" * 90 + '" transform="translate(0)"/>'
+    path.write_text(f'{SVG}{style}<rect width="4" height="3"/>{line}</svg>')
+    assert sorted(read(path).assignments) == sorted("BBBBM")
+
+
 def test_frames_that_inherit_from_frames(tmp_path):
     """Each of 20 000 frames was put together anew from all before it: 200 million steps."""
     path = tmp_path / "a.fold"
