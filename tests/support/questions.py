@@ -91,5 +91,8 @@ def _other_questions(mechanism: Mechanism, folder: Path, rng: random.Random) -> 
 def _written_and_read(mechanism: Mechanism, kind: str | None, form: str | None, place: Path) -> None:
     """Convert a mechanism, write it whatever is lost, read it again."""
     synth.write(synth.convert(mechanism, kind, form=form), place, lossy=True, force=True)
-    again = synth.read(place)
+    try:
+        again = synth.read(place)
+    except SynthedraError as error:
+        raise AssertionError(f"what was written is not read: {error}") from None
     _told(synth.mobility(again, exact=False, pose=False))

@@ -45,7 +45,7 @@ def test_mutated_files(suffixes, tmp_path, data):
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", FORMATS)
 def test_a_hundred_thousand_mutated_files(suffix, tmp_path, data):
-    """Of all formats together; with a process a core, some ten minutes on two idle cores."""
+    """Of all formats together: a thousand seconds of a processor, some eight minutes on two idle cores."""
     asked("front", [suffix], EACH, 2, tmp_path, data)
 
 
