@@ -23,6 +23,8 @@ LIMITS = {
     "crossings": 10_000,
     "meetings": 1_000_000,
     "shapes": 30_000,
+    "levels": 250,
+    "letters": 10_000,
 }
 """Name to the most that is allowed:
 
@@ -31,7 +33,9 @@ LIMITS = {
 - ``basis``: joints of a part that is not planar, of a bare graph, which needs a shortest cycle basis;
 - ``crossings``: points where lines of a pattern cross;
 - ``meetings``: pairs of lines that meet, and of ends that are near each other;
-- ``shapes``: elements of an SVG file that ``use`` draws beyond those that are written there.
+- ``shapes``: elements of an SVG file that ``use`` draws beyond those that are written there;
+- ``levels``: groups in groups of an SVG file, what ``use`` draws among them;
+- ``letters``: of a transform or a style sheet of an SVG file.
 """
 
 

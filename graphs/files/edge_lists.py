@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import re
+import string
 from collections import Counter
 from pathlib import Path
 
@@ -24,8 +25,8 @@ _NAMES_OF_ENDS = (("source", "target"), ("from", "to"))
 """Names of the two columns of a table of edges that hold its ends, in small letters."""
 _NAMES_OF_JOINTS = ("joint", "joint id")
 _EXPECTED = "two links, and perhaps a joint id"
-_ATTRIBUTES = re.compile(r"([^#]*?)[\s,;]+\{.*\}\s*")
-"""A line with a dictionary at its end, which may hold a ``#``."""
+_BEGINS_ATTRIBUTES = re.compile(r"[\s,;]\{")
+_PARTS_NAMES = string.whitespace + ",;"
 _INTEGER = re.compile(r"-?\d{1,18}")
 
 Row = tuple[int, str]
@@ -68,9 +69,7 @@ def _rows_of_lines(lines: list[Row], path: Path) -> list[Words]:
     """Return the words of lines ``link link [joint]``, comments and dictionaries taken off."""
     rows = []
     for number, line in lines:
-        attributed = _ATTRIBUTES.fullmatch(line)
-        text = attributed[1] if attributed else line.split("#", 1)[0]
-        words = re.split(r"[\s,;]+", text.strip())
+        words = re.split(r"[\s,;]+", _names_of_line(line).strip())
         if len(words) not in (2, 3):
             raise FileError(path, f"line {number}", f"{len(words)} word(s)", _EXPECTED)
         rows.append(words)
@@ -85,6 +84,14 @@ def _rows_of_lines(lines: list[Row], path: Path) -> list[Words]:
         found = f"columns called {shown(', '.join(names))}"
         raise FileError(path, f"line {number}", found, "source and target, or no names of columns")
     return rows
+
+
+def _names_of_line(line: str) -> str:
+    """Return a line without the dictionary at its end, which may hold a ``#``, or without its comment."""
+    begins = _BEGINS_ATTRIBUTES.search(line)
+    if begins and line.rstrip().endswith("}") and "#" not in line[: begins.start()]:
+        return line[: begins.start()].rstrip(_PARTS_NAMES)
+    return line.split("#", 1)[0]
 
 
 def _rows_of_table(lines: list[Row], parted_by: str, width: int, wanted: list[int], path: Path) -> list[Words]:

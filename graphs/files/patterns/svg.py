@@ -23,7 +23,7 @@ from graphs.convert.welding import Lines
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.strokes import COLOURS, described_strokes, kind_of_stroke, letter_of_stroke
-from graphs.files.patterns.svg_use import check_uses
+from graphs.files.patterns.svg_work import check_work_of_svg
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
 from graphs.mechanism.plane import flat_places
@@ -83,18 +83,21 @@ def _stroked_shapes(path: Path) -> Iterator[Any]:
 
     text = read_text(path)
     try:
-        check_uses(text, path)
+        check_work_of_svg(text, path)
         drawing = svgelements.SVG.parse(BytesIO(text.encode()), reify=True)
+        drawn = list(drawing.elements()) if isinstance(drawing, svgelements.SVG) else None
     except ParseError as error:
         line, column = error.position
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
     except FileError:
         raise
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError) as error:
+    except RecursionError:  # where the limit was raised beyond what Python's stack holds
+        raise FileError(path, "", "elements nested more deeply than Python can follow", "fewer groups") from None
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError) as error:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
-    if not isinstance(drawing, svgelements.SVG):
+    if drawn is None:
         raise FileError(path, "", "the outermost element is not svg", "SVG")
-    for shape in drawing.elements():
+    for shape in drawn:
         if isinstance(shape, svgelements.Shape) and shape.stroke is not None and shape.stroke.value is not None:
             yield shape
 

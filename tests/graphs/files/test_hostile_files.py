@@ -80,16 +80,69 @@ def test_a_shape_that_uses_itself(tmp_path):
         read(path)
 
 
-def test_shapes_nested_deeply(tmp_path):
-    """Groups in groups are counted without recursion; what the drawing of them does is told in one line."""
+def nested_groups(levels):
+    """A square with a diagonal, a quarter to the right of where each group around it begins; levels in all."""
+    around = levels - 2  # the svg element and the shapes
+    shapes = '<rect width="4" height="3" stroke="black"/><line x1="0" y1="0" x2="4" y2="3" stroke="red"/>'
+    return SVG + '<g transform="translate(0.25)">' * around + shapes + "</g>" * around + "</svg>"
+
+
+def chained_uses(levels):
+    """A line in a row of groups that use each other: each group is a level, and its use is another."""
+    number = (levels - 3) // 2  # beside them the svg element, the last use, the line
+    groups = "".join(f'<g id="a{i}"><use href="#a{i - 1}"/></g>' for i in range(1, number + 1))
+    line = '<line id="a0" x2="4" y2="3" stroke="red"/>'
+    return f'{SVG}<defs>{line}{groups}</defs><use href="#a{number}"/></svg>'
+
+
+def test_shapes_nested_deeply(tmp_path, monkeypatch):
+    """Up to the limit each group moves what is in it; beyond, time grew with the square and the stack ended."""
     path = tmp_path / "a.svg"
-    path.write_text(
-        SVG + "<g>" * 5_000 + '<line x1="0" y1="0" x2="1" y2="1" stroke="red"/>' + "</g>" * 5_000 + "</svg>"
-    )
-    try:
+    path.write_text(nested_groups(LIMITS["levels"]))
+    sheet = read(path)
+    assert (len(sheet.faces), sheet.assignments.count("M")) == (2, 1)
+    assert np.ptp(np.array(sheet.coordinates), axis=0).tolist() == [4, 3]
+    assert np.min(np.array(sheet.coordinates)[:, 0]) == 0.25 * (LIMITS["levels"] - 2)
+    for levels in (LIMITS["levels"] + 1, 900, 5_000):
+        path.write_text(nested_groups(levels))
+        assert f"{levels} levels" in refused(path, "levels")
+    monkeypatch.setenv(VARIABLE, "levels=5000")
+    path.write_text(SVG + "<g>" * 1_200 + "</g>" * 1_200 + "</svg>")
+    with pytest.raises(FileError, match=r"a\.svg: elements nested more deeply than Python can follow; expected "):
         read(path)
-    except FileError as error:
-        assert "\n" not in str(error)
+
+
+def test_uses_count_as_levels(tmp_path):
+    path = tmp_path / "a.svg"
+    path.write_text(chained_uses(301))  # of 149 groups, none of them in another
+    assert "301 levels" in refused(path, "levels")
+
+
+@pytest.mark.parametrize(
+    ("odd", "message"),
+    [
+        ('<polyline stroke="black" points="' + "1" * 5_000 + '"/>', "polyline: points: a number of more than 100"),
+        ('<line stroke="rgb(' + "1" * 90_000 + '"/>', "line: stroke: a number of more than 100 digits"),
+        ("<style>a{" + " " * 9_000 + "x</style>", "style: a rule that does not end; expected '}'"),
+        ("<style>" + "x" * 200_000 + "</style>", f"200000 letters in a style sheet; .*{VARIABLE}=letters=200000 allows"),
+        ('<g transform="' + "scale(" * 50_000 + '"/>', f"300000 letters in a transform; .*{VARIABLE}=letters=300000"),
+    ],
+    ids=["points", "colour", "open rule", "style", "transform"],
+)  # fmt: skip
+def test_text_that_is_looked_through_again_and_again(tmp_path, odd, message):
+    """The patterns of svgelements take time with the square or cube of such text: minutes, or days."""
+    path = tmp_path / "a.svg"
+    path.write_text(f'{SVG}<rect width="4" height="3" stroke="black"/>{odd}</svg>')
+    with pytest.raises(FileError, match=message):
+        read(path)
+
+
+def test_styles_transforms_and_long_numbers_are_read(tmp_path):
+    path = tmp_path / "a.svg"
+    style = "<style>rect {stroke: black} .m {stroke: red}</style>"
+    line = '<line class="m" x1="0" y1="0" x2="4" y2="3.' + "0" * 90 + '" transform="translate(0)"/>'
+    path.write_text(f'{SVG}{style}<rect width="4" height="3"/>{line}</svg>')
+    assert sorted(read(path).assignments) == sorted("BBBBM")
 
 
 def test_frames_that_inherit_from_frames(tmp_path):
@@ -179,6 +232,18 @@ def test_keys_and_ids_that_come_twice(tmp_path):
         read(keys)
     with pytest.raises(FileError, match="the joint id 'a29999' occurs twice"):
         read(ids)
+
+
+@pytest.mark.parametrize("filling", [" ", " {"])
+def test_a_long_line_is_read_once(tmp_path, filling):
+    """From each of its blanks on the rest was looked through for a dictionary: a megabyte took most of an hour."""
+    path = tmp_path / "a.edges"
+    path.write_text("0 1" + filling * 500_000 + "x\n1 2\n2 0\n")
+    if filling == " ":
+        assert len(read(path)) == 3
+        return
+    with pytest.raises(FileError, match=r"line 1: 500002 word\(s\); expected two links"):
+        read(path)
 
 
 def test_a_crease_at_many_vertices(tmp_path):
