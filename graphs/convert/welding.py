@@ -159,6 +159,7 @@ def _distances(ends: Floats, finest: float, coarsest: float) -> Floats:
     """
     reach = coarsest * (1 + _MARGIN)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    ends = ends[lengths > finest * (1 - _MARGIN)]  # the others are dropped whatever the tolerance
     segments = shapely.linestrings(ends)
     found, apart = _meeting_points(ends, segments)
     once = _once(found[apart > finest], finest)

@@ -16,10 +16,13 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, quadrics_of, rates_near
 
-__all__ = ["MOST_JOINTS", "Wanted", "beginning"]
+__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning"]
 
 MOST_JOINTS = 120
 """Of larger linkages the branches are not looked for: there may be twice as many for each two panels more."""
+
+MOST_BRANCHES = 128
+"""So many are looked for at most."""
 
 _STILL = 1e-9
 

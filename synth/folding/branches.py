@@ -93,14 +93,17 @@ class Branches:
         all there are.
     regular : bool
         Whether the pose is a general one, with one branch.
+    complete : bool
+        Whether the search came to its end.
     """
 
     branches: tuple[Branch, ...]
     exhaustive: bool
     regular: bool
+    complete: bool
 
 
-def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None) -> Branches:
+def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, most: int = _MOST) -> Branches:
     """Return the ways in which a linkage can move from its pose.
 
     Parameters
@@ -109,6 +112,8 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None) 
         Closed at its pose.
     closure : ClosureEquations, optional
         Of this linkage, where they are at hand.
+    most : int, optional
+        After so many the search ends.
 
     Examples
     --------
@@ -124,7 +129,7 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None) 
     """
     closure = closure or ClosureEquations(linkage)
     quadrics = quadrics_of(linkage)
-    spaces, complete = rate_spaces(closure, linkage.angles, quadrics, _MOST)
+    spaces, complete = rate_spaces(closure, linkage.angles, quadrics, most)
     whole = rates_at(closure, linkage.angles).shape[1]
     regular = len(spaces) == 1 and not spaces[0].left and spaces[0].basis.shape[1] == whole
     linear = _linear_in_half_tangents(linkage)
@@ -134,10 +139,10 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None) 
         follow = _in_half_tangents if linear and not space.left else _followed
         for rates in _samples(space):
             branches.append(follow(linkage, closure, space, rates / np.abs(rates).max()))
-            if proved:
+            if proved and branches[-1].freedoms is not None:
                 branches[-1] = replace(branches[-1], certainty="proved")
     every = complete and (linear or regular) and not any(space.left for space in spaces)
-    return Branches(tuple(branches), every, regular)
+    return Branches(tuple(branches), every, regular, complete)
 
 
 def rates_towards(space: RateSpace, wanted: Floats) -> Floats:

@@ -17,13 +17,14 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import Block, html_of, text_of
-from synth.folding.beginning import MOST_JOINTS, Wanted, beginning
+from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, Wanted, beginning
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.newton import CLOSED
+from synth.folding.opened import opened
 from synth.folding.path import DrivenPath, PathOptions, driven_path
 from synth.folding.placement import vertex_places
 
@@ -44,7 +45,7 @@ class Folding:
     Attributes
     ----------
     sheet : Sheet
-        As it was given.
+        As it was given, with vertices of their own for what cuts part.
     linkage : PosedLinkage
     branches : Branches or None
         The ways to move from the pose; None where they were not looked for.
@@ -120,6 +121,7 @@ class Folding:
         lines: list[Block] = []
         if self.branches is not None and not self.branches.regular:
             how = "all there are" if self.branches.exhaustive else "those that were found"
+            how += "" if self.branches.complete else "; there may be many more"
             lines.append(f"from this pose {len(self.branches.branches)} way(s) to move, {how}")
         if self.branch is not None and self.branches is not None:
             taken = self.branches.branches[self.branch]
@@ -199,6 +201,8 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
+    given = with_all_edges(sheet)
+    sheet = opened(given, mechanism_of_sheet(given))
     mechanism = mechanism_of_sheet(sheet)
     linkage = linkage_of_sheet(sheet, mechanism)
     closure = ClosureEquations(linkage)
@@ -207,7 +211,7 @@ def fold(
     if not joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
     places, goals = _asked(joints, drive or {})
-    found = branches_of(linkage, closure) if len(joints) <= MOST_JOINTS else None
+    found = branches_of(linkage, closure, MOST_BRANCHES) if len(joints) <= MOST_JOINTS else None
     wanted = Wanted(branch, _marks(sheet, linkage), places, goals - linkage.angles[places])
     number, rates = beginning(closure, linkage, found, wanted)
     if not places:

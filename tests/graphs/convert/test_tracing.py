@@ -238,6 +238,13 @@ def test_tolerances_that_weld_alike_give_what_each_gives_by_itself(number, rng, 
     assert number * 8 < len(weldings) < number * 13  # 7 one by one; together from 1 to 6, and both occur
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_line_of_next_to_no_length_is_dropped():
+    square = [((0, 0), (9, 0)), ((9, 0), (9, 8)), ((9, 8), (0, 8)), ((0, 8), (0, 0)), ((0, 0), (9, 8))]
+    sheet = traced([*square, ((0, 0), (1e-320, 0)), ((4, 4), (4, 4))], "BBBBVMM")
+    assert (len(sheet.faces), sheet.assignments.count("V")) == (2, 1)
+
+
 def grid(n):
     """A drawing of n by n squares, each side a line of its own."""
     steps = [(i, j) for i in range(n + 1) for j in range(n)]

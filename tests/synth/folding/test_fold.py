@@ -116,6 +116,21 @@ def test_panels_do_not_pass_each_other():
     assert path.stopped
 
 
+def test_the_sides_of_slits_come_apart():
+    """A card with two slits across its fold and a strip between them: two ways from flat, of one freedom each."""
+    places = ((0, 0), (2, 0), (4, 0), (4, 4), (2, 4), (0, 4), (1, 1), (2, 1), (3, 1), (1, 2), (2, 2), (3, 2))
+    faces = ((0, 1, 7, 6, 9, 10, 4, 5), (1, 2, 3, 4, 10, 11, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10))
+    edges = ((1, 7), (10, 4), (6, 9), (8, 11), (7, 10), (6, 7), (7, 8), (9, 10), (10, 11))
+    folded = fold(Sheet(12, edges, "UUUUUCCCC", faces, places), drive={0: 1.0}, branch=0, frames=4)
+    assert [branch.freedoms for branch in folded.branches.branches] == [1, 1]
+    assert folded.sheet.vertices == 14
+    assert folded.path.stopped == ""
+    assert max(folded.apart, folded.closure) < 1e-12
+    heights = [np.ptp(folded.places[-1][[first, second]], axis=0).max() for first, second in ((7, 12), (10, 13))]
+    other = fold(Sheet(12, edges, "UUUUUCCCC", faces, places), drive={0: 1.0}, branch=1, frames=4)
+    assert max(heights) > 0.1 or np.ptp(other.places[-1][[7, 12]], axis=0).max() > 0.1
+
+
 def test_what_cannot_be_folded_is_refused(data):
     with pytest.raises(UnsolvableError, match="no motion begins"):
         fold(fan(np.radians([0, 30, 70, 100])))

@@ -1,0 +1,104 @@
+"""Crease patterns opened along their cuts: what comes apart on folding has vertices of its own.
+
+A drawing gives the two sides of a slit one edge, or two that share their ends; so may parts that meet in a corner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import networkx as nx
+
+from graphs.convert.duality import SheetMechanism
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+
+__all__ = ["opened"]
+
+
+def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
+    """Return a sheet in which panels share a vertex only if hinges round it join them, or they are one.
+
+    Places in the list of edges stay as they are, and so do ids of joints; further edges come last.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With all its edges listed or not.
+    mechanism : SheetMechanism
+        Of the sheet.
+
+    Examples
+    --------
+    Two squares that a cut parts:
+
+    >>> from graphs.convert.duality import mechanism_of_sheet
+    >>> sheet = Sheet(6, ((0, 1),), "C", ((0, 1, 2, 3), (1, 0, 4, 5)))
+    >>> apart = opened(sheet, mechanism_of_sheet(sheet))
+    >>> apart.faces, apart.edges, apart.assignments
+    (((0, 1, 2, 3), (6, 7, 4, 5)), ((0, 1), (7, 6)), 'CC')
+    """
+    corners = _corners(sheet, mechanism)
+    place: dict[tuple[int, int], int] = {}
+    of: list[int] = list(range(sheet.vertices))  # the vertex that each was
+    seen: set[int] = set()
+    for together in nx.connected_components(corners):
+        first = min(together, key=lambda corner: corner[1])
+        vertex = first[0]
+        if vertex in seen:
+            of.append(vertex)
+        here = len(of) - 1 if vertex in seen else vertex
+        seen.add(vertex)
+        place |= dict.fromkeys(together, here)
+    if len(of) == sheet.vertices:
+        return sheet
+    faces = tuple(tuple(place[vertex, face] for vertex in sheet.faces[face]) for face in range(len(sheet.faces)))
+    edges, letters, angles = _edges(sheet, place)
+    return replace(
+        sheet,
+        vertices=len(of),
+        edges=edges,
+        assignments=letters,
+        faces=faces,
+        coordinates=None if sheet.coordinates is None else tuple(sheet.coordinates[vertex] for vertex in of),
+        fold_angles=angles,
+    )
+
+
+def _corners(sheet: Sheet, mechanism: SheetMechanism) -> nx.Graph:
+    """Return the corners (vertex, face), joined where hinges or panels join the faces."""
+    link_of = {face: link for link, faces in enumerate(mechanism.panels) for face in faces}
+    hinges = {frozenset(edge) for pieces in mechanism.pieces.values() for edge in pieces}
+    beside: dict[frozenset[int], list[int]] = {}
+    corners = nx.Graph()
+    for face, around in enumerate(sheet.faces):
+        corners.add_nodes_from((vertex, face) for vertex in around)
+        for side in sides_of_face(around):
+            beside.setdefault(frozenset(side), []).append(face)
+    for edge, faces in beside.items():
+        for face, other in pairwise(faces):
+            if edge in hinges or link_of[face] == link_of[other]:
+                corners.add_edges_from(((vertex, face), (vertex, other)) for vertex in edge)
+    return corners
+
+
+def _edges(
+    sheet: Sheet, place: dict[tuple[int, int], int]
+) -> tuple[tuple[Edge, ...], str, tuple[float | None, ...] | None]:
+    """Return the edges with their new ends; those that two sides of a cut shared once more, at the end."""
+    beside: dict[frozenset[int], list[int]] = {}
+    for face, around in enumerate(sheet.faces):
+        for side in sides_of_face(around):
+            beside.setdefault(frozenset(side), []).append(face)
+    edges, more = [], []
+    for number, (a, b) in enumerate(sheet.edges):
+        ends = dict.fromkeys((place[a, face], place[b, face]) for face in beside.get(frozenset((a, b)), ()))
+        first, *others = ends or [(a, b)]
+        edges.append(first)
+        more += [(other, number) for other in others]
+    angles = sheet.fold_angles
+    return (
+        (*edges, *(edge for edge, _ in more)),
+        sheet.assignments + "".join(sheet.assignments[number] for _, number in more),
+        None if angles is None else (*angles, *(angles[number] for _, number in more)),
+    )
