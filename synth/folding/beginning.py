@@ -41,12 +41,15 @@ class Wanted:
         Places of the joints that are driven.
     turns : float[D]
         How far each is to turn, radians.
+    doubt : str
+        What is to be said beside "no": coordinates may be rounded. Empty if they are not.
     """
 
     branch: int | str | None
     marks: Floats
     driven: Sequence[int]
     turns: Floats
+    doubt: str = ""
 
 
 def beginning(
@@ -74,10 +77,12 @@ def beginning(
             raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
         near = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted.marks)
         if near is None:
-            raise UnsolvableError("no motion that begins as the edges are marked was found at this pose")
+            raise UnsolvableError(
+                f"no motion that begins as the edges are marked was found at this pose{wanted.doubt}"
+            )
         return None, near
     if not found.branches:
-        raise UnsolvableError("nothing folds: no motion begins at this pose")
+        raise UnsolvableError(f"nothing folds: no motion begins at this pose{wanted.doubt}")
     number = _chosen(found, wanted)
     taken = found.branches[number]
     return None if found.regular else number, _rates(taken, wanted)

@@ -17,6 +17,7 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
+from graphs.mechanism.precision import Precision, precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import Block, html_of, text_of
 from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, Wanted, beginning
@@ -34,6 +35,8 @@ _FRAMES = 20
 _WHOLE = radians(179.0)
 """How far a pattern is folded if nothing is said; at 180 degrees panels lie on each other."""
 _CLOSE = 1e-9
+_EXACT = 1e-12
+"""Coordinates that are precise to this part of the extent are taken at their word."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -212,7 +215,8 @@ def fold(
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
     places, goals = _asked(joints, drive or {})
     found = branches_of(linkage, closure, MOST_BRANCHES) if len(joints) <= MOST_JOINTS else None
-    wanted = Wanted(branch, _marks(sheet, linkage), places, goals - linkage.angles[places])
+    turns = goals - linkage.angles[places]
+    wanted = Wanted(branch, _marks(sheet, linkage), places, turns, _doubt(precision_of_sheet(sheet)))
     number, rates = beginning(closure, linkage, found, wanted)
     if not places:
         places = [int(np.abs(rates).argmax())]
@@ -226,6 +230,14 @@ def fold(
     vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
     driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Folding(sheet, linkage, found, number, joints, path, driven, apart, vertices)
+
+
+def _doubt(precision: Precision) -> str:
+    """Return what rounded coordinates leave open: panels that would fit need not fit as they are written."""
+    if precision.size <= _EXACT:
+        return ""
+    told = f"{precision.size:.0e} of the extent ({precision.source})"
+    return f", with the coordinates as they are written; they are precise to {told}, and exact ones may move"
 
 
 def _check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:

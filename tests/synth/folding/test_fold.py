@@ -1,6 +1,7 @@
 """Folding crease patterns: closed forms, rigid panels, limits, files, the command line, bad input."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -151,6 +152,17 @@ def test_what_cannot_be_folded_is_refused(data):
         5, bent.edges, bent.assignments, bent.faces, tuple((*p, 0.1 * k) for k, p in enumerate(bent.coordinates))
     )
     assert fold(raised, drive={0: float(linkage_of_sheet(raised).angles[0]) + 0.05}, frames=1).closure < 1e-12
+
+
+def test_a_no_for_rounded_coordinates_says_so():
+    """Nine panels of which two inner corners were moved are rigid, but for what rounding may hide."""
+    sheet = miura(3, 3, np.radians(50))
+    places = [(round(x, 5), round(y, 5)) for x, y in sheet.coordinates]
+    places[5], places[10] = (0.77137, 1.64113), (1.50231, 1.90417)
+    with pytest.raises(UnsolvableError, match=r"no motion begins .*precise to .*exact ones may move"):
+        fold(replace(sheet, coordinates=tuple(places)))
+    with pytest.raises(UnsolvableError, match=r"no motion begins at this pose$"):
+        fold(fan(np.radians([0, 30, 70, 100])))
 
 
 def test_files_hold_every_pose(tmp_path):
