@@ -48,7 +48,8 @@ class Branch:
     Attributes
     ----------
     freedoms : int or None
-        At a general pose of the branch; None where it could not be followed, or singular values do not tell.
+        At a general pose of the branch, to second order: unless proved, there may be fewer where loops have
+        self-stresses together. None where it could not be followed, or second order does not tell.
     certainty : {"proved", "numerical", "not known"}
         Proved: the pose is regular, or the branch is linear in tan(fold / 2). Numerical: followed with closed
         loops. Not known: rates agree to second order, and no motion was found.

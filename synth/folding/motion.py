@@ -205,8 +205,10 @@ def fold(
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
     given = with_all_edges(sheet)
-    sheet = opened(given, mechanism_of_sheet(given))
-    mechanism = mechanism_of_sheet(sheet)
+    mechanism = mechanism_of_sheet(given)
+    sheet = opened(given, mechanism)
+    if sheet is not given:
+        mechanism = mechanism_of_sheet(sheet)
     linkage = linkage_of_sheet(sheet, mechanism)
     closure = ClosureEquations(linkage)
     _check_closed(closure, linkage)

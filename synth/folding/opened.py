@@ -5,6 +5,7 @@ A drawing gives the two sides of a slit one edge, or two that share their ends; 
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -38,7 +39,11 @@ def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
     >>> apart.faces, apart.edges, apart.assignments
     (((0, 1, 2, 3), (6, 7, 4, 5)), ((0, 1), (7, 6)), 'CC')
     """
-    corners = _corners(sheet, mechanism)
+    beside: dict[frozenset[int], list[int]] = {}
+    for face, around in enumerate(sheet.faces):
+        for side in sides_of_face(around):
+            beside.setdefault(frozenset(side), []).append(face)
+    corners = _corners(sheet, mechanism, beside)
     place: dict[tuple[int, int], int] = {}
     of: list[int] = list(range(sheet.vertices))  # the vertex that each was
     seen: set[int] = set()
@@ -53,7 +58,7 @@ def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
     if len(of) == sheet.vertices:
         return sheet
     faces = tuple(tuple(place[vertex, face] for vertex in sheet.faces[face]) for face in range(len(sheet.faces)))
-    edges, letters, angles = _edges(sheet, place)
+    edges, letters, angles = _edges(sheet, place, beside)
     return replace(
         sheet,
         vertices=len(of),
@@ -65,16 +70,12 @@ def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
     )
 
 
-def _corners(sheet: Sheet, mechanism: SheetMechanism) -> nx.Graph:
+def _corners(sheet: Sheet, mechanism: SheetMechanism, beside: Mapping[frozenset[int], Sequence[int]]) -> nx.Graph:
     """Return the corners (vertex, face), joined where hinges or panels join the faces."""
     link_of = {face: link for link, faces in enumerate(mechanism.panels) for face in faces}
     hinges = {frozenset(edge) for pieces in mechanism.pieces.values() for edge in pieces}
-    beside: dict[frozenset[int], list[int]] = {}
     corners = nx.Graph()
-    for face, around in enumerate(sheet.faces):
-        corners.add_nodes_from((vertex, face) for vertex in around)
-        for side in sides_of_face(around):
-            beside.setdefault(frozenset(side), []).append(face)
+    corners.add_nodes_from((vertex, face) for face, around in enumerate(sheet.faces) for vertex in around)
     for edge, faces in beside.items():
         for face, other in pairwise(faces):
             if edge in hinges or link_of[face] == link_of[other]:
@@ -83,13 +84,9 @@ def _corners(sheet: Sheet, mechanism: SheetMechanism) -> nx.Graph:
 
 
 def _edges(
-    sheet: Sheet, place: dict[tuple[int, int], int]
+    sheet: Sheet, place: Mapping[tuple[int, int], int], beside: Mapping[frozenset[int], Sequence[int]]
 ) -> tuple[tuple[Edge, ...], str, tuple[float | None, ...] | None]:
     """Return the edges with their new ends; those that two sides of a cut shared once more, at the end."""
-    beside: dict[frozenset[int], list[int]] = {}
-    for face, around in enumerate(sheet.faces):
-        for side in sides_of_face(around):
-            beside.setdefault(frozenset(side), []).append(face)
     edges, more = [], []
     for number, (a, b) in enumerate(sheet.edges):
         ends = dict.fromkeys((place[a, face], place[b, face]) for face in beside.get(frozenset((a, b)), ()))

@@ -17,6 +17,7 @@ import scipy.linalg
 import scipy.sparse
 
 from graphs.arrays import Floats
+from graphs.loops.loop import Centre
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, PosedLoop
 from synth.folding.newton import TangentSpace
@@ -88,7 +89,7 @@ def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
     axes = linkage.directions[joints] * np.array(loop.signs, dtype=float)[:, None]
     points = linkage.points[joints] - linkage.points[joints].mean(axis=0)
     moments = np.cross(points, axes)
-    if loop.centre.value == "finite":  # about the centre there are none
+    if loop.centre is Centre.FINITE:  # about the centre there are none
         moments = np.zeros_like(moments)
     return np.concatenate([axes, moments], axis=1).T
 
