@@ -5,7 +5,7 @@ Where to begin::
     import synth
 
     mechanism = synth.read("data/patterns/bird-base.fold")  # any file, or an id: "k1:Cr"
-    print(synth.mobility(mechanism))                        # how many freedoms, by which formula, and why
+    print(synth.mobility(mechanism))                        # how it moves, and how that is known
     synth.write(synth.reduce(mechanism).graph, "smaller.json")
     for chain in synth.chains(links=8, dof=1): ...          # all kinematic chains of a size
     synth.map_to_cones([2.1, 1.7, 0.8, 1.5])                # cones on which a four-bar lies
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from enumerate.scd.graphs import scd_graphs as scd_graphs
     from enumerate.strings.panel_strings import strings as strings
     from graphs.answer.identity import identify as identify
-    from graphs.answer.mechanisms import mobility as mobility
     from graphs.answer.reconstruction import reconstruct as reconstruct
     from graphs.convert.by_name import convert as convert
     from graphs.errors import FileError as FileError
@@ -54,6 +53,7 @@ if TYPE_CHECKING:
     from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
     from graphs.reduce.ride_alongs import reduce as reduce
     from synth.folding.motion import fold as fold
+    from synth.folding.verdict.mobility import mobility as mobility
     from synth.guidance.fourbars import four_bars as four_bars
     from synth.guidance.order import analyse_order as analyse_order
     from synth.guidance.orientations import Orientations as Orientations
@@ -70,7 +70,6 @@ else:
             "enumerate.scd.graphs": "count_scd_graphs scd_graphs",
             "enumerate.strings.panel_strings": "strings",
             "graphs.answer.identity": "identify",
-            "graphs.answer.mechanisms": "mobility",
             "graphs.answer.reconstruction": "reconstruct",
             "graphs.convert.by_name": "convert",
             "graphs.errors": "FileError InvariantError SynthedraError UnsolvableError",
@@ -84,6 +83,7 @@ else:
             "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
             "graphs.reduce.ride_alongs": "reduce",
             "synth.folding.motion": "fold",
+            "synth.folding.verdict.mobility": "mobility",
             "synth.guidance.fourbars": "four_bars",
             "synth.guidance.order": "analyse_order",
             "synth.guidance.orientations": "Orientations",

@@ -24,7 +24,7 @@ from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.pose import pose_mobility_of_axes
 
-__all__ = ["mobility"]
+__all__ = ["lying", "mobility"]
 
 _ASSUMED = "a link-joint graph without centres: each face of a drawing was given a finite one, which decides M"
 _ANY_CONE = pi / 4
@@ -127,7 +127,7 @@ def _of_sheet(
     sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | Literal[False] | None, geometry: bool
 ) -> MobilityAnswer:
     """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
-    drawn = _lying(sheet, None if pose is False else pose)
+    drawn = lying(sheet, None if pose is False else pose)
     dual = mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
     answer = MobilityAnswer.of(mobility_report(dual.sc))
     answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
@@ -150,7 +150,7 @@ def _of_sheet(
     return with_pose(answer, drawn, dual, demanded=pose is not None)
 
 
-def _lying(sheet: Sheet, pose: int | None) -> Sheet:
+def lying(sheet: Sheet, pose: int | None) -> Sheet:
     """Return the sheet that is asked about: a frame, or the first that has coordinates."""
     if sheet.frames is None:
         if pose:

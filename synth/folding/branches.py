@@ -31,7 +31,7 @@ Certainty = Literal["proved", "numerical", "not known"]
 
 FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
-_MOST = 4096
+_MOST, _FEW = 4096, 8
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
 _AGREES = 1e-9
@@ -104,7 +104,9 @@ class Branches:
     complete: bool
 
 
-def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, most: int = _MOST) -> Branches:
+def branches_of(
+    linkage: PosedLinkage, closure: ClosureEquations | None = None, most: int = _MOST, zero: float = _AGREES
+) -> Branches:
     """Return the ways in which a linkage can move from its pose.
 
     Parameters
@@ -115,6 +117,8 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
         Of this linkage, where they are at hand.
     most : int, optional
         After so many the search ends.
+    zero : float, optional
+        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
 
     Examples
     --------
@@ -130,7 +134,7 @@ def branches_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
     """
     closure = closure or ClosureEquations(linkage)
     quadrics = quadrics_of(linkage)
-    spaces, complete = rate_spaces(closure, linkage.angles, quadrics, most)
+    spaces, complete = rate_spaces(closure, linkage.angles, quadrics, most, zero)
     whole = rates_at(closure, linkage.angles).shape[1]
     regular = len(spaces) == 1 and not spaces[0].left and spaces[0].basis.shape[1] == whole
     linear = _linear_in_half_tangents(linkage)
@@ -161,7 +165,7 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
     Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
     folded along one straight line, for instance, has creases that lie in one plane.
     """
-    spaces, _ = rate_spaces(closure, angles, quadrics_of(moved(linkage, angles)), _MOST)
+    spaces, _ = rate_spaces(closure, angles, quadrics_of(moved(linkage, angles)), _FEW)
     if len(spaces) != 1 or spaces[0].left:
         return None if spaces else 0
     return int(spaces[0].basis.shape[1])

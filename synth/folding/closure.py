@@ -75,6 +75,25 @@ class _Alike:
         """Of each loop."""
         return 6 if self.centre is Centre.NONE else 3
 
+    def by_axes(self, angles: Floats) -> Floats:
+        """Return derivatives by small motions of the axes, each a rotation and a shift: float[L, e, 6 k]."""
+        loops, k = self.joints.shape
+        steps = turns(self.axes, angles[self.joints] * self.signs)
+        before = _carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
+        rotation, moved = np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3))
+        made = np.empty((loops, 6, k, 6))
+        for i in range(k):
+            point = self.points[:, i, :, None]
+            moved = moved + (rotation @ (point - steps[:, i] @ point))[..., 0]
+            rotation = rotation @ steps[:, i]
+            after = _carried(rotation, moved)
+            made[:, :, i] = before - after
+            before = after
+        twists = made.reshape(loops, 6, 6 * k)
+        if self.centre is Centre.FINITE:
+            return twists[:, :3]
+        return self._in_plane(twists) if self.centre is Centre.INFINITE else twists
+
     def evaluated(self, angles: Floats) -> tuple[Floats, Floats]:
         """Return residuals float[L, e] and derivatives float[L, e, k]."""
         loops, k = self.joints.shape
@@ -139,6 +158,36 @@ class ClosureEquations:
         self.rows = sum(group.equations * len(group.joints) for group in self._groups)
         self._places, self._columns, self._starts = self._pattern()
 
+    def by_axes(self, angles: Floats) -> scipy.sparse.csr_matrix:
+        """Return the derivatives of what does not close by small motions of the axes.
+
+        Where an axis is moved by a rotation w about the origin and a shift v, the loops it is in change as if its
+        links were: exp(t x) becomes g exp(t x) g^-1.
+
+        Parameters
+        ----------
+        angles : float[J]
+            Radians, from the zero of each joint.
+
+        Returns
+        -------
+        sparse float[rows, 6 J]
+            By (w, v) of each joint in turn, at the pose of the linkage.
+        """
+        rows, columns, values, start = [], [], [], 0
+        for group in self._groups:
+            made = group.by_axes(angles - self._zero)
+            row = start + np.arange(made.shape[0] * made.shape[1]).reshape(*made.shape[:2], 1)
+            column = (6 * group.joints[..., None] + np.arange(6)).reshape(made.shape[0], 1, -1)
+            rows.append(np.broadcast_to(row, made.shape).ravel())
+            columns.append(np.broadcast_to(column, made.shape).ravel())
+            values.append(made.ravel())
+            start += made.shape[0] * made.shape[1]
+        if not rows:
+            return scipy.sparse.csr_matrix((0, 6 * self.joints))
+        places = (np.concatenate(rows), np.concatenate(columns))
+        return scipy.sparse.csr_matrix((np.concatenate(values), places), shape=(self.rows, 6 * self.joints))
+
     def _pattern(self) -> tuple[Ints, Ints, Ints]:
         """Return where in a row-by-row matrix each derivative goes, its columns and the starts of its rows."""
         rows, columns, start = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
@@ -177,6 +226,14 @@ class ClosureEquations:
     def error(self, angles: Floats) -> float:
         """Return by how much loops do not close at joint angles, at most."""
         return float(np.abs(self.at(angles)[0]).max(initial=0.0))
+
+
+def _carried(rotations: Floats, shifts: Floats) -> Floats:
+    """Return what motions make of twists (w, v): float[L, 6, 6]."""
+    made = np.zeros((len(rotations), 6, 6))
+    made[:, :3, :3] = made[:, 3:, 3:] = rotations
+    made[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)
+    return made
 
 
 def _grouped(linkage: PosedLinkage) -> list[_Alike]:

@@ -42,12 +42,14 @@ class TangentSpace:
     Parameters
     ----------
     jacobian : sparse float[rows, J]
+    regular : float, optional
+        Part of the largest diagonal entry of the normal equations that is added to all.
     """
 
-    def __init__(self, jacobian: scipy.sparse.csr_matrix) -> None:
+    def __init__(self, jacobian: scipy.sparse.csr_matrix, regular: float = _REGULAR) -> None:
         self._jacobian = jacobian
         self._transposed = jacobian.T.tocsr()
-        self._solve = _solver(jacobian, self._transposed)
+        self._solve = _solver(jacobian, self._transposed, regular)
         self._moves: dict[int, Floats] = {}
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
@@ -89,18 +91,20 @@ class TangentSpace:
         return rates if possible and moves[:, places].max() > _STILL else np.zeros_like(rates)
 
 
-def _solver(jacobian: scipy.sparse.csr_matrix, transposed: scipy.sparse.csr_matrix) -> Callable[[Floats], Floats]:
+def _solver(
+    jacobian: scipy.sparse.csr_matrix, transposed: scipy.sparse.csr_matrix, regular: float
+) -> Callable[[Floats], Floats]:
     """Return what solves the normal equations."""
     if jacobian.shape[1] <= _DENSE:
         full = jacobian.toarray()
         normal = full.T @ full
         diagonal = np.einsum("ii->i", normal)
-        diagonal += _REGULAR * max(float(diagonal.max(initial=0.0)), 1.0)
+        diagonal += regular * max(float(diagonal.max(initial=0.0)), 1.0)
         factor = scipy.linalg.cho_factor(normal, lower=True, overwrite_a=True, check_finite=False)
         return lambda given: np.asarray(scipy.linalg.cho_solve(factor, given, check_finite=False))
     sparse = (transposed @ jacobian).tocsc()
     diagonal = sparse.diagonal()
-    sparse.setdiag(diagonal + _REGULAR * max(float(diagonal.max(initial=0.0)), 1.0))
+    sparse.setdiag(diagonal + regular * max(float(diagonal.max(initial=0.0)), 1.0))
     factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return lambda given: np.asarray(factors.solve(given))
 

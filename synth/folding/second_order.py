@@ -27,7 +27,7 @@ __all__ = ["Quadric", "RateSpace", "quadrics_of", "rate_spaces", "rates_at", "ra
 _ZERO = 1e-9
 """Singular values and eigenvalues below this part of the largest are zero."""
 _CLOSED, _STEPS = 1e-11, 40
-_SAME = 1e-6
+_SAME, _LOST = 1e-6, 10.0
 """Spaces that are this close are one."""
 
 
@@ -107,7 +107,7 @@ def _brackets(twists: Floats) -> Floats:
 
 
 def rate_spaces(
-    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], most: int = 4096
+    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], most: int = 4096, zero: float = _ZERO
 ) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, none part of another, and whether these are all.
 
@@ -119,20 +119,22 @@ def rate_spaces(
     quadrics : sequence of Quadric
     most : int, optional
         After so many the search ends.
+    zero : float, optional
+        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     """
     found: list[RateSpace] = []
     complete = True
-    for number, space in enumerate(_split(rates_at(closure, angles), tuple(quadrics))):
+    for number, space in enumerate(_split(rates_at(closure, angles, zero), tuple(quadrics), zero)):
         if number == most:
             complete = False
             break
-        if not any(_within(space, other) for other in found):
-            found = [*(other for other in found if not _within(other, space)), space]
+        if not any(_within(space, other, zero) for other in found):
+            found = [*(other for other in found if not _within(other, space, zero)), space]
     return found, complete
 
 
 def rates_near(
-    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], wanted: Floats
+    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = _CLOSED
 ) -> Floats | None:
     """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 
@@ -142,6 +144,8 @@ def rates_near(
         As in `rate_spaces`.
     wanted : float[J]
         Rates, or their signs.
+    zero : float, optional
+        What is left of the equations, at most.
 
     Returns
     -------
@@ -161,46 +165,46 @@ def rates_near(
         values = np.concatenate([np.zeros(0), *slopes])
         quadratic = scipy.sparse.csr_matrix((values, (rows, columns)), shape=(len(quadrics), len(rates)))
         off = np.concatenate([jacobian @ rates, quadratic @ rates])
-        if np.abs(off).max(initial=0.0) <= _CLOSED:
+        if np.abs(off).max(initial=0.0) <= zero:
             return rates
         both = scipy.sparse.vstack([jacobian, 2.0 * quadratic], format="csr")
         rates = rates + TangentSpace(both).step(off)
     return None
 
 
-def rates_at(closure: ClosureEquations, angles: Floats) -> Floats:
+def rates_at(closure: ClosureEquations, angles: Floats, zero: float = _ZERO) -> Floats:
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns."""
     _, jacobian = closure.at(angles)
-    return np.asarray(scipy.linalg.null_space(jacobian.toarray(), rcond=_ZERO))
+    return np.asarray(scipy.linalg.null_space(jacobian.toarray(), rcond=zero))
 
 
-def _within(space: RateSpace, other: RateSpace) -> bool:
+def _within(space: RateSpace, other: RateSpace, zero: float) -> bool:
     """Tell whether all rates of one space are those of another."""
     if space.basis.shape[1] > other.basis.shape[1]:
         return False
     outside = space.basis - other.basis @ (other.basis.T @ space.basis)
-    if np.abs(outside).max(initial=0.0) > _SAME:
+    if np.abs(outside).max(initial=0.0) > max(_SAME, _LOST * zero):
         return False
     for theirs in other.left:
-        if not any(mine is theirs for mine in space.left) and _on(space.basis, theirs) is not None:
+        if not any(mine is theirs for mine in space.left) and _on(space.basis, theirs, zero) is not None:
             return False
     return True
 
 
-def _split(basis: Floats, quadrics: tuple[Quadric, ...]) -> Iterator[RateSpace]:
+def _split(basis: Floats, quadrics: tuple[Quadric, ...], zero: float) -> Iterator[RateSpace]:
     """Yield the spaces of solutions within a space, depth first."""
-    basis, left, factors = _simplified(basis, quadrics)
+    basis, left, factors = _simplified(basis, quadrics, zero)
     if not basis.shape[1]:
         return
     if factors is None:
         yield RateSpace(basis, left)
         return
     for normal in factors:
-        yield from _split(_across(basis, normal), left)
+        yield from _split(_across(basis, normal), left, zero)
 
 
 def _simplified(
-    basis: Floats, quadrics: tuple[Quadric, ...]
+    basis: Floats, quadrics: tuple[Quadric, ...], zero: float
 ) -> tuple[Floats, tuple[Quadric, ...], tuple[Floats, Floats] | None]:
     """Use up the equations that are linear on a space; return what is left, and one that is a product.
 
@@ -210,7 +214,7 @@ def _simplified(
     while True:
         left, product, normals = [], None, None
         for quadric in quadrics:
-            kind = _on(basis, quadric)
+            kind = _on(basis, quadric, zero)
             if isinstance(kind, _Linear):
                 normals = kind.normals
                 break
@@ -235,15 +239,15 @@ class _Product:
     normals: tuple[Floats, Floats]
 
 
-def _on(basis: Floats, quadric: Quadric) -> _Linear | _Product | str | None:
+def _on(basis: Floats, quadric: Quadric, zero: float) -> _Linear | _Product | str | None:
     """Return what an equation is on a space: linear, a product, quadratic, or None where it always holds."""
     local = basis[list(quadric.joints)]
     form = local.T @ quadric.form @ local
     size = float(np.abs(quadric.form).max(initial=0.0))
-    if np.abs(form).max(initial=0.0) <= _ZERO * size:
+    if np.abs(form).max(initial=0.0) <= zero * size:
         return None
     values, vectors = np.linalg.eigh(form)
-    there = np.abs(values) > _ZERO * np.abs(values).max()
+    there = np.abs(values) > zero * np.abs(values).max()
     values, vectors = values[there], vectors[:, there]
     if (values > 0).all() or (values < 0).all():
         return _Linear(vectors)

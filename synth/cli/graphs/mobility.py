@@ -15,7 +15,7 @@ from synth.cli.output import about, console, entries, plain, print_json, table
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from graphs.answer.report import MobilityAnswer
+    from synth.folding.verdict.mobility import JudgedMobility
 
 __all__ = ["mobility"]
 
@@ -38,6 +38,11 @@ _LONGEST_PATH = 4096
     help="Take all loops round holes and cuts of a crease pattern for spatial, wherever their axes meet.",
 )
 @click.option("--no-pose", is_flag=True, help="Leave out the freedoms at the coordinates.")
+@click.option(
+    "--motion/--no-motion",
+    default=None,
+    help="Look for finite motions from the coordinates (by default, of what is not too large).",
+)
 def mobility(
     files: tuple[str, ...],
     as_json: bool,
@@ -46,34 +51,43 @@ def mobility(
     pose: int | None,
     no_pose: bool,
     no_geometry: bool,
+    motion: bool | None,
 ) -> None:
-    """Say how many degrees of freedom a mechanism has, and which formula tells.
+    """Say how a mechanism moves, with how many degrees of freedom, and how that is known.
 
     FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
     (.fold, .svg, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
     gives the whole report, several give a table.
 
-    Counts are formulas. Beside them stand the exact generic mobility, and the freedoms of a crease pattern as it
-    lies. By --pose all numbers are those of another frame (0 is the key frame).
+    The verdict comes first: whether a crease pattern folds from its coordinates, with how many freedoms, which
+    creases cannot move; of a type without coordinates, what it does in general position. What supports it follows:
+    counts, which are formulas, the exact generic mobility, and the infinitesimal freedoms of a crease pattern as
+    it lies. By --pose all numbers are those of another frame (0 is the key frame).
 
     \b
     Example:
       synth mobility data/wiener/fortune-teller.json
+      synth mobility data/patterns/bird-base.fold
     """
-    from graphs.answer.mechanisms import mobility as asked
     from graphs.errors import FileError
+    from synth.folding.verdict.mobility import mobility as asked
 
     if no_pose and pose is not None:
         raise click.UsageError("--pose names a pose that --no-pose leaves out")
     lies: int | Literal[False] | None = False if no_pose else pose
     failures: list[str] = []
-    answers: list[tuple[str, MobilityAnswer]] = []
+    answers: list[tuple[str, JudgedMobility]] = []
     with _objects_stay():
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
                     answer = asked(
-                        entry.mechanism, exact=exact, hinge_flat=hinge_flat, pose=lies, geometry=not no_geometry
+                        entry.mechanism,
+                        exact=exact,
+                        hinge_flat=hinge_flat,
+                        pose=lies,
+                        geometry=not no_geometry,
+                        motion=motion,
                     )
                     answers.append((entry.label, answer))
             except FileError as error:
@@ -100,17 +114,20 @@ def _objects_stay() -> Iterator[None]:
         gc.enable()
 
 
-def _print_answer(label: str, answer: MobilityAnswer) -> None:
+def _print_answer(label: str, answer: JudgedMobility) -> None:
     out = console()
     out.print(plain(label, _LONGEST_PATH), style="bold")
     for block in answer.blocks():
         out.print(block)
 
 
-def _print_table(out: Console, answers: list[tuple[str, MobilityAnswer]], failed: int) -> None:
+def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed: int) -> None:
     """Print a line a mechanism, with totals; one file alone tells its notes in full."""
     rows = table(
-        "file", "class", *(numbers := ("N", "J", "L", "centres", "M", "exact", "pose", "notes")), numbers=numbers
+        "file",
+        "class",
+        *(numbers := ("freedoms", "N", "J", "L", "centres", "M", "exact", "pose", "notes")),
+        numbers=numbers,
     )
     common = set.intersection(*(set(answer.warnings) for _, answer in answers))
     for label, answer in answers:
@@ -118,6 +135,7 @@ def _print_table(out: Console, answers: list[tuple[str, MobilityAnswer]], failed
         rows.add_row(
             plain(label, _LONGEST_PATH),
             answer.mechanism_class,
+            plain(None if answer.verdict is None else answer.verdict.freedoms),
             *map(plain, (answer.links, answer.joints, answer.loops, answer.centres, answer.mobility)),
             plain(None if answer.exact is None else answer.exact.mobility),
             plain(None if answer.pose is None else answer.pose.dof),

@@ -1,0 +1,167 @@
+"""Rounded coordinates of a crease pattern moved, within their precision, to ones that fold.
+
+Sheets of quadrilaterals fold because their geometry is special, and rounding takes that away: as it is written
+such a pattern is rigid. Where rates would agree but for what the coordinates cannot tell, vertices are moved to
+where they do. Theory: docs/theory/mending.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.duality import SheetMechanism
+from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
+from graphs.mechanism.sheet import Sheet
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.mending.angles import MeantAngles
+from synth.folding.mending.fitting import Fitting
+from synth.folding.mending.places import VertexPlaces
+from synth.folding.second_order import quadrics_of, rate_spaces, rates_near
+
+__all__ = ["Mended", "flattened", "mended", "nearly"]
+
+EXACT = 1e-12
+"""Coordinates that are precise to this part of the extent are taken at their word."""
+
+_FARTHEST = 4.0
+"""Vertices are moved by this times the precision at most."""
+
+_BLURRED, _COARSEST = 30.0, 3e-3
+"""Rates agree if they do to this times the precision; to no less than the second."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """A crease pattern whose vertices were moved.
+
+    Attributes
+    ----------
+    sheet : Sheet
+    moved : float
+        Largest change of a coordinate, in units of the extent.
+    precision : Precision
+        Of the coordinates as they were.
+    why : str
+        What holds now and did not.
+    """
+
+    sheet: Sheet
+    moved: float
+    precision: Precision
+    why: str
+
+    def __str__(self) -> str:
+        precise = f"precise to {self.precision.size:.1g} ({self.precision.source})"
+        return f"vertices moved by up to {self.moved:.1g} of the extent, {precise}: {self.why}"
+
+
+def flattened(sheet: Sheet) -> Mended | None:
+    """Return a sheet that is meant to be flat with its vertices in one plane; None if it is not, or is there.
+
+    Examples
+    --------
+    >>> places = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1e-7), (0.0, 1.0, 0.0))
+    >>> book = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), places)
+    >>> print(flattened(book).why)
+    they lie in one plane
+    """
+    if sheet.coordinates is None or len(sheet.coordinates[0]) < 3:
+        return None
+    points, precision = np.asarray(sheet.coordinates, dtype=float), precision_of_sheet(sheet)
+    off = off_plane(points)
+    if not EXACT / 1e3 < off <= _FARTHEST * precision.size:
+        return None
+    middle = points.mean(axis=0)
+    normal = np.linalg.svd(points - middle, full_matrices=False)[2][-1]
+    flat = points - ((points - middle) @ normal)[:, None] * normal
+    return Mended(_placed(sheet, flat), off, precision, "they lie in one plane")
+
+
+def nearly(precision: Precision) -> float:
+    """Return what part of the largest a singular value or eigenvalue is zero below, by rounded coordinates."""
+    return min(_COARSEST, _BLURRED * precision.size)
+
+
+def mended(
+    sheet: Sheet,
+    mechanism: SheetMechanism,
+    linkage: PosedLinkage,
+    wanted: Floats,
+    moves: Callable[[Sheet], bool],
+    most: int | None,
+) -> Mended | None:
+    """Move the vertices of a sheet that ought to move, within their precision, so that it does.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates, closed at its pose.
+    mechanism : SheetMechanism
+        Of the sheet.
+    linkage : PosedLinkage
+        Of both.
+    wanted : float[J]
+        Rates, or signs of them, that are to be a motion above others.
+    moves : callable
+        Tells whether a sheet does.
+    most : int or None
+        So many spaces of rates are tried; None for a linkage that is too large to split its rates into spaces.
+
+    Returns
+    -------
+    Mended or None
+        None if no rates nearly agree, or vertices had to be moved too far.
+    """
+    precision = precision_of_sheet(sheet)
+    if precision.size <= EXACT:
+        return None
+    places = VertexPlaces(sheet, mechanism, linkage)
+    farthest = _FARTHEST * precision.size
+    meant = MeantAngles(places, precision.size)
+    for angles in (meant, MeantAngles(places, 0.0)) if len(meant) else (meant,):
+        fitting = Fitting(places, angles, linkage.angles)
+        if not fitting.at_the_pose() or fitting.moved > farthest:
+            continue
+        now = _placed(sheet, fitting.corners * linkage.extent + linkage.middle)
+        if moves(now):
+            why = "angles that nearly agree are equal" if len(angles) else "panels are plane"
+            return Mended(now, fitting.moved, precision, why)
+        for rates in _nearly_agreeing(linkage, precision, wanted, most):
+            if not fitting.along(rates, farthest):
+                continue
+            now = _placed(sheet, fitting.corners * linkage.extent + linkage.middle)
+            if moves(now):
+                return Mended(now, fitting.moved, precision, "loops close along a motion")
+    return None
+
+
+def _nearly_agreeing(
+    linkage: PosedLinkage, precision: Precision, wanted: Floats, most: int | None
+) -> Iterator[Floats]:
+    """Yield rates that agree but for what the coordinates cannot tell, those nearest to wanted ones first."""
+    closure, quadrics = ClosureEquations(linkage), quadrics_of(linkage)
+    if most is None:
+        near = rates_near(closure, linkage.angles, quadrics, wanted, nearly(precision))
+        if near is not None:
+            yield near
+        return
+    spaces, _ = rate_spaces(closure, linkage.angles, quadrics, most, nearly(precision))
+    found = []
+    for space in spaces:
+        rates = space.basis @ (space.basis.T @ wanted)
+        if not rates.any():
+            rates = space.basis.sum(axis=1)
+        found.append(rates / np.abs(rates).max())
+    yield from sorted(found, key=lambda rates: -float(np.sign(rates) @ wanted))
+
+
+def _placed(sheet: Sheet, corners: Floats) -> Sheet:
+    """Return a sheet with its vertices at float[V, 3]."""
+    assert sheet.coordinates is not None
+    size = len(sheet.coordinates[0])
+    return replace(sheet, coordinates=tuple(map(tuple, corners[:, :size].tolist())))

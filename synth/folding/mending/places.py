@@ -1,0 +1,141 @@
+"""A linkage as a function of where the vertices of its crease pattern are.
+
+Theory: docs/theory/mending.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy.sparse
+
+from graphs.arrays import Floats, Ints
+from graphs.convert.duality import SheetMechanism
+from graphs.loops.loop import Centre
+from graphs.mechanism.sheet import Sheet
+from synth.folding.linkage import PosedLinkage, PosedLoop
+
+__all__ = ["VertexPlaces"]
+
+_FLAT = 1e-12
+
+
+class VertexPlaces:
+    """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept plane.
+
+    Lengths are those of the linkage: in units of the extent, about the middle.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates.
+    mechanism : SheetMechanism
+        Of the sheet.
+    linkage : PosedLinkage
+        Of both.
+
+    Attributes
+    ----------
+    given : float[V, 3]
+        As they are written.
+    ends : int[J, 2]
+        Vertices at the ends of each crease.
+    along : float[2 or 3, 3]
+        Directions in which vertices may be moved.
+    unknowns : int
+        So many for each vertex.
+    """
+
+    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
+        assert sheet.coordinates is not None
+        corners = np.zeros((sheet.vertices, 3))
+        corners[:, : len(sheet.coordinates[0])] = sheet.coordinates
+        self.given: Floats = (corners - linkage.middle) / linkage.extent
+        self.loops = linkage.loops
+        self._linkage = replace(linkage, loops=tuple(_with_all_equations(loop) for loop in linkage.loops))
+        self.ends: Ints = np.array([mechanism.hinges[joint] for joint in linkage.graph.joints])  # type: ignore[index]
+        ways = ((self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]]) * linkage.directions).sum(axis=1)
+        self._ways: Floats = np.sign(ways)
+        self.along = _plane_of(self.given)
+        self._panels = [] if len(self.along) == 2 else [panel for panel in sheet.faces if len(panel) > 3]
+        self.unknowns = len(self.given) * len(self.along)
+
+    def moved(self, by: Floats) -> Floats:
+        """Return the vertices, moved by unknowns float[unknowns]: float[V, 3]."""
+        return np.asarray(self.given + by.reshape(len(self.given), -1) @ self.along)
+
+    def linkage(self, corners: Floats) -> PosedLinkage:
+        """Return the linkage with vertices at float[V, 3]; loops with parallel axes close with six equations."""
+        ends = corners[self.ends]
+        along = ends[:, 1] - ends[:, 0]
+        directions = along / np.linalg.norm(along, axis=1, keepdims=True) * self._ways[:, None]
+        return replace(self._linkage, points=ends.mean(axis=1), directions=directions)
+
+    def motions_of_axes(self, corners: Floats) -> scipy.sparse.csr_matrix:
+        """Return how each axis turns and shifts with the unknowns: sparse float[6 J, unknowns]."""
+        ends = corners[self.ends]
+        along = ends[:, 1] - ends[:, 0]
+        turn = _crossing(along / (along**2).sum(axis=1, keepdims=True))  # w = along x (far - near) / length^2
+        shift = _crossing(ends.mean(axis=1)) @ turn  # v = (near + far) / 2 - w x middle
+        halves = np.broadcast_to(np.eye(3) / 2.0, turn.shape)
+        near = np.concatenate([-turn, halves - shift], axis=1) @ self.along.T
+        far = np.concatenate([turn, halves + shift], axis=1) @ self.along.T
+        joints, free = len(self.ends), len(self.along)
+        rows = np.broadcast_to((6 * np.arange(joints)[:, None] + np.arange(6))[..., None], near.shape)
+        columns = [
+            np.broadcast_to((free * self.ends[:, end, None] + np.arange(free))[:, None], near.shape)
+            for end in (0, 1)
+        ]
+        places = (np.concatenate([rows.ravel()] * 2), np.concatenate([part.ravel() for part in columns]))
+        values = np.concatenate([near.ravel(), far.ravel()])
+        return scipy.sparse.csr_matrix((values, places), shape=(6 * joints, self.unknowns))
+
+    def off_planes(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return how far vertices are off the planes of their panels, with the derivatives by the unknowns."""
+        rows: list[Floats] = []
+        off: list[Floats] = []
+        places: list[tuple[Ints, int]] = []
+        for panel in self._panels:
+            around = np.array(panel)
+            middle = corners[around] - corners[around].mean(axis=0)
+            *inside, normal = np.linalg.svd(middle, full_matrices=False)[2]
+            here = middle @ normal
+            # to first order the best plane takes up what is linear along the panel
+            linear = np.column_stack([np.ones(len(around)), middle @ np.transpose(inside)])
+            across = np.eye(len(around)) - _onto(linear)
+            off.append(across @ here)
+            rows.append(np.einsum("ij,c->ijc", across, normal).reshape(len(around), -1))
+            places.append((around, len(around)))
+        total = sum(size for _, size in places)
+        matrix = scipy.sparse.lil_matrix((total, self.unknowns))
+        start = 0
+        for (around, size), values in zip(places, rows, strict=True):
+            columns = (3 * around[:, None] + np.arange(3)).ravel()
+            matrix[start : start + size, columns] = values
+            start += size
+        return np.concatenate([np.zeros(0), *off]), matrix.tocsr()
+
+
+def _with_all_equations(loop: PosedLoop) -> PosedLoop:
+    """Return a loop whose axes need not stay parallel."""
+    return replace(loop, centre=Centre.NONE) if loop.centre is Centre.INFINITE else loop
+
+
+def _plane_of(points: Floats) -> Floats:
+    """Return two directions of the plane of flat points, or three of space: float[d, 3]."""
+    sizes, directions = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[1:]
+    flat = len(sizes) < 3 or sizes[2] <= _FLAT * sizes[0]
+    return np.asarray(directions[:2]) if flat else np.eye(3)
+
+
+def _crossing(vectors: Floats) -> Floats:
+    """Return the matrices of cross products with vectors: float[n, 3, 3]."""
+    return np.asarray(np.cross(vectors[:, None, :], np.eye(3)).transpose(0, 2, 1))
+
+
+def _onto(columns: Floats) -> Floats:
+    """Return the projection onto columns."""
+    basis, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+    kept = basis[:, sizes > 1e-9 * sizes.max()]
+    return np.asarray(kept @ kept.T)

@@ -1,0 +1,147 @@
+"""A crease pattern made ready to move: opened along its cuts, in its plane, and mended where rounding stopped it.
+
+Theory: docs/theory/folding.md, docs/theory/mending.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.errors import UnsolvableError
+from graphs.mechanism.precision import precision_of_sheet
+from graphs.mechanism.sheet import Sheet, with_all_edges
+from synth.folding.branches import Branches, branches_of
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage, linkage_of_sheet
+from synth.folding.mending.mended import EXACT, Mended, flattened, mended, nearly
+from synth.folding.newton import CLOSED
+from synth.folding.opened import opened
+from synth.folding.second_order import quadrics_of, rate_spaces, rates_near
+
+__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Prepared", "prepared"]
+
+MOST_JOINTS = 120
+"""Of larger linkages the branches are not looked for: there may be twice as many for each two panels more."""
+
+MOST_BRANCHES = 128
+"""So many are looked for at most."""
+
+_FOLDED = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """A crease pattern and what moves in it.
+
+    Attributes
+    ----------
+    sheet : Sheet
+        With vertices of their own for what cuts part.
+    mechanism : SheetMechanism
+    linkage : PosedLinkage
+    closure : ClosureEquations
+    branches : Branches or None
+        The ways to move from the pose; None for a linkage that is too large.
+    repairs : tuple of Mended
+        What was done to the coordinates.
+    """
+
+    sheet: Sheet
+    mechanism: SheetMechanism
+    linkage: PosedLinkage
+    closure: ClosureEquations
+    branches: Branches | None
+    repairs: tuple[Mended, ...]
+
+    @property
+    def marks(self) -> Floats:
+        """1 for valleys and -1 for mountains, as marked; without marks, as they are folded, or all 0."""
+        return marks_of(self.sheet, self.linkage)
+
+
+def marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
+    """Return 1 for joints that are marked as valleys and -1 for mountains; without marks as they are folded."""
+    letters = {joint: sheet.assignments[joint] for joint in linkage.graph.joints if joint < len(sheet.edges)}  # type: ignore[operator,index]
+    marks = np.array([{"V": 1.0, "M": -1.0}.get(letters.get(joint, "U"), 0.0) for joint in linkage.graph.joints])
+    if marks.any():
+        return marks
+    return np.where(np.abs(linkage.angles) > _FOLDED, np.sign(linkage.angles), 0.0)
+
+
+def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
+    """Make a crease pattern ready to move.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates.
+    hinge_flat : bool, optional
+        Make hinges of flat (F) edges too.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, or panels do not fit at its pose.
+    InvariantError
+        If a crease has no length.
+
+    Examples
+    --------
+    >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1))
+    >>> pattern = prepared(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), corners))
+    >>> pattern.linkage, pattern.branches.regular
+    (<PosedLinkage: 2 links, 1 joints, 0 loops>, True)
+    """
+    given = with_all_edges(sheet)
+    flat = flattened(given)
+    repairs = [] if flat is None else [flat]
+    given = given if flat is None else flat.sheet
+    mechanism = mechanism_of_sheet(given, hinge_flat=hinge_flat)
+    apart = opened(given, mechanism)
+    if apart is not given:
+        mechanism = mechanism_of_sheet(apart, hinge_flat=hinge_flat)
+    linkage = linkage_of_sheet(apart, mechanism)
+    closure = ClosureEquations(linkage)
+    error = closure.error(linkage.angles)
+    if error > CLOSED:
+        told = f"loops miss closing by {error:.1e}, expected {CLOSED:.0e}"
+        raise UnsolvableError(f"the panels do not fit at the pose of the file: {told}")
+    repair = _repair(apart, mechanism, linkage)
+    if repair is not None:
+        apart, linkage = repair.sheet, linkage_of_sheet(repair.sheet, mechanism)
+        closure = ClosureEquations(linkage)
+        repairs.append(repair)
+    small = len(linkage.graph.joints) <= MOST_JOINTS
+    branches = branches_of(linkage, closure, MOST_BRANCHES) if small else None
+    return Prepared(apart, mechanism, linkage, closure, branches, tuple(repairs))
+
+
+def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> Mended | None:
+    """Return the sheet with its vertices moved, if it moves in fewer ways as it is written than it nearly does."""
+    precision = precision_of_sheet(sheet)
+    if precision.size <= EXACT:
+        return None
+    wanted = marks_of(sheet, linkage)
+    wanted = wanted if wanted.any() else np.ones(len(wanted))
+    most = MOST_BRANCHES if len(linkage.graph.joints) <= MOST_JOINTS else None
+    nearly_all = () if most is None else _ways(linkage, nearly(precision))
+
+    def moves(linkage: PosedLinkage) -> bool:
+        if most is not None:
+            return _ways(linkage) >= nearly_all
+        return rates_near(ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), wanted) is not None
+
+    if moves(linkage):
+        return None
+    return mended(sheet, mechanism, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
+
+
+def _ways(linkage: PosedLinkage, zero: float | None = None) -> tuple[int, ...]:
+    """Return the dimensions of the spaces of rates that agree, the largest first."""
+    limits = (MOST_BRANCHES,) if zero is None else (MOST_BRANCHES, zero)
+    spaces, _ = rate_spaces(ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), *limits)
+    return tuple(sorted((space.basis.shape[1] for space in spaces), reverse=True))

@@ -1,0 +1,122 @@
+"""Verdicts in a sentence."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+
+from graphs.errors import shown
+from graphs.ids import JointId
+from graphs.mechanism.sc import SCGraph
+from synth.folding.branches import Certainty
+from synth.folding.linkage import PosedLinkage
+from synth.folding.verdict.verdict import Way
+
+__all__ = ["Told", "flaps_of", "listed", "text_of_motion"]
+
+_MOST = 12
+_HOW = {
+    "proved": "proved",
+    "numerical": "followed to 10 degrees, loops closed to 1e-12",
+    "not known": "not known for certain",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What a sentence about motion is made of.
+
+    Attributes
+    ----------
+    linkage : PosedLinkage
+    ways : tuple of Way
+    flat : bool
+    marked : bool or None
+        Whether a way has all mountains and valleys as they are marked; None where nothing is.
+    complete : bool
+        Whether all ways were looked for.
+    generic : int or None
+        The mobility of the type.
+    stiff : tuple of joint ids
+    """
+
+    linkage: PosedLinkage
+    ways: Sequence[Way]
+    flat: bool
+    marked: bool | None
+    complete: bool
+    generic: int | None
+    stiff: Sequence[JointId]
+
+
+def flaps_of(graph: SCGraph) -> list[JointId]:
+    """Return the joints that are in no loop: whatever hangs on one turns freely."""
+    pairs = nx.Graph()
+    pairs.add_nodes_from(graph.nodes)
+    between: dict[frozenset[object], list[JointId]] = {}
+    for joint, ends in graph.joints.items():
+        between.setdefault(frozenset(ends), []).append(joint)
+        pairs.add_edge(*ends)
+    bridges = {frozenset(pair) for pair in nx.bridges(pairs)}
+    return [joints[0] for pair, joints in between.items() if pair in bridges and len(joints) == 1]
+
+
+def text_of_motion(told: Told, freedoms: int | None, certainty: Certainty) -> str:
+    """Return the sentence about a crease pattern."""
+    flaps = flaps_of(told.linkage.graph)
+    if freedoms is None:
+        return f"No motion found, and none excluded{_generally(told, freedoms)}."
+    if not freedoms:
+        rigid = "Rigid: nothing moves" if certainty == "proved" else "No motion found; not proved rigid"
+        return f"{rigid}{_generally(told, freedoms)}."
+    if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.linkage.graph.joints) - len(flaps):
+        hang = "freedom is the flap" if len(flaps) == 1 else "freedoms are the flaps"
+        if told.stiff:
+            stiff = f"joints {listed(told.stiff)} cannot move"
+            return f"Rigid but for flaps: {stiff}; {len(flaps)} {hang} {listed(flaps)}."
+    start = "flat" if told.flat else "its pose"
+    parts = [f"Folds with {freedoms} {_freedom(freedoms)} from {start}{_ways(told)}"]
+    if told.stiff:
+        parts.append(f"joint{'s' * (len(told.stiff) > 1)} {listed(told.stiff)} cannot move")
+    if certainty != "proved":
+        parts.append(_HOW[certainty])
+    return "; ".join(parts) + _generally(told, freedoms) + "."
+
+
+def listed(joints: Sequence[JointId]) -> str:
+    """Return ids in a row, not too many."""
+    names = [shown(joint) for joint in joints[:_MOST]]
+    more = f" and {len(joints) - _MOST} more" if len(joints) > _MOST else ""
+    return ", ".join(names) + more
+
+
+def _freedom(number: int) -> str:
+    return "freedom" if number == 1 else "freedoms"
+
+
+def _ways(told: Told) -> str:
+    marked = {True: " as it is marked", False: ", though on no way as it is marked", None: ""}[told.marked]
+    if len(told.ways) < 2:
+        return marked
+    kinds = Counter(way.freedoms for way in told.ways)
+    least = "" if told.complete else "at least "
+    if len(kinds) == 1:
+        return f"{marked}, in {least}{len(told.ways)} ways"
+    each = ", ".join(
+        f"{count} with {'not known' if kind is None else kind}"
+        for kind, count in sorted(kinds.items(), key=lambda item: -(item[0] or 0))
+    )
+    return f"{marked} ({least}{len(told.ways)} ways: {each})"
+
+
+def _generally(told: Told, freedoms: int | None) -> str:
+    """Return how the type compares in general position."""
+    generic = told.generic
+    if generic is None or freedoms is None or freedoms <= generic or freedoms <= 0:
+        return ""
+    would = "would be rigid" if generic <= 0 else f"has {generic}"
+    special = f"its geometry is special, h = {freedoms - generic}"
+    return f"; in general position this type {would} (M = {generic}): {special}"
