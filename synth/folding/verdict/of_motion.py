@@ -44,7 +44,7 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
     --------
     >>> from graphs.mechanism.sheet import Sheet
     >>> from synth.folding.prepared import prepared
-    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, 0), (-.5, -.7))
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
     >>> print(verdict_of_motion(prepared(Sheet(5, (), "", faces, corners)), 1))
     Folds with 1 freedom from flat, in 2 ways.
