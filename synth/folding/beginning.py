@@ -11,18 +11,20 @@ import scipy.linalg
 from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from synth.folding.branches import Branch, Branches, rates_towards
+from synth.folding.branches import Branch, Branches
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
-from synth.folding.second_order import RateSpace, quadrics_of, rates_near
+from synth.folding.second_order import RateSpace, rates_near
+from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.sampling import rates_towards
 
-__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning"]
+__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "MOST_SECONDS", "Wanted", "beginning"]
 
-MOST_JOINTS = 120
-"""Of larger linkages the branches are not looked for: there may be twice as many for each two panels more."""
+MOST_JOINTS = 600
+"""Of larger linkages the branches are not looked for: matrices are dense."""
 
-MOST_BRANCHES = 128
-"""So many are looked for at most."""
+MOST_BRANCHES, MOST_SECONDS = 128, 20.0
+"""So many are looked for at most, and for so long: there may be twice as many for each row of panels more."""
 
 _STILL = 1e-9
 
@@ -82,10 +84,21 @@ def beginning(
             )
         return None, near
     if not found.branches:
-        raise UnsolvableError(f"nothing folds: no motion begins at this pose{wanted.doubt}")
+        raise UnsolvableError(f"{_how_surely(found)}: no motion begins at this pose{wanted.doubt}")
     number = _chosen(found, wanted)
     taken = found.branches[number]
     return None if found.regular else number, _rates(taken, wanted)
+
+
+def _how_surely(found: Branches) -> str:
+    """Return how it is known that nothing folds."""
+    told = {
+        "no rates": "no rates close even to first order",
+        "definite stress": "a self-stress is definite on all flexes",
+        "cases": "no rates agree to second order",
+    }
+    proof = found.rigidity.proof if found.rigidity is not None else None
+    return f"nothing folds, which is proved ({told[proof]})" if proof else "nothing that folds was found"
 
 
 def _chosen(found: Branches, wanted: Wanted) -> int:

@@ -11,7 +11,8 @@ from synth.folding.branches import branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_sheet
 from synth.folding.newton import corrected
-from synth.folding.second_order import quadrics_of, rates_near
+from synth.folding.second_order import rates_near
+from synth.folding.singular.quadrics import quadrics_of
 
 
 def branches(sheet):

@@ -1,0 +1,196 @@
+"""Branches followed from a singular pose: rates to begin with, a pose some way along, the freedoms there.
+
+On many branches joints are still: three creases of a vertex that lies flat while a line through it folds. Their
+closure equations are squares there, which Newton's method approaches slowly, so these joints are locked; where
+nothing is found so, they are freed. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import islice
+from math import radians, tan
+
+import numpy as np
+import scipy.sparse
+
+from graphs.arrays import Floats
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.path import PathOptions, driven_path
+from synth.folding.placement import moved
+from synth.folding.second_order import RateSpace, largest_only, rates_at, spaces_within
+from synth.folding.singular.quadrics import Quadric, all_quadrics
+
+__all__ = ["FOLLOWED", "Followed", "followed", "freedoms_at", "general_rates", "in_half_tangents", "rates_towards"]
+
+FOLLOWED = radians(10.0)
+"""How far each branch is followed, radians of the joint that moves most."""
+_STARTS = 60
+"""Starts of the search for rates on which equations are left, for each pattern of signs."""
+_AGREES = 1e-9
+_STILL = 1e-7
+_NEWTON, _ROUNDED = 30, 1e-14
+_MOVED, _SHORT_OF = 1e-3, 0.7
+"""A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
+_SPACES = 64
+"""At a pose of a branch, after so many spaces of rates second order is said not to tell."""
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """How far one branch was followed.
+
+    Attributes
+    ----------
+    freedoms : int or None
+        At the end, to second order; None where no motion was found or second order does not tell.
+    sample : float[J]
+        Joint angles at the end, radians.
+    error : float
+        By how much loops do not close there.
+    far : float
+        How far the joint that moves most has moved there, radians; 0 where no motion was found.
+    """
+
+    freedoms: int | None
+    sample: Floats
+    error: float
+    far: float
+
+
+class _Locked(ClosureEquations):
+    """Closure equations of a linkage some joints of which are locked: its derivatives by them are zero."""
+
+    def __init__(self, linkage: PosedLinkage, still: tuple[int, ...]) -> None:
+        super().__init__(linkage)
+        self._free = np.ones(self.joints)
+        self._free[list(still)] = 0.0
+
+    def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return what does not close at joint angles, and its derivatives by those that are free."""
+        residual, jacobian = super().at(angles)
+        jacobian.data *= self._free[jacobian.indices]
+        return residual, jacobian
+
+
+def followed(
+    linkage: PosedLinkage, closure: ClosureEquations, rates: Floats, still: tuple[int, ...] = ()
+) -> Followed:
+    """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    closure : ClosureEquations
+        Of this linkage.
+    rates : float[J]
+        To begin with, to second order.
+    still : tuple of int
+        Places of the joints that do not begin to move on it.
+    """
+    ways = [_Locked(linkage, still), closure] if still else [closure]
+    for way in ways:
+        end, error = _walked(linkage.angles, way, rates)
+        far = float(np.abs(end - linkage.angles).max())
+        if far > _MOVED:
+            break
+    else:
+        return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
+    return Followed(freedoms_at(linkage, closure, end), end, error, far)
+
+
+def _walked(start: Floats, closure: ClosureEquations, rates: Floats) -> tuple[Floats, float]:
+    """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
+    driver = int(np.abs(rates).argmax())
+    options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
+    path = driven_path(closure, start, [driver], start[driver] + goal, options=options)
+    reached = float(path.angles[-1][driver] - start[driver])
+    if path.stopped and abs(reached) > _MOVED:  # the end of a path may be no general pose
+        path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)
+    return path.angles[-1], float(path.errors[-1])
+
+
+def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> Followed:
+    """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
+    end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
+    return Followed(space.basis.shape[1], end, closure.error(end), FOLLOWED)
+
+
+def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
+
+    Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
+    folded along one straight line, for instance, has creases that lie in one plane.
+    """
+    tangent = rates_at(closure, angles)
+    quadrics = all_quadrics(moved(linkage, angles), tangent)
+    spaces = largest_only(list(islice(spaces_within(tangent, quadrics), _SPACES)))
+    if len(spaces) != 1 or spaces[0].left:
+        return None if spaces else 0
+    return int(spaces[0].basis.shape[1])
+
+
+def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
+    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
+    start = space.basis.T @ wanted
+    if not start.any():
+        return np.zeros_like(wanted)
+    rates = _on_equations(space, np.asarray(start)) if space.left else space.basis @ start
+    return np.zeros_like(wanted) if rates is None else np.asarray(rates / np.abs(rates).max())
+
+
+def general_rates(space: RateSpace) -> list[Floats]:
+    """Return general rates of a space, one for each part that its equations leave, up to sign.
+
+    Where two equations or more are left the parts are looked for from random starts: there may be others.
+    """
+    chance = np.random.default_rng(space.basis.shape)
+    if not space.left:
+        return [space.basis @ _general(chance, space.basis.shape[1])]
+    halves = [_half_of(space, quadric) for quadric in space.left]
+    split = [half for half in halves if half is not None]
+    found: dict[tuple[int, ...], Floats] = {}
+    for _ in range(_STARTS * 2 ** min(len(split), 6)):
+        rates = _on_equations(space, np.asarray(chance.normal(size=space.basis.shape[1])))
+        if rates is None:
+            continue
+        signs = tuple(int(np.sign(half @ rates)) for half in split)
+        if signs and signs[0] < 0:
+            rates, signs = -rates, tuple(-one for one in signs)
+        found.setdefault(signs, rates)
+        if len(found) == 2 ** max(len(split) - 1, 0):
+            break
+    return [found[signs] for signs in sorted(found, reverse=True)]
+
+
+def _general(chance: np.random.Generator, size: int) -> Floats:
+    return np.asarray(chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size))
+
+
+def _on_equations(space: RateSpace, x: Floats) -> Floats | None:
+    """Return rates of a space on which all equations left hold, by Newton's method from a start float[s]."""
+    forms = np.array([space.basis[list(q.joints)].T @ q.form @ space.basis[list(q.joints)] for q in space.left])
+    forms /= np.abs(forms).max(axis=(1, 2), keepdims=True)
+    for _ in range(_NEWTON):
+        x = x / np.linalg.norm(x)
+        slopes = forms @ x
+        off = slopes @ x
+        if np.abs(off).max() <= _ROUNDED:
+            return np.asarray(space.basis @ x)
+        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
+    return None
+
+
+def _half_of(space: RateSpace, quadric: Quadric) -> Floats | None:
+    """Return what has one sign on one half of an equation's solutions, where these are two cones tip to tip."""
+    local = space.basis[list(quadric.joints)]
+    form = local.T @ quadric.form @ local
+    values, vectors = np.linalg.eigh(form)
+    there = np.abs(values) > _AGREES * np.abs(values).max()
+    for sign in (1.0, -1.0):
+        single = np.flatnonzero(there & (np.sign(values) == sign))
+        if len(single) == 1:
+            return np.asarray(space.basis @ vectors[:, single[0]])
+    return None
