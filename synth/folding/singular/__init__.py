@@ -1,8 +1,8 @@
 """What is known of a singular pose: the equations of second order, proofs that nothing moves, branches followed.
 
 `quadrics` makes an equation of each self-stress, `definite` finds sums of them that are positive, `rigidity`
-proves by these that nothing moves; `flat_vertices` knows the modes of four creases, `sampling` goes along a branch.
-Theory: docs/theory/folding.md.
+proves by these that nothing moves; `flat_vertices` knows the modes of four creases, `sampling` goes along a
+branch. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
