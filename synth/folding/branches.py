@@ -21,7 +21,7 @@ from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, largest_only, rates_at, rates_near, space_near, spaces_within
-from synth.folding.singular.flat_vertices import linear_in_half_tangents, modes_at
+from synth.folding.singular.flat_vertices import FlatVertices
 from synth.folding.singular.quadrics import ZERO, Quadric, all_quadrics
 from synth.folding.singular.rigidity import Rigidity, rigidity_of
 from synth.folding.singular.sampling import Followed, followed, general_rates, in_half_tangents
@@ -175,7 +175,7 @@ def branches_of(
     regular = looking.is_regular(spaces)
     branches = tuple(looking.branches(spaces, proved=regular and looking.full_row_rank()))
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
-    all_told = agrees or (looking.linear and not any(space.left for space in spaces))
+    all_told = agrees or (looking.vertices.linear and not any(space.left for space in spaces))
     method: Method = "regular pose" if regular else looking.method(spaces)
     return Branches(branches, all_told and looking.complete, regular, looking.complete, method)
 
@@ -186,7 +186,7 @@ class _Looking:
     def __init__(self, linkage: PosedLinkage, closure: ClosureEquations, search: Search) -> None:
         self.linkage, self.closure, self.search = linkage, closure, search
         self.complete = True
-        self.linear = linear_in_half_tangents(linkage)
+        self.vertices = FlatVertices(linkage)
         self._end = monotonic() + search.seconds
         self._tangent = rates_at(closure, linkage.angles, search.zero)
         self._quadrics: list[Quadric] = all_quadrics(linkage, self._tangent, search.zero)
@@ -224,7 +224,7 @@ class _Looking:
         """Return how branches are found at a singular pose."""
         if any(len(space.left) > 1 for space in spaces):
             return "random starts"
-        return "all modes" if self.linear else "second order"
+        return "all modes" if self.vertices.linear else "second order"
 
     def full_row_rank(self) -> bool:
         """Tell whether the closure equations are independent at the pose."""
@@ -241,7 +241,7 @@ class _Looking:
 
     def _branch(self, space: RateSpace, rates: Floats, proved: bool, late: bool) -> Branch:
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
-        linear = self.linear and not space.left
+        linear = self.vertices.linear and not space.left
         if linear:
             came = in_half_tangents(self.closure, space, rates)
         elif late:
@@ -252,5 +252,5 @@ class _Looking:
         freedoms = came.freedoms
         if linear or proved:
             freedoms, certainty = space.basis.shape[1], "proved"
-        modes = modes_at(self.linkage, rates)
+        modes = self.vertices.modes(rates)
         return Branch(freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far)

@@ -16,33 +16,24 @@ from graphs.arrays import Floats
 from graphs.loops.loop import Centre
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["linear_in_half_tangents", "modes_at"]
+__all__ = ["FlatVertices"]
 
 _AGREES = 1e-9
 _STILL = 1e-7
 
 
-def linear_in_half_tangents(linkage: PosedLinkage) -> bool:
-    """Tell whether every loop is a flat vertex of four creases whose opposite sectors make 180 degrees."""
-    flat = np.abs(linkage.angles).max(initial=0.0) <= _AGREES
-    return bool(flat and all(_folds_flat(linkage, loop) for loop in linkage.loops))
-
-
-def modes_at(linkage: PosedLinkage, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
-    """Return in which mode each flat vertex of four creases begins to fold.
+class FlatVertices:
+    """The loops of a linkage that are flat vertices of four creases.
 
     Parameters
     ----------
     linkage : PosedLinkage
         At its pose.
-    rates : float[J]
-        General ones of a branch, the largest 1 or -1.
 
-    Returns
-    -------
-    tuple of (int, int) or None
-        For each loop: the places of the opposite creases that fold the same way. None of a vertex that is still,
-        of loops that are no flat vertices, and of those with other than four creases.
+    Attributes
+    ----------
+    linear : bool
+        Whether every loop is one whose opposite sectors make 180 degrees, and all creases are flat.
 
     Examples
     --------
@@ -50,30 +41,55 @@ def modes_at(linkage: PosedLinkage, rates: Floats) -> tuple[tuple[int, int] | No
     >>> from synth.folding.linkage import linkage_of_sheet
     >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> cross = linkage_of_sheet(Sheet(5, (), "", faces, corners))
-    >>> opposite = np.array([0.0, 1.0, 0.0, 1.0])
-    >>> modes_at(cross, opposite), modes_at(cross, np.zeros(4))
-    (((1, 3),), (None,))
+    >>> cross = FlatVertices(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
+    >>> cross.linear, cross.modes(np.array([0.0, 1.0, 0.0, 1.0])), cross.modes(np.zeros(4))
+    (True, ((1, 3),), (None,))
     """
-    return tuple(_mode(linkage, loop, rates) for loop in linkage.loops)
+
+    def __init__(self, linkage: PosedLinkage) -> None:
+        self._loops = linkage.loops
+        self._ways: list[Floats | None] = []
+        flat = [np.abs(linkage.angles).max(initial=0.0) <= _AGREES]
+        for loop in linkage.loops:
+            outward = _outward(linkage, loop)
+            flat.append(outward is not None and _opposite_make_a_half(outward))
+            self._ways.append(None if outward is None else _ways(linkage, loop, outward))
+        self.linear = bool(all(flat))
+
+    def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
+        """Return in which mode each vertex begins to fold.
+
+        Parameters
+        ----------
+        rates : float[J]
+            General ones of a branch, the largest 1 or -1.
+
+        Returns
+        -------
+        tuple of (int, int) or None
+            For each loop: the places of the opposite creases that fold the same way. None of a vertex that is
+            still, of loops that are no flat vertices, and of those with other than four creases.
+        """
+        return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 
 
-def _mode(linkage: PosedLinkage, loop: PosedLoop, rates: Floats) -> tuple[int, int] | None:
-    outward = _outward(linkage, loop)
-    if outward is None:
+def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
+    if ways is None:
         return None
-    along = (outward * linkage.directions[list(loop.joints)]).sum(axis=1)
-    folds = rates[list(loop.joints)] * loop.signs * np.sign(along)
+    folds = rates[list(loop.joints)] * ways
     alike = folds[:2] * folds[2:]
     same = int(alike.argmax())
     first, second = sorted(loop.joints[same::2])
     return (first, second) if alike[same] > _STILL**2 else None
 
 
-def _folds_flat(linkage: PosedLinkage, loop: PosedLoop) -> bool:
-    outward = _outward(linkage, loop)
-    if outward is None:
-        return False
+def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
+    """Return 1 for creases that fold one way at a positive angle, -1 for others: float[4]."""
+    along = (outward * linkage.directions[list(loop.joints)]).sum(axis=1)
+    return np.asarray(np.sign(along) * loop.signs)
+
+
+def _opposite_make_a_half(outward: Floats) -> bool:
     sectors = _sectors(outward)
     return bool(abs(sectors[0] + sectors[2] - pi) <= _AGREES)
 
