@@ -16,7 +16,7 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, rates_near
 from synth.folding.singular.quadrics import quadrics_of
-from synth.folding.singular.sampling import rates_towards
+from synth.folding.singular.sampling import rates_towards, same_part
 
 __all__ = ["MOST_BRANCHES", "MOST_JOINTS", "MOST_SECONDS", "Wanted", "beginning"]
 
@@ -119,16 +119,23 @@ def _chosen(found: Branches, wanted: Wanted) -> int:
 
 def _agreement(branch: Branch, marks: Floats) -> int:
     """Return how many marked joints begin on a branch as they are marked, less those that do not."""
-    rates = rates_towards(branch.space, marks)
+    rates = _towards(branch, marks)
     return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+
+
+def _towards(branch: Branch, marks: Floats) -> Floats:
+    """Return rates near to what is marked, on the part of the space that the branch is."""
+    rates = rates_towards(branch.space, marks)
+    if same_part(branch.space, rates, branch.rates):
+        return rates
+    return -branch.rates if branch.rates @ marks < 0.0 else branch.rates
 
 
 def _rates(branch: Branch, wanted: Wanted) -> Floats:
     """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
-    towards = rates_towards(space, wanted.marks) if wanted.branch is None else branch.rates
     if len(wanted.driven) < 2:
-        return towards if towards.any() else branch.rates
+        return _towards(branch, wanted.marks) if wanted.branch is None else branch.rates
     for start in (wanted.marks, space.basis.sum(axis=1)):
         towards = rates_towards(space, start)
         if np.abs(towards[list(wanted.driven)]).max() > _STILL:

@@ -195,13 +195,16 @@ class _Looking:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
         found: list[RateSpace] = []
         for space in spaces_within(self._tangent, self._quadrics, self.search.zero):
-            if len(found) == self.search.most or monotonic() > self._end:
+            if len(found) == self.search.most or self._late():
                 self.complete = False
                 break
             found.append(space)
         if not self.complete:
             found = [*self._towards(), *found]
         return largest_only(found, self.search.zero)
+
+    def _late(self) -> bool:
+        return monotonic() > self._end
 
     def _towards(self) -> list[RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -234,10 +237,13 @@ class _Looking:
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; the first is followed in any case."""
         for number, space in enumerate(spaces):
-            for rates in general_rates(space):
-                late = number > 0 and monotonic() > self._end
+            most = 1 if self._late() else self.search.most
+            parts = general_rates(space, most, self.search.towards)
+            self.complete = self.complete and (len(space.left) < 2 or len(parts) < most)
+            for part, rates in enumerate(parts):
+                late = number + part > 0 and self._late()
                 self.complete = self.complete and not late
-                yield self._branch(space, rates / np.abs(rates).max(), proved, late)
+                yield self._branch(space, rates, proved, late)
 
     def _branch(self, space: RateSpace, rates: Floats, proved: bool, late: bool) -> Branch:
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import cos, pi, sin
 
+import numpy as np
+
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
@@ -96,6 +98,36 @@ def box_pop_up(*, depth: float = 1.0) -> Sheet:
         (x[3], high),
     )  # fmt: skip
     return Sheet(16, (), "", faces, places)
+
+
+def triangulated(rows: int, columns: int, rng: np.random.Generator) -> Sheet:
+    """Return a grid with diagonals, its vertices moved a little: inside six creases meet at each."""
+    place = {
+        (i, j): (j + 0.15 * rng.uniform(-1, 1), i + 0.15 * rng.uniform(-1, 1))
+        for i in range(rows + 1)
+        for j in range(columns + 1)
+    }
+    panels: list[Corners] = []
+    for i in range(rows):
+        for j in range(columns):
+            a, b, c, d = place[i, j], place[i, j + 1], place[i + 1, j + 1], place[i + 1, j]
+            panels += [(a, b, c), (a, c, d)]
+    return of_panels(panels)
+
+
+def tube(columns: int) -> Sheet:
+    """Return two folded Miura strips, one the other's image in the plane of their long edges, joined along these."""
+    panels: list[Corners] = []
+    for side in (0.6, -0.6):
+        corner = {
+            (i, j): (1.0 * j, 0.8 * i + 0.5 * (j % 2), side * (i % 2))
+            for i in range(3)
+            for j in range(columns + 1)
+        }
+        for i in range(2):
+            for j in range(columns):
+                panels.append((corner[i, j], corner[i, j + 1], corner[i + 1, j + 1], corner[i + 1, j]))
+    return of_panels(panels)
 
 
 def kresling(sides: int, *, ends: int, turn: float = 0.5, height: float = 0.8) -> Sheet:

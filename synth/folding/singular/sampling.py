@@ -20,9 +20,18 @@ from synth.folding.linkage import PosedLinkage
 from synth.folding.path import PathOptions, driven_path
 from synth.folding.placement import moved
 from synth.folding.second_order import RateSpace, largest_only, rates_at, spaces_within
-from synth.folding.singular.quadrics import Quadric, all_quadrics
+from synth.folding.singular.quadrics import all_quadrics, local_forms
 
-__all__ = ["FOLLOWED", "Followed", "followed", "freedoms_at", "general_rates", "in_half_tangents", "rates_towards"]
+__all__ = [
+    "FOLLOWED",
+    "Followed",
+    "followed",
+    "freedoms_at",
+    "general_rates",
+    "in_half_tangents",
+    "rates_towards",
+    "same_part",
+]
 
 FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
@@ -137,60 +146,83 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     start = space.basis.T @ wanted
     if not start.any():
         return np.zeros_like(wanted)
-    rates = _on_equations(space, np.asarray(start)) if space.left else space.basis @ start
-    return np.zeros_like(wanted) if rates is None else np.asarray(rates / np.abs(rates).max())
+    x = _on_equations(local_forms(space.basis, space.left), np.asarray(start))
+    return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
 
 
-def general_rates(space: RateSpace) -> list[Floats]:
+def general_rates(space: RateSpace, most: int, towards: Floats | None = None) -> list[Floats]:
     """Return general rates of a space, one for each part that its equations leave, up to sign.
 
     Where two equations or more are left the parts are looked for from random starts: there may be others.
+
+    Parameters
+    ----------
+    space : RateSpace
+    most : int
+        After so many the search ends.
+    towards : float[J], optional
+        If it ends so, the part near to these rates comes first.
     """
-    chance = np.random.default_rng(space.basis.shape)
+    chance, size = np.random.default_rng(space.basis.shape), space.basis.shape[1]
     if not space.left:
-        return [space.basis @ _general(chance, space.basis.shape[1])]
-    halves = [_half_of(space, quadric) for quadric in space.left]
-    split = [half for half in halves if half is not None]
+        return [_scaled(space.basis @ (chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)))]
+    forms = local_forms(space.basis, space.left)
+    halves = _halves(space)
+    parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
-    for _ in range(_STARTS * 2 ** min(len(split), 6)):
-        rates = _on_equations(space, np.asarray(chance.normal(size=space.basis.shape[1])))
-        if rates is None:
+    for _ in range(_STARTS * 2 ** min(len(halves), 6)):
+        x = _on_equations(forms, np.asarray(chance.normal(size=size)))
+        if x is None:
             continue
-        signs = tuple(int(np.sign(half @ rates)) for half in split)
+        rates = space.basis @ x
+        signs = _side(halves, rates)
         if signs and signs[0] < 0:
             rates, signs = -rates, tuple(-one for one in signs)
-        found.setdefault(signs, rates)
-        if len(found) == 2 ** max(len(split) - 1, 0):
+        found.setdefault(signs, _scaled(rates))
+        if len(found) == min(parts, most):
             break
-    return [found[signs] for signs in sorted(found, reverse=True)]
+    others = [found[signs] for signs in sorted(found, reverse=True)]
+    if towards is None or len(found) < most or parts <= most:
+        return others
+    near = rates_towards(space, towards)
+    first = [near] if near.any() and not any(same_part(space, near, one) for one in others) else []
+    return [*first, *others]
 
 
-def _general(chance: np.random.Generator, size: int) -> Floats:
-    return np.asarray(chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size))
+def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
+    """Tell whether two rates of a space are, up to their sign, on the same part of what its equations leave."""
+    halves = _halves(space)
+    mine, theirs = _side(halves, one), _side(halves, other)
+    return mine in (theirs, tuple(-sign for sign in theirs))
 
 
-def _on_equations(space: RateSpace, x: Floats) -> Floats | None:
-    """Return rates of a space on which all equations left hold, by Newton's method from a start float[s]."""
-    forms = np.array([space.basis[list(q.joints)].T @ q.form @ space.basis[list(q.joints)] for q in space.left])
-    forms /= np.abs(forms).max(axis=(1, 2), keepdims=True)
+def _scaled(rates: Floats) -> Floats:
+    return np.asarray(rates / np.abs(rates).max())
+
+
+def _on_equations(forms: Floats, x: Floats) -> Floats | None:
+    """Return a unit vector at which forms float[n, s, s] vanish, by Newton's method from a start float[s]."""
     for _ in range(_NEWTON):
         x = x / np.linalg.norm(x)
         slopes = forms @ x
         off = slopes @ x
-        if np.abs(off).max() <= _ROUNDED:
-            return np.asarray(space.basis @ x)
+        if np.abs(off).max(initial=0.0) <= _ROUNDED:
+            return x
         x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
     return None
 
 
-def _half_of(space: RateSpace, quadric: Quadric) -> Floats | None:
-    """Return what has one sign on one half of an equation's solutions, where these are two cones tip to tip."""
-    local = space.basis[list(quadric.joints)]
-    form = local.T @ quadric.form @ local
-    values, vectors = np.linalg.eigh(form)
-    there = np.abs(values) > _AGREES * np.abs(values).max()
-    for sign in (1.0, -1.0):
-        single = np.flatnonzero(there & (np.sign(values) == sign))
-        if len(single) == 1:
-            return np.asarray(space.basis @ vectors[:, single[0]])
-    return None
+def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
+    """Return on which half of each equation's solutions rates are."""
+    return tuple(int(np.sign(half @ rates)) for half in halves)
+
+
+def _halves(space: RateSpace) -> list[Floats]:
+    """Return, for each equation whose solutions are two cones tip to tip, what has one sign on one of them."""
+    found = []
+    for form in local_forms(space.basis, space.left):
+        values, vectors = np.linalg.eigh(form)
+        there = np.abs(values) > _AGREES * np.abs(values).max()
+        singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
+        found += [space.basis @ vectors[:, single[0]] for single in singles if len(single) == 1][:1]
+    return found

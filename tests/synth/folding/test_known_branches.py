@@ -1,12 +1,13 @@
 """Known crease patterns and strips: how many branches, of how many freedoms, from flat and from folded."""
 
 from collections import Counter
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import pytest
 from creased import fan, miura
-from folding_patterns import box_pop_up, frog_base, kresling, map_sheet, pleated_hypar
+from folding_patterns import box_pop_up, frog_base, kresling, map_sheet, pleated_hypar, triangulated, tube
 from scipy.optimize import least_squares
 
 from graphs.convert.duality import mechanism_of_sheet
@@ -20,7 +21,7 @@ from synth.folding.opened import opened
 from synth.folding.placement import moved
 from synth.folding.second_order import largest_only, rates_at, spaces_within
 from synth.folding.singular.quadrics import all_quadrics, local_forms
-from synth.folding.singular.sampling import followed, general_rates
+from synth.folding.singular.sampling import followed, general_rates, same_part
 
 
 def linkage(sheet):
@@ -81,7 +82,7 @@ def test_a_frog_base_has_625_ways():
     spaces = largest_only(list(spaces_within(tangent, all_quadrics(start, tangent))))
     assert Counter((space.basis.shape[1], len(space.left)) for space in spaces) == {(6, 1): 5**4}
     for space in spaces[::25]:
-        [rates] = general_rates(space)
+        [rates] = general_rates(space, 1)
         still = np.flatnonzero(np.abs(space.basis).max(axis=1) < 1e-7)
         came = followed(start, closure, rates / np.abs(rates).max(), tuple(still.tolist()))
         assert (came.freedoms, came.error < 1e-12) == (5, True)
@@ -180,6 +181,35 @@ def test_sheets_with_more_branches_than_are_told_fold_as_they_are_marked():
         assert (len(found.branches), found.complete, found.exhaustive) == (3, False, False)
         assert found.branches[0].signs in (wanted.signs, wanted.signs.translate(str.maketrans("+-", "-+")))
         assert (found.branches[0].freedoms, found.branches[0].certainty) == (wanted.freedoms, "proved")
+
+
+def test_vertices_pop_up_or_down_each(rng):
+    """Of two vertices with six creases: alike or not. The part near to what is wanted comes first."""
+    sheet = triangulated(2, 3, rng)
+    start = linkage(sheet)
+    found = branches_of(start)
+    assert freedoms(found) == [7, 7]  # 13 creases, two vertices
+    assert (found.method, found.exhaustive, found.complete) == ("random starts", False, True)
+    assert not same_part(found.branches[0].space, *(branch.rates for branch in found.branches))
+    for wanted in found.branches:
+        first = branches_of(start, search=Search(most=1, towards=wanted.rates))
+        assert same_part(wanted.space, first.branches[0].rates, wanted.rates)
+        assert not first.complete
+        given = with_all_edges(sheet)
+        joint = dict(enumerate(start.graph.joints))
+        marks = {joint[place]: "MV"[int(rate > 0)] for place, rate in enumerate(wanted.rates)}
+        letters = "".join(marks.get(edge, letter) for edge, letter in enumerate(given.assignments))
+        taken = fold(replace(given, assignments=letters), frames=1)
+        assert same_part(wanted.space, taken.branches.branches[taken.branch].rates, wanted.rates)
+
+
+@pytest.mark.parametrize("columns", [1, 3])
+def test_tubes_of_miura_strips_have_one_freedom(columns):
+    """A closed strip has more equations than joints, and moves all the same."""
+    found = branches_of(linkage(tube(columns)))
+    assert freedoms(found) == [1]
+    assert found.branches[0].still == ()
+    assert found.branches[0].error < 1e-12
 
 
 def test_a_search_that_runs_out_of_time_says_so():
