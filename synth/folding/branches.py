@@ -237,9 +237,8 @@ class _Looking:
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; the first is followed in any case."""
         for number, space in enumerate(spaces):
-            most = 1 if self._late() else self.search.most
-            parts = general_rates(space, most, self.search.towards)
-            self.complete = self.complete and (len(space.left) < 2 or len(parts) < most)
+            parts, whole = general_rates(space, self.search.most, self.search.towards, self._late)
+            self.complete = self.complete and whole
             for part, rates in enumerate(parts):
                 late = number + part > 0 and self._late()
                 self.complete = self.complete and not late

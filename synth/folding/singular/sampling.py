@@ -7,6 +7,7 @@ nothing is found so, they are freed. Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice
 from math import radians, tan
@@ -150,10 +151,13 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
 
 
-def general_rates(space: RateSpace, most: int, towards: Floats | None = None) -> list[Floats]:
+def general_rates(
+    space: RateSpace, most: int, towards: Floats | None = None, late: Callable[[], bool] = lambda: False
+) -> tuple[list[Floats], bool]:
     """Return general rates of a space, one for each part that its equations leave, up to sign.
 
-    Where two equations or more are left the parts are looked for from random starts: there may be others.
+    Where two equations or more are left the parts are looked for from random starts: there may be others. Told too
+    is whether no limit ended the search.
 
     Parameters
     ----------
@@ -162,10 +166,13 @@ def general_rates(space: RateSpace, most: int, towards: Floats | None = None) ->
         After so many the search ends.
     towards : float[J], optional
         If it ends so, the part near to these rates comes first.
+    late : callable, optional
+        Whether it is time to end the search, with one part at least if there is one.
     """
     chance, size = np.random.default_rng(space.basis.shape), space.basis.shape[1]
     if not space.left:
-        return [_scaled(space.basis @ (chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)))]
+        x = chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)
+        return [_scaled(space.basis @ x)], True
     forms = local_forms(space.basis, space.left)
     halves = _halves(space)
     parts = 2 ** max(len(halves) - 1, 0)
@@ -179,14 +186,15 @@ def general_rates(space: RateSpace, most: int, towards: Floats | None = None) ->
         if signs and signs[0] < 0:
             rates, signs = -rates, tuple(-one for one in signs)
         found.setdefault(signs, _scaled(rates))
-        if len(found) == min(parts, most):
+        if len(found) == parts or len(found) == most or late():
             break
     others = [found[signs] for signs in sorted(found, reverse=True)]
-    if towards is None or len(found) < most or parts <= most:
-        return others
+    whole = len(found) == parts or not (len(found) == most or late())
+    if whole or towards is None:
+        return others, whole
     near = rates_towards(space, towards)
     first = [near] if near.any() and not any(same_part(space, near, one) for one in others) else []
-    return [*first, *others]
+    return [*first, *others], False
 
 
 def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:

@@ -82,7 +82,7 @@ def test_a_frog_base_has_625_ways():
     spaces = largest_only(list(spaces_within(tangent, all_quadrics(start, tangent))))
     assert Counter((space.basis.shape[1], len(space.left)) for space in spaces) == {(6, 1): 5**4}
     for space in spaces[::25]:
-        [rates] = general_rates(space, 1)
+        [rates], _ = general_rates(space, 1)
         still = np.flatnonzero(np.abs(space.basis).max(axis=1) < 1e-7)
         came = followed(start, closure, rates / np.abs(rates).max(), tuple(still.tolist()))
         assert (came.freedoms, came.error < 1e-12) == (5, True)
@@ -161,7 +161,7 @@ def test_random_rates_that_agree_to_second_order_are_on_the_spaces(sheet, data, 
     spaces = largest_only(list(spaces_within(tangent, quadrics)))
     forms = local_forms(tangent, quadrics)
     seen = set()
-    for _ in range(12):
+    for _ in range(8):
         x = solved(forms, rng.normal(size=tangent.shape[1]))
         if x is None:
             continue
@@ -219,7 +219,7 @@ def test_a_search_that_runs_out_of_time_says_so():
     assert found.no_motion == "not known"
 
 
-@pytest.mark.parametrize("size", [6, pytest.param(12, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("size", [5, pytest.param(12, marks=pytest.mark.slow)])
 def test_large_miura_sheets_have_one_freedom_as_they_are_marked(size):
     sheet = miura(size, size, np.radians(60))
     folded = fold(sheet, frames=1)
