@@ -8,9 +8,9 @@ from folding_patterns import box_pop_up, kresling, pleated_hypar, spoked_cube
 from synth.folding.branches import branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
-from synth.folding.second_order import rates_at
+from synth.folding.second_order import rates_at, spaces_within
 from synth.folding.singular.definite import definite_weights
-from synth.folding.singular.quadrics import all_quadrics, local_forms, quadrics_of, shared_quadrics
+from synth.folding.singular.quadrics import Quadric, all_quadrics, local_forms, quadrics_of, shared_quadrics
 from synth.folding.singular.rigidity import rigidity_of
 
 
@@ -117,6 +117,15 @@ def test_definite_sums_are_found_where_they_are(rng):
         values = np.linalg.eigvalsh(np.tensordot(weights, forms, 1))
         assert values[0] / values[-1] == pytest.approx(margin)
         assert values[0] > 0.0
+
+
+def test_equations_that_only_together_leave_nothing():
+    """Each form has squares of both signs and is no product; the three add up to the sum of all squares."""
+    forms = [np.diag(4.0 * np.eye(3)[place] - 1.0) for place in range(3)]
+    equations = [Quadric((0, 1, 2), form) for form in forms]
+    assert list(spaces_within(np.eye(3), equations)) == []
+    [two] = spaces_within(np.eye(3), equations[:2])
+    assert (two.basis.shape, len(two.left)) == ((3, 3), 2)
 
 
 def test_no_definite_sum_where_all_vanish_somewhere(rng):
