@@ -2,8 +2,8 @@
 
 `fold` takes a crease pattern along one of its branches. Below it: `linkage` (links and axes at a pose), `closure`
 (the equations and their derivatives), `newton`, `path` (joints driven), `second_order` and `branches` (ways to
-move from a singular pose, such as a flat sheet), `placement` (where panels and vertices are), `written` (files).
-Theory: docs/theory/folding.md.
+move from a singular pose, such as a flat sheet), `singular` (what these rest on; proofs that nothing moves),
+`placement` (where panels and vertices are), `written` (files). Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from graphs.lazy import offered
 if TYPE_CHECKING:
     from synth.folding.branches import Branch as Branch
     from synth.folding.branches import Branches as Branches
+    from synth.folding.branches import Search as Search
     from synth.folding.branches import branches_of as branches_of
     from synth.folding.closure import ClosureEquations as ClosureEquations
     from synth.folding.linkage import PosedLinkage as PosedLinkage
@@ -26,17 +27,20 @@ if TYPE_CHECKING:
     from synth.folding.path import PathOptions as PathOptions
     from synth.folding.path import driven_path as driven_path
     from synth.folding.placement import link_motions as link_motions
+    from synth.folding.singular.rigidity import Rigidity as Rigidity
+    from synth.folding.singular.rigidity import rigidity_of as rigidity_of
     from synth.folding.written import write_folding as write_folding
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "branches": "Branch Branches branches_of",
+            "branches": "Branch Branches Search branches_of",
             "closure": "ClosureEquations",
             "linkage": "PosedLinkage linkage_of_axes linkage_of_sheet",
             "motion": "Folding fold",
             "path": "DrivenPath PathOptions driven_path",
             "placement": "link_motions",
+            "synth.folding.singular.rigidity": "Rigidity rigidity_of",
             "written": "write_folding",
         },
     )

@@ -11,18 +11,20 @@ import scipy.linalg
 from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from synth.folding.branches import Branch, Branches, rates_towards
+from synth.folding.branches import Branch, Branches
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
-from synth.folding.second_order import RateSpace, quadrics_of, rates_near
+from synth.folding.second_order import RateSpace, rates_near
+from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.sampling import rates_towards, same_part
 
-__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning"]
+__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "MOST_SECONDS", "Wanted", "beginning"]
 
-MOST_JOINTS = 120
-"""Of larger linkages the branches are not looked for: there may be twice as many for each two panels more."""
+MOST_JOINTS = 600
+"""Of larger linkages the branches are not looked for: matrices are dense."""
 
-MOST_BRANCHES = 128
-"""So many are looked for at most."""
+MOST_BRANCHES, MOST_SECONDS = 128, 20.0
+"""So many are looked for at most, and for so long: there may be twice as many for each row of panels more."""
 
 _STILL = 1e-9
 
@@ -82,10 +84,21 @@ def beginning(
             )
         return None, near
     if not found.branches:
-        raise UnsolvableError(f"nothing folds: no motion begins at this pose{wanted.doubt}")
+        raise UnsolvableError(f"{_how_surely(found)}: no motion begins at this pose{wanted.doubt}")
     number = _chosen(found, wanted)
     taken = found.branches[number]
     return None if found.regular else number, _rates(taken, wanted)
+
+
+def _how_surely(found: Branches) -> str:
+    """Return how it is known that nothing folds."""
+    told = {
+        "no rates": "no rates close even to first order",
+        "definite stress": "a self-stress is definite on all flexes",
+        "cases": "no rates agree to second order",
+    }
+    proof = found.rigidity.proof if found.rigidity is not None else None
+    return f"nothing folds, which is proved ({told[proof]})" if proof else "nothing that folds was found"
 
 
 def _chosen(found: Branches, wanted: Wanted) -> int:
@@ -106,16 +119,23 @@ def _chosen(found: Branches, wanted: Wanted) -> int:
 
 def _agreement(branch: Branch, marks: Floats) -> int:
     """Return how many marked joints begin on a branch as they are marked, less those that do not."""
-    rates = rates_towards(branch.space, marks)
+    rates = _towards(branch, marks)
     return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+
+
+def _towards(branch: Branch, marks: Floats) -> Floats:
+    """Return rates near to what is marked, on the part of the space that the branch is."""
+    rates = rates_towards(branch.space, marks)
+    if same_part(branch.space, rates, branch.rates):
+        return rates
+    return -branch.rates if branch.rates @ marks < 0.0 else branch.rates
 
 
 def _rates(branch: Branch, wanted: Wanted) -> Floats:
     """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
-    towards = rates_towards(space, wanted.marks) if wanted.branch is None else branch.rates
     if len(wanted.driven) < 2:
-        return towards if towards.any() else branch.rates
+        return _towards(branch, wanted.marks) if wanted.branch is None else branch.rates
     for start in (wanted.marks, space.basis.sum(axis=1)):
         towards = rates_towards(space, start)
         if np.abs(towards[list(wanted.driven)]).max() > _STILL:

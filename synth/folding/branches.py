@@ -8,37 +8,54 @@ the sign of all rates together; farther off, two branches may be one curve. Theo
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import pairwise
-from math import pi, radians, tan
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf
+from time import monotonic
 from typing import Literal
 
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.loops.loop import Centre
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
-from synth.folding.path import PathOptions, driven_path
-from synth.folding.placement import moved
-from synth.folding.second_order import Quadric, RateSpace, quadrics_of, rate_spaces, rates_at
+from synth.folding.second_order import RateSpace, largest_only, rates_at, rates_near, space_near, spaces_within
+from synth.folding.singular.flat_vertices import FlatVertices
+from synth.folding.singular.quadrics import ZERO, Quadric, all_quadrics
+from synth.folding.singular.rigidity import Rigidity, rigidity_of
+from synth.folding.singular.sampling import Followed, followed, general_rates, in_half_tangents
 
-__all__ = ["Branch", "Branches", "Certainty", "branches_of", "freedoms_at", "rates_towards"]
+__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of"]
 
 Certainty = Literal["proved", "numerical", "not known"]
+Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
-FOLLOWED = radians(10.0)
-"""How far each branch is followed, radians of the joint that moves most."""
-_MOST, _FEW = 4096, 8
-_STARTS = 60
-"""Starts of the search for rates on which equations are left, for each pattern of signs."""
-_AGREES = 1e-9
 _STILL = 1e-7
-_NEWTON, _ROUNDED = 30, 1e-14
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """How far branches are looked for.
+
+    Attributes
+    ----------
+    most : int
+        After so many spaces of rates the search ends.
+    seconds : float
+        After so long it ends too, and what was found by then is told.
+    zero : float
+        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    towards : float[J], optional
+        Signs of rates: if the search ends before it is through, the branch near to these comes first.
+    """
+
+    most: int = 4096
+    seconds: float = inf
+    zero: float = ZERO
+    towards: Floats | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +65,8 @@ class Branch:
     Attributes
     ----------
     freedoms : int or None
-        At a general pose of the branch, to second order: unless proved, there may be fewer where loops have
-        self-stresses together. None where it could not be followed, or second order does not tell.
+        At a general pose of the branch, to second order. None where no motion was found, or second order does not
+        tell.
     certainty : {"proved", "numerical", "not known"}
         Proved: the pose is regular, or the branch is linear in tan(fold / 2). Numerical: followed with closed
         loops. Not known: rates agree to second order, and no motion was found.
@@ -59,6 +76,9 @@ class Branch:
         Of one motion along the branch, at the pose; the largest is 1 or -1.
     still : tuple of int
         Places of the joints that do not move on it.
+    modes : tuple of (int, int) or None
+        Of each loop that is a flat vertex of four creases: the places of the opposite ones that fold the same way.
+        None of other loops, and of vertices that are still.
     sample : float[J]
         Joint angles of a pose on it, radians.
     error : float
@@ -72,6 +92,7 @@ class Branch:
     space: RateSpace
     rates: Floats
     still: tuple[int, ...]
+    modes: tuple[tuple[int, int] | None, ...]
     sample: Floats
     error: float
     followed: float
@@ -91,21 +112,37 @@ class Branches:
     branches : tuple of Branch
     exhaustive : bool
         Whether there are no others: every choice of modes was tried, and rates that agree to second order are
-        all there are.
+        all there are; the pose is regular, and the one branch has as many freedoms as there are rates; or nothing
+        moves, and that is proved.
     regular : bool
         Whether the pose is a general one, with one branch.
     complete : bool
         Whether the search came to its end.
+    method : {"regular pose", "all modes", "second order", "random starts"}
+        How they were found. All modes: of vertices that are linear in tan(fold / 2), every combination. Second
+        order: the rates that agree to it, all of them, each continued. Random starts: rates were looked for so
+        where several equations are left that are no products.
+    rigidity : Rigidity or None
+        Where there are no branches: whether it is proved that nothing moves.
     """
 
     branches: tuple[Branch, ...]
     exhaustive: bool
     regular: bool
     complete: bool
+    method: Method
+    rigidity: Rigidity | None = None
+
+    @property
+    def no_motion(self) -> Certainty | None:
+        """Whether it is proved that nothing moves, or not known; None where something does."""
+        if any(branch.certainty != "not known" for branch in self.branches):
+            return None
+        return "not known" if self.rigidity is None else self.rigidity.certainty
 
 
 def branches_of(
-    linkage: PosedLinkage, closure: ClosureEquations | None = None, most: int = _MOST, zero: float = _AGREES
+    linkage: PosedLinkage, closure: ClosureEquations | None = None, search: Search | None = None
 ) -> Branches:
     """Return the ways in which a linkage can move from its pose.
 
@@ -115,10 +152,8 @@ def branches_of(
         Closed at its pose.
     closure : ClosureEquations, optional
         Of this linkage, where they are at hand.
-    most : int, optional
-        After so many the search ends.
-    zero : float, optional
-        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    search : Search, optional
+        Where it ends.
 
     Examples
     --------
@@ -132,151 +167,95 @@ def branches_of(
     >>> [(branch.freedoms, branch.certainty) for branch in found.branches], found.exhaustive
     ([(1, 'numerical'), (1, 'numerical')], False)
     """
-    closure = closure or ClosureEquations(linkage)
-    quadrics = quadrics_of(linkage)
-    spaces, complete = rate_spaces(closure, linkage.angles, quadrics, most, zero)
-    whole = rates_at(closure, linkage.angles).shape[1]
-    regular = len(spaces) == 1 and not spaces[0].left and spaces[0].basis.shape[1] == whole
-    linear = _linear_in_half_tangents(linkage)
-    proved = regular and _full_row_rank(closure, linkage.angles)
-    branches: list[Branch] = []
-    for space in spaces:
-        follow = _in_half_tangents if linear and not space.left else _followed
-        for rates in _samples(space):
-            branches.append(follow(linkage, closure, space, rates / np.abs(rates).max()))
-            if proved and branches[-1].freedoms is not None:
-                branches[-1] = replace(branches[-1], certainty="proved")
-    every = complete and (linear or regular) and not any(space.left for space in spaces)
-    return Branches(tuple(branches), every, regular, complete)
+    looking = _Looking(linkage, closure or ClosureEquations(linkage), search or Search())
+    spaces = looking.spaces()
+    if not spaces and looking.complete:
+        rigidity = rigidity_of(linkage, looking.closure, looking.search.zero)
+        return Branches((), rigidity.certainty == "proved", False, True, looking.method(spaces), rigidity)
+    regular = looking.is_regular(spaces)
+    branches = tuple(looking.branches(spaces, proved=regular and looking.full_row_rank()))
+    agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
+    all_told = agrees or (looking.vertices.linear and not any(space.left for space in spaces))
+    method: Method = "regular pose" if regular else looking.method(spaces)
+    return Branches(branches, all_told and looking.complete, regular, looking.complete, method)
 
 
-def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
-    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
-    start = space.basis.T @ wanted
-    if not start.any():
-        return np.zeros_like(wanted)
-    rates = _on_equations(space, np.asarray(start)) if space.left else space.basis @ start
-    return np.zeros_like(wanted) if rates is None else np.asarray(rates / np.abs(rates).max())
+class _Looking:
+    """A search for branches: what it needs to know, and whether it came to its end."""
 
+    def __init__(self, linkage: PosedLinkage, closure: ClosureEquations, search: Search) -> None:
+        self.linkage, self.closure, self.search = linkage, closure, search
+        self.complete = True
+        self.vertices = FlatVertices(linkage)
+        self._end = monotonic() + search.seconds
+        self._tangent = rates_at(closure, linkage.angles, search.zero)
+        self._quadrics: list[Quadric] = all_quadrics(linkage, self._tangent, search.zero)
 
-def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
-    """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
+    def spaces(self) -> list[RateSpace]:
+        """Return the spaces of rates that agree to second order, as far as the search goes."""
+        found: list[RateSpace] = []
+        for space in spaces_within(self._tangent, self._quadrics, self.search.zero):
+            if len(found) == self.search.most or self._late():
+                self.complete = False
+                break
+            found.append(space)
+        if not self.complete:
+            found = [*self._towards(), *found]
+        return largest_only(found, self.search.zero)
 
-    Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
-    folded along one straight line, for instance, has creases that lie in one plane.
-    """
-    spaces, _ = rate_spaces(closure, angles, quadrics_of(moved(linkage, angles)), _FEW)
-    if len(spaces) != 1 or spaces[0].left:
-        return None if spaces else 0
-    return int(spaces[0].basis.shape[1])
+    def _late(self) -> bool:
+        return monotonic() > self._end
 
+    def _towards(self) -> list[RateSpace]:
+        """Return the space near to the rates that are wanted, if any are."""
+        wanted = self.search.towards
+        if wanted is None:
+            return []
+        rates = rates_near(self.closure, self.linkage.angles, self._quadrics, wanted)
+        return [] if rates is None else [space_near(self._tangent, self._quadrics, rates, self.search.zero)]
 
-def _followed(linkage: PosedLinkage, closure: ClosureEquations, space: RateSpace, rates: Floats) -> Branch:
-    """Follow one branch and say what it is."""
-    driver = int(np.abs(rates).argmax())
-    goal = linkage.angles[driver] + FOLLOWED * np.sign(rates[driver])
-    path = driven_path(closure, linkage.angles, [driver], goal, options=PathOptions(rates, straight=True))
-    end, came = path.angles[-1], not path.stopped
-    return Branch(
-        freedoms_at(linkage, closure, end) if came else None,
-        "numerical" if came else "not known",
-        space,
-        rates,
-        _still(space),
-        end,
-        float(path.errors[-1]),
-        float(np.abs(end - linkage.angles).max()),
-    )
+    def is_regular(self, spaces: list[RateSpace]) -> bool:
+        """Tell whether all rates that agree to first order agree to second."""
+        return (
+            self.complete
+            and len(spaces) == 1
+            and not spaces[0].left
+            and spaces[0].basis.shape[1] == self._tangent.shape[1]
+        )
 
+    def method(self, spaces: list[RateSpace]) -> Method:
+        """Return how branches are found at a singular pose."""
+        if any(len(space.left) > 1 for space in spaces):
+            return "random starts"
+        return "all modes" if self.vertices.linear else "second order"
 
-def _in_half_tangents(linkage: PosedLinkage, closure: ClosureEquations, space: RateSpace, rates: Floats) -> Branch:
-    """Return a branch along which tan(fold / 2) is any of its rates: it has as many freedoms as these."""
-    end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
-    freedoms = space.basis.shape[1]
-    return Branch(freedoms, "proved", space, rates, _still(space), end, closure.error(end), FOLLOWED)
+    def full_row_rank(self) -> bool:
+        """Tell whether the closure equations are independent at the pose."""
+        _, jacobian = self.closure.at(self.linkage.angles)
+        return spectrum(jacobian.toarray(), _ERROR).rank == self.closure.rows
 
+    def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
+        """Yield the branches of all spaces; the first is followed in any case."""
+        for number, space in enumerate(spaces):
+            parts, whole = general_rates(space, self.search.most, self.search.towards, self._late)
+            self.complete = self.complete and whole
+            for part, rates in enumerate(parts):
+                late = number + part > 0 and self._late()
+                self.complete = self.complete and not late
+                yield self._branch(space, rates, proved, late)
 
-def _still(space: RateSpace) -> tuple[int, ...]:
-    return tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
-
-
-def _full_row_rank(closure: ClosureEquations, angles: Floats) -> bool:
-    _, jacobian = closure.at(angles)
-    return spectrum(jacobian.toarray(), _ERROR).rank == closure.rows
-
-
-def _linear_in_half_tangents(linkage: PosedLinkage) -> bool:
-    """Tell whether every loop is a flat vertex of four creases whose opposite sectors make 180 degrees."""
-    flat = np.abs(linkage.angles).max(initial=0.0) <= _AGREES
-    return bool(flat and all(_folds_flat(linkage, loop.joints, loop.centre) for loop in linkage.loops))
-
-
-def _folds_flat(linkage: PosedLinkage, joints: Sequence[int], centre: Centre) -> bool:
-    if centre is not Centre.FINITE or len(joints) != 4:
-        return False
-    apex = _meeting_point(linkage, joints)
-    away = linkage.points[list(joints)] - apex
-    outward = away / np.linalg.norm(away, axis=1, keepdims=True)
-    sectors: list[float] = [
-        float(np.arccos(np.clip(a @ b, -1.0, 1.0))) for a, b in pairwise([*outward, outward[0]])
-    ]
-    return abs(sectors[0] + sectors[2] - pi) <= _AGREES and abs(sum(sectors) - 2 * pi) <= _AGREES
-
-
-def _meeting_point(linkage: PosedLinkage, joints: Sequence[int]) -> Floats:
-    """Return the point nearest to some axes."""
-    axes, points = linkage.directions[list(joints)], linkage.points[list(joints)]
-    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    return np.asarray(np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0])
-
-
-def _samples(space: RateSpace) -> list[Floats]:
-    """Return general rates of a space, one for each part that its equations leave, up to sign."""
-    chance = np.random.default_rng(space.basis.shape)
-    if not space.left:
-        return [space.basis @ _general(chance, space.basis.shape[1])]
-    halves = [_half_of(space, quadric) for quadric in space.left]
-    split = [half for half in halves if half is not None]
-    found: dict[tuple[int, ...], Floats] = {}
-    for _ in range(_STARTS * 2 ** min(len(split), 6)):
-        rates = _on_equations(space, np.asarray(chance.normal(size=space.basis.shape[1])))
-        if rates is None:
-            continue
-        signs = tuple(int(np.sign(half @ rates)) for half in split)
-        if signs and signs[0] < 0:
-            rates, signs = -rates, tuple(-one for one in signs)
-        found.setdefault(signs, rates)
-        if len(found) == 2 ** max(len(split) - 1, 0):
-            break
-    return [found[signs] for signs in sorted(found, reverse=True)]
-
-
-def _general(chance: np.random.Generator, size: int) -> Floats:
-    return np.asarray(chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size))
-
-
-def _on_equations(space: RateSpace, x: Floats) -> Floats | None:
-    """Return rates of a space on which all equations left hold, by Newton's method from a start float[s]."""
-    forms = np.array([space.basis[list(q.joints)].T @ q.form @ space.basis[list(q.joints)] for q in space.left])
-    forms /= np.abs(forms).max(axis=(1, 2), keepdims=True)
-    for _ in range(_NEWTON):
-        x = x / np.linalg.norm(x)
-        slopes = forms @ x
-        off = slopes @ x
-        if np.abs(off).max() <= _ROUNDED:
-            return np.asarray(space.basis @ x)
-        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
-    return None
-
-
-def _half_of(space: RateSpace, quadric: Quadric) -> Floats | None:
-    """Return what has one sign on one half of an equation's solutions, where these are two cones tip to tip."""
-    local = space.basis[list(quadric.joints)]
-    form = local.T @ quadric.form @ local
-    values, vectors = np.linalg.eigh(form)
-    there = np.abs(values) > _AGREES * np.abs(values).max()
-    for sign in (1.0, -1.0):
-        single = np.flatnonzero(there & (np.sign(values) == sign))
-        if len(single) == 1:
-            return np.asarray(space.basis @ vectors[:, single[0]])
-    return None
+    def _branch(self, space: RateSpace, rates: Floats, proved: bool, late: bool) -> Branch:
+        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
+        linear = self.vertices.linear and not space.left
+        if linear:
+            came = in_half_tangents(self.closure, space, rates)
+        elif late:
+            came = Followed(None, self.linkage.angles, self.closure.error(self.linkage.angles), 0.0)
+        else:
+            came = followed(self.linkage, self.closure, rates, still)
+        certainty: Certainty = "numerical" if came.far else "not known"
+        freedoms = came.freedoms
+        if linear or proved:
+            freedoms, certainty = space.basis.shape[1], "proved"
+        modes = self.vertices.modes(rates)
+        return Branch(freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far)

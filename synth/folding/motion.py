@@ -5,7 +5,7 @@ Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees, pi, radians
 from typing import Any
@@ -20,8 +20,8 @@ from graphs.ids import JointId
 from graphs.mechanism.precision import Precision, precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import Block, html_of, text_of
-from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, Wanted, beginning
-from synth.folding.branches import Branch, Branches, branches_of
+from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, MOST_SECONDS, Wanted, beginning
+from synth.folding.branches import Branch, Branches, Search, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.newton import CLOSED
@@ -105,8 +105,9 @@ class Folding:
         found = self.branches
         return {
             "freedoms": self.freedoms,
-            "branches": None if found is None else [_branch_json(one) for one in found.branches],
+            "branches": None if found is None else [_branch_json(one, self.joints) for one in found.branches],
             "exhaustive": None if found is None else found.exhaustive,
+            "search": None if found is None else found.method,
             "branch": self.branch,
             "driven": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
             "frames": len(self.path.angles),
@@ -123,7 +124,9 @@ class Folding:
         """Return the lines that are printed."""
         lines: list[Block] = []
         if self.branches is not None and not self.branches.regular:
-            how = "all there are" if self.branches.exhaustive else "those that were found"
+            how = (
+                "all there are" if self.branches.exhaustive else f"those that were found ({self.branches.method})"
+            )
             how += "" if self.branches.complete else "; there may be many more"
             lines.append(f"from this pose {len(self.branches.branches)} way(s) to move, {how}")
         if self.branch is not None and self.branches is not None:
@@ -149,12 +152,13 @@ class Folding:
         return f"<Folding: {len(self.path.angles)} frames of {self.sheet!r}>"
 
 
-def _branch_json(branch: Branch) -> dict[str, Any]:
+def _branch_json(branch: Branch, joints: Sequence[JointId]) -> dict[str, Any]:
     return {
         "signs": branch.signs,
         "freedoms": branch.freedoms,
         "certainty": branch.certainty,
         "still": len(branch.still),
+        "modes": [None if pair is None else [joints[place] for place in pair] for pair in branch.modes],
         "followed_deg": degrees(branch.followed),
         "closure": branch.error,
     }
@@ -216,9 +220,11 @@ def fold(
     if not joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
     places, goals = _asked(joints, drive or {})
-    found = branches_of(linkage, closure, MOST_BRANCHES) if len(joints) <= MOST_JOINTS else None
+    marks = _marks(sheet, linkage)
+    search = Search(MOST_BRANCHES, MOST_SECONDS, towards=marks)
+    found = branches_of(linkage, closure, search) if len(joints) <= MOST_JOINTS else None
     turns = goals - linkage.angles[places]
-    wanted = Wanted(branch, _marks(sheet, linkage), places, turns, _doubt(precision_of_sheet(sheet)))
+    wanted = Wanted(branch, marks, places, turns, _doubt(precision_of_sheet(sheet)))
     number, rates = beginning(closure, linkage, found, wanted)
     if not places:
         places = [int(np.abs(rates).argmax())]

@@ -14,21 +14,23 @@ from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.folding.branches import Branches, branches_of
+from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS
+from synth.folding.branches import Branches, Search, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.mending.mended import EXACT, Mended, flattened, mended, nearly
 from synth.folding.newton import CLOSED
 from synth.folding.opened import opened
-from synth.folding.second_order import quadrics_of, rate_spaces, rates_near
+from synth.folding.second_order import rate_spaces, rates_near
+from synth.folding.singular.quadrics import quadrics_of
 
-__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Prepared", "prepared"]
+__all__ = ["Prepared", "prepared"]
 
-MOST_JOINTS = 120
-"""Of larger linkages the branches are not looked for: there may be twice as many for each two panels more."""
+_MOST_SECONDS = 6.0
+"""The branches are looked for so long."""
 
-MOST_BRANCHES = 128
-"""So many are looked for at most."""
+_ALL_WAYS = 120
+"""Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
 
 _FOLDED = 1e-9
 
@@ -115,8 +117,11 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
         apart, linkage = repair.sheet, linkage_of_sheet(repair.sheet, mechanism)
         closure = ClosureEquations(linkage)
         repairs.append(repair)
-    small = len(linkage.graph.joints) <= MOST_JOINTS
-    branches = branches_of(linkage, closure, MOST_BRANCHES) if small else None
+    branches = None
+    if len(linkage.graph.joints) <= MOST_JOINTS:
+        marks = marks_of(apart, linkage)
+        search = Search(MOST_BRANCHES, _MOST_SECONDS, towards=marks if marks.any() else None)
+        branches = branches_of(linkage, closure, search)
     return Prepared(apart, mechanism, linkage, closure, branches, tuple(repairs))
 
 
@@ -127,7 +132,7 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
         return None
     wanted = marks_of(sheet, linkage)
     wanted = wanted if wanted.any() else np.ones(len(wanted))
-    most = MOST_BRANCHES if len(linkage.graph.joints) <= MOST_JOINTS else None
+    most = MOST_BRANCHES if len(linkage.graph.joints) <= _ALL_WAYS else None
     nearly_all = () if most is None else _ways(linkage, nearly(precision))
 
     def moves(linkage: PosedLinkage) -> bool:

@@ -1,50 +1,33 @@
 """Which rates at a singular pose can be the beginning of a motion: what second order says.
 
 Rates at which loops close to first order form a space. To second order each self-stress of the closure equations
-adds one quadratic equation on it: where the creases of a flat vertex turn at rates r in their cyclic order, these
-sum to zero as vectors, and the sum over pairs i < j of r_i r_j (d_i x d_j) has to vanish too. Where an equation is
-a product of two linear ones the rates fall into two subspaces: the two modes of a vertex of four creases. The
-solutions are found by taking one mode or the other, as long as anything is left. Theory: docs/theory/folding.md.
+adds one quadratic equation on it (`synth.folding.singular.quadrics`). Where an equation is a product of two linear
+ones the rates fall into two subspaces: the two modes of a vertex of four creases. The solutions are found by
+taking one mode or the other, as long as anything is left. If nothing is left, nothing moves.
+Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 import scipy.linalg
 import scipy.sparse
 
-from graphs.arrays import Floats
-from graphs.loops.loop import Centre
+from graphs.arrays import Floats, Ints
 from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage, PosedLoop
 from synth.folding.newton import TangentSpace
+from synth.folding.singular.definite import definite_weights
+from synth.folding.singular.quadrics import ZERO, Quadric, local_forms
 
-__all__ = ["Quadric", "RateSpace", "quadrics_of", "rate_spaces", "rates_at", "rates_near"]
+__all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near", "space_near", "spaces_within"]
 
-_ZERO = 1e-9
-"""Singular values and eigenvalues below this part of the largest are zero."""
 _CLOSED, _STEPS = 1e-11, 40
 _SAME, _LOST = 1e-6, 10.0
-"""Spaces that are this close are one."""
-
-
-@dataclass(frozen=True, slots=True)
-class Quadric:
-    """A quadratic equation between the rates of a few joints.
-
-    Attributes
-    ----------
-    joints : int[k]
-        Places of the joints.
-    form : float[k, k]
-        Symmetric; ``r @ form @ r`` has to vanish.
-    """
-
-    joints: tuple[int, ...]
-    form: Floats
+"""Spaces that are this close are one, or this many times closer than what counts as zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,51 +46,8 @@ class RateSpace:
     left: tuple[Quadric, ...]
 
 
-def quadrics_of(linkage: PosedLinkage) -> list[Quadric]:
-    """Return what second order adds to the closure of each loop at the pose.
-
-    Each loop has its own self-stresses: vectors across all twists of its joints. Those that
-    only several loops have together are not looked for.
-    """
-    quadrics = []
-    for loop in linkage.loops:
-        joints, twists = list(loop.joints), _twists(linkage, loop)
-        stresses = scipy.linalg.null_space(twists.T, rcond=_ZERO)
-        if not stresses.shape[1]:
-            continue
-        brackets = _brackets(twists)
-        for stress in stresses.T:
-            upper = np.triu(brackets @ stress, 1)  # twist i comes before twist j
-            if np.abs(upper).max(initial=0.0) > _ZERO:
-                quadrics.append(Quadric(tuple(joints), (upper + upper.T) / 2.0))
-    return quadrics
-
-
-def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
-    """Return the twists of a loop's joints at the pose, as the loop passes them: float[6, k]."""
-    joints = list(loop.joints)
-    axes = linkage.directions[joints] * np.array(loop.signs, dtype=float)[:, None]
-    points = linkage.points[joints] - linkage.points[joints].mean(axis=0)
-    moments = np.cross(points, axes)
-    if loop.centre is Centre.FINITE:  # about the centre there are none
-        moments = np.zeros_like(moments)
-    return np.concatenate([axes, moments], axis=1).T
-
-
-def _brackets(twists: Floats) -> Floats:
-    """Return the Lie brackets of all pairs of twists: float[k, k, 6]."""
-    turn, shift = twists[:3].T, twists[3:].T
-    return np.concatenate(
-        [
-            np.cross(turn[:, None], turn[None]),
-            np.cross(turn[:, None], shift[None]) + np.cross(shift[:, None], turn[None]),
-        ],
-        axis=-1,
-    )
-
-
 def rate_spaces(
-    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], most: int = 4096, zero: float = _ZERO
+    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], most: int = 4096, zero: float = ZERO
 ) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, none part of another, and whether these are all.
 
@@ -122,15 +62,52 @@ def rate_spaces(
     zero : float, optional
         Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     """
-    found: list[RateSpace] = []
-    complete = True
-    for number, space in enumerate(_split(rates_at(closure, angles, zero), tuple(quadrics), zero)):
-        if number == most:
-            complete = False
-            break
-        if not any(_within(space, other, zero) for other in found):
-            found = [*(other for other in found if not _within(other, space, zero)), space]
-    return found, complete
+    found = list(islice(spaces_within(rates_at(closure, angles, zero), quadrics, zero), most + 1))
+    return largest_only(found[:most], zero), len(found) <= most
+
+
+def spaces_within(tangent: Floats, quadrics: Sequence[Quadric], zero: float = ZERO) -> Iterator[RateSpace]:
+    """Yield spaces that hold all rates which agree to second order, depth first; some may be part of others.
+
+    Parameters
+    ----------
+    tangent : float[J, s]
+        The rates that agree to first order (`rates_at`).
+    quadrics : sequence of Quadric
+    zero : float, optional
+        Eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    """
+    quadrics = tuple(quadrics)
+    yield from _split(_Case(tangent, quadrics, local_forms(tangent, quadrics), zero))
+
+
+def space_near(tangent: Floats, quadrics: Sequence[Quadric], rates: Floats, zero: float = ZERO) -> RateSpace:
+    """Return the space that rates which agree to second order belong to, without a search of all.
+
+    Of each product the factor is taken that vanishes at the rates; where both do, the first.
+
+    Parameters
+    ----------
+    tangent, quadrics, zero
+        As in `spaces_within`.
+    rates : float[J]
+    """
+    quadrics = tuple(quadrics)
+    case, factors = _simplified(_Case(tangent, quadrics, local_forms(tangent, quadrics), zero))
+    while factors is not None:
+        here = case.basis.T @ rates
+        case, factors = _simplified(case.across(min(factors, key=lambda normal: abs(float(normal @ here)))))
+    return RateSpace(case.basis, case.left)
+
+
+def largest_only(spaces: Sequence[RateSpace], zero: float = ZERO) -> list[RateSpace]:
+    """Return the spaces that are not part of another, each once, in their order."""
+    kept: dict[int, list[int]] = {}
+    for size in sorted({space.basis.shape[1] for space in spaces}, reverse=True):
+        for number, space in enumerate(spaces):
+            if space.basis.shape[1] == size and not _within_one(space, spaces, kept, zero):
+                kept.setdefault(size, []).append(number)
+    return [spaces[number] for number in sorted(number for numbers in kept.values() for number in numbers)]
 
 
 def rates_near(
@@ -140,8 +117,10 @@ def rates_near(
 
     Parameters
     ----------
-    closure, angles, quadrics
-        As in `rate_spaces`.
+    closure : ClosureEquations
+    angles : float[J]
+        The pose, radians.
+    quadrics : sequence of Quadric
     wanted : float[J]
         Rates, or their signs.
     zero : float, optional
@@ -172,92 +151,89 @@ def rates_near(
     return None
 
 
-def rates_at(closure: ClosureEquations, angles: Floats, zero: float = _ZERO) -> Floats:
+def rates_at(closure: ClosureEquations, angles: Floats, zero: float = ZERO) -> Floats:
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns."""
     _, jacobian = closure.at(angles)
     return np.asarray(scipy.linalg.null_space(jacobian.toarray(), rcond=zero))
 
 
+def _within_one(
+    space: RateSpace, spaces: Sequence[RateSpace], kept: Mapping[int, Sequence[int]], zero: float
+) -> bool:
+    """Tell whether all rates of a space are those of one of the spaces kept, which are listed by their size."""
+    same = max(_SAME, _LOST * zero)
+    one = space.basis.sum(axis=1)  # most spaces differ here already
+    for numbers in kept.values():
+        bases = np.concatenate([spaces[number].basis for number in numbers], axis=1)
+        inside = ((one @ bases).reshape(len(numbers), -1) ** 2).sum(axis=1)
+        near = np.flatnonzero(inside > (1.0 - same) * (one @ one))
+        if any(_within(space, spaces[numbers[place]], zero) for place in near.tolist()):
+            return True
+    return False
+
+
 def _within(space: RateSpace, other: RateSpace, zero: float) -> bool:
     """Tell whether all rates of one space are those of another."""
-    if space.basis.shape[1] > other.basis.shape[1]:
-        return False
     outside = space.basis - other.basis @ (other.basis.T @ space.basis)
     if np.abs(outside).max(initial=0.0) > max(_SAME, _LOST * zero):
         return False
-    for theirs in other.left:
-        if not any(mine is theirs for mine in space.left) and _on(space.basis, theirs, zero) is not None:
-            return False
-    return True
+    theirs = [quadric for quadric in other.left if not any(quadric is mine for mine in space.left)]
+    return bool(np.abs(local_forms(space.basis, theirs)).max(initial=0.0) <= zero)
 
 
-def _split(basis: Floats, quadrics: tuple[Quadric, ...], zero: float) -> Iterator[RateSpace]:
+@dataclass(frozen=True, slots=True)
+class _Case:
+    """A space, and the equations that need not hold on it: what they are as forms on it."""
+
+    basis: Floats
+    left: tuple[Quadric, ...]
+    forms: Floats
+    zero: float
+
+    def only(self, places: Ints) -> _Case:
+        """Return the same space with some of the equations."""
+        return replace(self, left=tuple(self.left[place] for place in places), forms=self.forms[places])
+
+    def across(self, normals: Floats) -> _Case:
+        """Return the part of the space across one normal, float[s], or several, float[s, n]."""
+        part = scipy.linalg.null_space(normals.reshape(len(normals), -1).T, rcond=self.zero)
+        return replace(self, basis=self.basis @ part, forms=part.T @ self.forms @ part)
+
+
+def _split(case: _Case) -> Iterator[RateSpace]:
     """Yield the spaces of solutions within a space, depth first."""
-    basis, left, factors = _simplified(basis, quadrics, zero)
-    if not basis.shape[1]:
+    case, factors = _simplified(case)
+    if not case.basis.shape[1]:
         return
-    if factors is None:
-        yield RateSpace(basis, left)
-        return
-    for normal in factors:
-        yield from _split(_across(basis, normal), left, zero)
+    if factors is not None:
+        for normal in factors:
+            yield from _split(case.across(normal))
+    elif len(case.left) < 2 or definite_weights(case.forms, case.zero) is None:
+        yield RateSpace(case.basis, case.left)
 
 
-def _simplified(
-    basis: Floats, quadrics: tuple[Quadric, ...], zero: float
-) -> tuple[Floats, tuple[Quadric, ...], tuple[Floats, Floats] | None]:
+def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:
     """Use up the equations that are linear on a space; return what is left, and one that is a product.
 
-    An equation that is a product is among those left too: it vanishes on either part.
+    An equation that is a product is among those left too: it vanishes on either part. One whose form has one sign
+    holds only where all linear ones do that it is a sum of squares of.
     """
-    product: tuple[Floats, Floats] | None = None
-    while True:
-        left, product, normals = [], None, None
-        for quadric in quadrics:
-            kind = _on(basis, quadric, zero)
-            if isinstance(kind, _Linear):
-                normals = kind.normals
-                break
-            if kind is not None:
-                left.append(quadric)
-                if product is None and isinstance(kind, _Product):
-                    product = kind.normals
-        if normals is None:
-            return basis, tuple(left), product
-        basis = _across(basis, normals)
-        if not basis.shape[1]:
-            return basis, (), None
+    while case.basis.shape[1]:
+        case = case.only(np.flatnonzero(np.abs(case.forms).max(axis=(1, 2), initial=0.0) > case.zero))
+        if not case.left:
+            return case, None
+        values, vectors = np.linalg.eigh(case.forms)
+        there = np.abs(values) > case.zero * np.abs(values).max(axis=1, keepdims=True)
+        positive, negative = (there & (values > 0)).sum(axis=1), (there & (values < 0)).sum(axis=1)
+        definite = np.flatnonzero((positive == 0) | (negative == 0))
+        if not len(definite):
+            products = np.flatnonzero((positive == 1) & (negative == 1))
+            return case, _factors(values[products[0]], vectors[products[0]]) if len(products) else None
+        case = case.across(np.concatenate([vectors[one][:, there[one]] for one in definite], axis=1))
+    return case.only(np.zeros(0, dtype=np.int64)), None
 
 
-@dataclass(frozen=True, slots=True)
-class _Linear:
-    normals: Floats
-
-
-@dataclass(frozen=True, slots=True)
-class _Product:
-    normals: tuple[Floats, Floats]
-
-
-def _on(basis: Floats, quadric: Quadric, zero: float) -> _Linear | _Product | str | None:
-    """Return what an equation is on a space: linear, a product, quadratic, or None where it always holds."""
-    local = basis[list(quadric.joints)]
-    form = local.T @ quadric.form @ local
-    size = float(np.abs(quadric.form).max(initial=0.0))
-    if np.abs(form).max(initial=0.0) <= zero * size:
-        return None
-    values, vectors = np.linalg.eigh(form)
-    there = np.abs(values) > zero * np.abs(values).max()
-    values, vectors = values[there], vectors[:, there]
-    if (values > 0).all() or (values < 0).all():
-        return _Linear(vectors)
-    if len(values) == 2:
-        plus, minus = np.sqrt(values[1]) * vectors[:, 1], np.sqrt(-values[0]) * vectors[:, 0]
-        return _Product((plus + minus, plus - minus))
-    return "quadratic"
-
-
-def _across(basis: Floats, normals: Floats) -> Floats:
-    """Return the part of a space across one normal, or several: float[J, s - rank]."""
-    columns = normals.reshape(len(normals), -1)
-    return np.asarray(basis @ scipy.linalg.null_space(columns.T, rcond=_ZERO))
+def _factors(values: Floats, vectors: Floats) -> tuple[Floats, Floats]:
+    """Return the normals of the two linear equations whose product a form is, by its eigenvectors."""
+    plus, minus = np.sqrt(values[-1]) * vectors[:, -1], np.sqrt(-values[0]) * vectors[:, 0]
+    return plus + minus, plus - minus

@@ -21,7 +21,8 @@ from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import Fitting
 from synth.folding.mending.places import VertexPlaces
-from synth.folding.second_order import quadrics_of, rate_spaces, rates_near
+from synth.folding.second_order import rate_spaces, rates_near
+from synth.folding.singular.quadrics import quadrics_of
 
 __all__ = ["Mended", "flattened", "mended", "nearly"]
 

@@ -15,12 +15,14 @@ from graphs.arrays import Floats
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.precision import Precision
 from graphs.rank.pose import pose_mobility_of_axes
-from synth.folding.branches import FOLLOWED, Branch, Certainty, rates_towards
+from synth.folding.branches import Branch, Certainty
 from synth.folding.linkage import PosedLinkage
 from synth.folding.path import PathOptions, driven_path
 from synth.folding.placement import moved
 from synth.folding.prepared import Prepared
-from synth.folding.second_order import quadrics_of, rates_near
+from synth.folding.second_order import rates_near
+from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.sampling import FOLLOWED, rates_towards
 from synth.folding.verdict.verdict import Verdict, Way
 from synth.folding.verdict.words import Told, flaps_of, text_of_motion
 

@@ -11,7 +11,8 @@ from synth.folding.branches import branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_sheet
 from synth.folding.newton import corrected
-from synth.folding.second_order import quadrics_of, rates_near
+from synth.folding.second_order import rates_near
+from synth.folding.singular.quadrics import quadrics_of
 
 
 def branches(sheet):
@@ -31,6 +32,20 @@ def test_miura_sheets(rows, columns):
     assert {branch.certainty for branch in found.branches} == {"proved"}
     assert max(branch.error for branch in found.branches) < 1e-12
     assert len({branch.signs for branch in found.branches}) == len(found.branches)
+
+
+@pytest.mark.parametrize(
+    ("size", "patterns"), [(2, 2), (3, 5), (4, 11), pytest.param(5, 23, marks=pytest.mark.slow)]
+)
+def test_mountains_and_valleys_of_miura_sheets(size, patterns, rng):
+    """Letters that some pose near flat has, up to turning the sheet over: each line its own, where lines fold alone."""
+    seen = set()
+    for branch in branches(miura(size, size, np.radians(60))).branches:
+        for _ in range(80):
+            rates = branch.space.basis @ rng.normal(size=branch.freedoms)
+            letters = tuple(np.sign(np.where(np.abs(rates) > 1e-9, rates, 0.0)).astype(int))
+            seen.add(max(letters, tuple(-letter for letter in letters)))
+    assert len(seen) == patterns
 
 
 def test_random_starts_find_no_branch_that_is_not_listed(rng):

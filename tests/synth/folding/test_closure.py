@@ -8,10 +8,10 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from synth.folding.branches import freedoms_at
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
 from synth.folding.path import driven_path
+from synth.folding.singular.sampling import freedoms_at
 
 RING = [(k, (k + 1) % 6) for k in range(6)]
 

@@ -1,0 +1,80 @@
+"""Definite sums of quadratic forms: whether some multiples of several forms add up to one that is positive.
+
+The values that the forms take together, at unit vectors and mixtures of these, make a convex set. If its point
+nearest to zero is w, not zero itself, then the sum with multiples w is at least |w|^2 everywhere; if it is zero,
+no sum is definite. It is looked for by Wolfe's method: the least point of the hull of values seen so far says
+where to look next, at the eigenvector of its least eigenvalue. P. Wolfe, Finding the nearest point in a polytope,
+Mathematical Programming 11 (1976). Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import nnls
+
+from graphs.arrays import Floats
+
+__all__ = ["definite_weights"]
+
+_MOST = 300
+"""Eigenvectors looked at; beyond, what is left to gain is next to nothing."""
+_NEAR, _GAINS = 1e-5, 1e-9
+"""Where the hull comes so near to zero, or a further value brings it no nearer, there is no clear definite sum."""
+
+
+def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None:
+    """Return multiples of forms whose sum is positive definite, and how clearly.
+
+    Parameters
+    ----------
+    forms : float[n, s, s]
+        Symmetric.
+    clear : float
+        The smallest eigenvalue of the sum must be more than this part of the largest.
+
+    Returns
+    -------
+    (float[n], float) or None
+        The multiples, and the smallest eigenvalue as part of the largest; None where none were found.
+
+    Examples
+    --------
+    Neither is definite, their sum is:
+
+    >>> forms = np.array([np.diag([2.0, -1.0]), np.diag([-1.0, 2.0])])
+    >>> weights, smallest = definite_weights(forms, 1e-9)
+    >>> weights.round(6).tolist(), round(smallest, 6)
+    ([0.5, 0.5], 1.0)
+    >>> definite_weights(forms[:1], 1e-9) is None
+    True
+    """
+    if not len(forms) or not forms.shape[1]:
+        return None
+    size = float(np.abs(forms).max())
+    seen = np.trace(forms, axis1=1, axis2=2)[None] / forms.shape[1]
+    for _ in range(_MOST):
+        shares = _shares(seen / size)
+        if shares is None:
+            return None
+        weights = shares @ seen
+        values, vectors = np.linalg.eigh(np.tensordot(weights, forms, 1))
+        if values[0] > clear * values[-1]:
+            return weights, float(values[0] / values[-1])
+        new = np.einsum("i,nij,j->n", vectors[:, 0], forms, vectors[:, 0])
+        if np.linalg.norm(weights) <= _NEAR * size or weights @ (weights - new) <= _GAINS * (weights @ weights):
+            return None
+        seen = np.concatenate([seen[shares > 0.0], new[None]])
+    return None
+
+
+def _shares(points: Floats) -> Floats | None:
+    """Return the shares of points in the point of their convex hull that is nearest to zero: float[points].
+
+    None where it is so near to zero that they cannot be told.
+    """
+    with_sum = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+    try:
+        shares = nnls(with_sum.T, np.eye(1, with_sum.shape[1], points.shape[1])[0], maxiter=30 * len(points))[0]
+    except RuntimeError:  # its iterations do not end
+        return None
+    return np.asarray(shares / shares.sum())

@@ -1,0 +1,236 @@
+"""Branches followed from a singular pose: rates to begin with, a pose some way along, the freedoms there.
+
+On many branches joints are still: three creases of a vertex that lies flat while a line through it folds. Their
+closure equations are squares there, which Newton's method approaches slowly, so these joints are locked; where
+nothing is found so, they are freed. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import islice
+from math import radians, tan
+
+import numpy as np
+import scipy.sparse
+
+from graphs.arrays import Floats
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.path import PathOptions, driven_path
+from synth.folding.placement import moved
+from synth.folding.second_order import RateSpace, largest_only, rates_at, spaces_within
+from synth.folding.singular.quadrics import all_quadrics, local_forms
+
+__all__ = [
+    "FOLLOWED",
+    "Followed",
+    "followed",
+    "freedoms_at",
+    "general_rates",
+    "in_half_tangents",
+    "rates_towards",
+    "same_part",
+]
+
+FOLLOWED = radians(10.0)
+"""How far each branch is followed, radians of the joint that moves most."""
+_STARTS = 60
+"""Starts of the search for rates on which equations are left, for each pattern of signs."""
+_AGREES = 1e-9
+_STILL = 1e-7
+_NEWTON, _ROUNDED = 30, 1e-14
+_MOVED, _SHORT_OF = 1e-3, 0.7
+"""A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
+_SPACES = 64
+"""At a pose of a branch, after so many spaces of rates second order is said not to tell."""
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """How far one branch was followed.
+
+    Attributes
+    ----------
+    freedoms : int or None
+        At the end, to second order; None where no motion was found or second order does not tell.
+    sample : float[J]
+        Joint angles at the end, radians.
+    error : float
+        By how much loops do not close there.
+    far : float
+        How far the joint that moves most has moved there, radians; 0 where no motion was found.
+    """
+
+    freedoms: int | None
+    sample: Floats
+    error: float
+    far: float
+
+
+class _Locked(ClosureEquations):
+    """Closure equations of a linkage some joints of which are locked: its derivatives by them are zero."""
+
+    def __init__(self, linkage: PosedLinkage, still: tuple[int, ...]) -> None:
+        super().__init__(linkage)
+        self._free = np.ones(self.joints)
+        self._free[list(still)] = 0.0
+
+    def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return what does not close at joint angles, and its derivatives by those that are free."""
+        residual, jacobian = super().at(angles)
+        jacobian.data *= self._free[jacobian.indices]
+        return residual, jacobian
+
+
+def followed(
+    linkage: PosedLinkage, closure: ClosureEquations, rates: Floats, still: tuple[int, ...] = ()
+) -> Followed:
+    """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    closure : ClosureEquations
+        Of this linkage.
+    rates : float[J]
+        To begin with, to second order.
+    still : tuple of int
+        Places of the joints that do not begin to move on it.
+    """
+    ways = [_Locked(linkage, still), closure] if still else [closure]
+    for way in ways:
+        end, error = _walked(linkage.angles, way, rates)
+        far = float(np.abs(end - linkage.angles).max())
+        if far > _MOVED:
+            break
+    else:
+        return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
+    return Followed(freedoms_at(linkage, closure, end), end, error, far)
+
+
+def _walked(start: Floats, closure: ClosureEquations, rates: Floats) -> tuple[Floats, float]:
+    """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
+    driver = int(np.abs(rates).argmax())
+    options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
+    path = driven_path(closure, start, [driver], start[driver] + goal, options=options)
+    reached = float(path.angles[-1][driver] - start[driver])
+    if path.stopped and abs(reached) > _MOVED:  # the end of a path may be no general pose
+        path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)
+    return path.angles[-1], float(path.errors[-1])
+
+
+def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> Followed:
+    """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
+    end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
+    return Followed(space.basis.shape[1], end, closure.error(end), FOLLOWED)
+
+
+def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
+
+    Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
+    folded along one straight line, for instance, has creases that lie in one plane.
+    """
+    tangent = rates_at(closure, angles)
+    quadrics = all_quadrics(moved(linkage, angles), tangent)
+    spaces = largest_only(list(islice(spaces_within(tangent, quadrics), _SPACES)))
+    if len(spaces) != 1 or spaces[0].left:
+        return None if spaces else 0
+    return int(spaces[0].basis.shape[1])
+
+
+def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
+    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
+    start = space.basis.T @ wanted
+    if not start.any():
+        return np.zeros_like(wanted)
+    x = _on_equations(local_forms(space.basis, space.left), np.asarray(start))
+    return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
+
+
+def general_rates(
+    space: RateSpace, most: int, towards: Floats | None = None, late: Callable[[], bool] = lambda: False
+) -> tuple[list[Floats], bool]:
+    """Return general rates of a space, one for each part that its equations leave, up to sign.
+
+    Where two equations or more are left the parts are looked for from random starts: there may be others. Told too
+    is whether no limit ended the search.
+
+    Parameters
+    ----------
+    space : RateSpace
+    most : int
+        After so many the search ends.
+    towards : float[J], optional
+        If it ends so, the part near to these rates comes first.
+    late : callable, optional
+        Whether it is time to end the search, with one part at least if there is one.
+    """
+    chance, size = np.random.default_rng(space.basis.shape), space.basis.shape[1]
+    if not space.left:
+        x = chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)
+        return [_scaled(space.basis @ x)], True
+    forms = local_forms(space.basis, space.left)
+    halves = _halves(space)
+    parts = 2 ** max(len(halves) - 1, 0)
+    found: dict[tuple[int, ...], Floats] = {}
+    for _ in range(_STARTS * 2 ** min(len(halves), 6)):
+        x = _on_equations(forms, np.asarray(chance.normal(size=size)))
+        if x is None:
+            continue
+        rates = space.basis @ x
+        signs = _side(halves, rates)
+        if signs and signs[0] < 0:
+            rates, signs = -rates, tuple(-one for one in signs)
+        found.setdefault(signs, _scaled(rates))
+        if len(found) == parts or len(found) == most or late():
+            break
+    others = [found[signs] for signs in sorted(found, reverse=True)]
+    whole = len(found) == parts or not (len(found) == most or late())
+    if whole or towards is None:
+        return others, whole
+    near = rates_towards(space, towards)
+    first = [near] if near.any() and not any(same_part(space, near, one) for one in others) else []
+    return [*first, *others], False
+
+
+def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
+    """Tell whether two rates of a space are, up to their sign, on the same part of what its equations leave."""
+    halves = _halves(space)
+    mine, theirs = _side(halves, one), _side(halves, other)
+    return mine in (theirs, tuple(-sign for sign in theirs))
+
+
+def _scaled(rates: Floats) -> Floats:
+    return np.asarray(rates / np.abs(rates).max())
+
+
+def _on_equations(forms: Floats, x: Floats) -> Floats | None:
+    """Return a unit vector at which forms float[n, s, s] vanish, by Newton's method from a start float[s]."""
+    for _ in range(_NEWTON):
+        x = x / np.linalg.norm(x)
+        slopes = forms @ x
+        off = slopes @ x
+        if np.abs(off).max(initial=0.0) <= _ROUNDED:
+            return x
+        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
+    return None
+
+
+def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
+    """Return on which half of each equation's solutions rates are."""
+    return tuple(int(np.sign(half @ rates)) for half in halves)
+
+
+def _halves(space: RateSpace) -> list[Floats]:
+    """Return, for each equation whose solutions are two cones tip to tip, what has one sign on one of them."""
+    found = []
+    for form in local_forms(space.basis, space.left):
+        values, vectors = np.linalg.eigh(form)
+        there = np.abs(values) > _AGREES * np.abs(values).max()
+        singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
+        found += [space.basis @ vectors[:, single[0]] for single in singles if len(single) == 1][:1]
+    return found
