@@ -212,7 +212,9 @@ def _folds_flat(linkage: PosedLinkage, joints: Sequence[int], centre: Centre) ->
         return False
     apex = _meeting_point(linkage, joints)
     away = linkage.points[list(joints)] - apex
-    outward = away / np.linalg.norm(away, axis=1, keepdims=True)
+    at_apex = np.linalg.norm(away, axis=1, keepdims=True) <= _AGREES
+    outward = np.where(at_apex, linkage.directions[list(joints)], away)
+    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
     sectors: list[float] = [
         float(np.arccos(np.clip(a @ b, -1.0, 1.0))) for a, b in pairwise([*outward, outward[0]])
     ]
