@@ -19,7 +19,7 @@ def linkage(data, name):
     return linkage_of(read(data / "linkages" / f"{name}.json"))
 
 
-def moved(data, name, goal, frames=6):
+def moved(data, name, goal, frames=3):
     """Joint angles float[F, J] of a linkage whose first joint is driven."""
     motion = move(linkage(data, name), drive={0: goal}, frames=frames)
     assert motion.path.stopped == ""
