@@ -24,6 +24,7 @@ from synth.folding.linkage import PosedLinkage, linkage_of_axes
 
 __all__ = ["linkage_of_rods"]
 
+_FARTHEST = 1e100
 _IN_LINE = 1e-6
 """Rods whose angle has a sine of this or less are in line."""
 
@@ -83,11 +84,7 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     _check_only_rods(model)
     rods = list(model.edges)
     ends = np.array([[model.coordinates[v] for v in rod] for rod in rods], dtype=float)
-    along = ends[:, 1] - ends[:, 0]
-    lengths = np.linalg.norm(along, axis=1)
-    for rod in np.flatnonzero(lengths == 0.0):
-        raise InvariantError("rod", f"the rod between vertices {shown(rods[rod])} has no length")
-    directions = along / lengths[:, None]
+    directions = _directions(rods, ends)
     hinges = _Hinges(list(range(len(rods))))
     meetings = _meetings(model, rods)
     tree = _tree(meetings, directions)
@@ -116,6 +113,18 @@ def _check_only_rods(model: PolyhedronModel) -> None:
         raise UnsolvableError("the polyhedron model comes in several parts: expected one")
     if not model.number_of_edges():
         raise UnsolvableError("the polyhedron model has no rods: nothing moves")
+
+
+def _directions(rods: list[tuple[Any, Any]], ends: Floats) -> Floats:
+    """Return the unit vectors along rods: float[rods, 3]."""
+    if np.abs(ends).max() >= _FARTHEST:
+        raise InvariantError("coordinates", f"a vertex is at {np.abs(ends).max():g}", f"none beyond {_FARTHEST:g}")
+    along = ends[:, 1] - ends[:, 0]
+    sizes = np.abs(along).max(axis=1)
+    for rod in np.flatnonzero(sizes == 0.0):
+        raise InvariantError("rod", f"the rod between vertices {shown(rods[rod])} has no length")
+    along /= sizes[:, None]
+    return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))
 
 
 def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hashable, list[int]]:

@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
+from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
 from synth.folding.closure import ClosureEquations, turns
 from synth.folding.placement import link_motions
 from synth.folding.second_order import rates_at
@@ -236,3 +239,40 @@ def test_a_cube_of_rods_moves_as_rods_do():
         model = PolyhedronModel(len(vertices), edges, coordinates=dict(enumerate(vertices)))
         here = linkage_of(model)
         assert rates_at(ClosureEquations(here), here.angles).shape[1] == freedoms
+
+
+@pytest.mark.parametrize("row", range(6))
+def test_two_equal_links_as_in_the_appendix(golden, row):
+    """Wiener 2016, Appendix A: B over A and A', which are 2 phi apart: alpha = arccos(cos theta / cos phi).
+
+    A rhombus with links theta, so that A and A' stay in a plane and B in another; it begins at phi = 15 degrees.
+    """
+    wanted = golden["003"]["appendixA"]["computed"][row]
+    theta, phi = np.radians([wanted["theta"], wanted["phi"]])
+    begin = np.radians(15.0)
+    rise = np.arccos(np.cos(theta) / np.cos(begin))
+    axes = {
+        "A": (np.cos(begin), np.sin(begin), 0.0), "B": (np.cos(rise), 0.0, np.sin(rise)),
+        "A'": (np.cos(begin), -np.sin(begin), 0.0), "C": (np.cos(rise), 0.0, -np.sin(rise)),
+    }  # fmt: skip
+    ring = SCGraph(4, {name: ((i - 1) % 4, i) for i, name in enumerate(axes)}, [Loop(tuple(axes))])
+    rhombus = HingedSolids(ring, {name: ((0.0, 0.0, 0.0), axis) for name, axis in axes.items()})
+    opening = [2 * np.arcsin(np.sin(half) / np.sin(theta)) for half in (begin, phi)]  # between the links at B
+    for sign in (1.0, -1.0):
+        motion = move(rhombus, drive={"B": sign * (opening[1] - opening[0])}, frames=1)
+        places = _directions(motion.linkage, motion.path.angles[-1])
+        apart = np.arccos(places[0] @ places[2]) / 2
+        if abs(apart - phi) < 1e-6:
+            break
+    assert motion.path.stopped == ""
+    assert apart == pytest.approx(phi, abs=CLOSE)
+    alpha = np.arccos(places[1] @ places[3]) / 2
+    assert np.degrees(alpha) == pytest.approx(wanted["alpha"], abs=1e-9)
+    assert places[0] @ places[1] == pytest.approx(np.cos(theta), abs=CLOSE)
+
+
+def _directions(here, angles):
+    """Directions of all axes at joint angles."""
+    motions = link_motions(here, angles[None])
+    ends = here.graph.joints.values()
+    return [motions[first][0][0] @ axis for (first, _), axis in zip(ends, here.directions, strict=True)]
