@@ -82,11 +82,13 @@ def linkage_of(
 
 
 def sheet_of(thing: Mechanism) -> Sheet | None:
-    """Return a sheet, or a model that knows its panels, as a sheet; None of anything else."""
+    """Return a sheet, or a model that is its panels and no more, as a sheet; None of anything else."""
     if isinstance(thing, Sheet):
         return thing
-    plain = isinstance(thing, PolyhedronModel) and thing.links and not thing.centres and not thing.scissors
-    return to_sheet(thing) if plain else None
+    if not isinstance(thing, PolyhedronModel) or not thing.links:
+        return None
+    more = (*thing.centres, *thing.scissors, *thing.on_line, *thing.on_plane)
+    return None if more or thing.ground is not None else to_sheet(thing)
 
 
 def linkage_on_cone(linkage: OnCone) -> PosedLinkage:

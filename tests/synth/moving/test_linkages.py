@@ -9,7 +9,7 @@ from commands import run
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.loops.loop import Loop
-from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
@@ -143,3 +143,20 @@ def test_axes_may_be_given_by_the_apex_itself():
     motion = move(linkage_of(HingedSolids(SCGraph(4, RING, [Loop(range(4))]), axes)), drive={0: 0.5}, frames=1)
     assert len(motion.branches.branches) == 2  # the two modes of a flat vertex
     assert motion.path.stopped == ""
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ({"ground": [0, 1]}, "a ground link"),
+        ({"on_plane": [PointConstraint(3, (0, 1, 2))]}, "points on planes"),
+        ({"on_line": [PointConstraint(3, (0, 1))]}, "points on lines"),
+    ],
+)
+def test_what_models_say_beyond_their_panels_is_not_dropped(more, told):
+    corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (0, 1, 0), 3: (1, 1, 0)}
+    rods = [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)]
+    links = {"a": (0, 1, 2), "b": (1, 3, 2)}
+    assert len(linkage_of(PolyhedronModel(4, rods, coordinates=corners, links=links)).graph.joints) == 1
+    with pytest.raises(UnsolvableError, match=told):
+        linkage_of(PolyhedronModel(4, rods, coordinates=corners, links=links, **more))
