@@ -128,15 +128,6 @@ def test_the_beginning_is_first_order(rocker):
     assert begun in ([expected, mirrored], [mirrored, expected])
 
 
-def test_one_way_is_kept_up_to_a_turn():
-    """An open four-bar on less than half the cone, a link beside the longest fixed: all leave one way."""
-    motion = move_on_cone(loop_of_steps(np.radians([50, 50, 40]), np.radians(30)), ground=1)
-    ways = {sense.one_way[0] for sense in (motion.forward, motion.backward)}
-    assert ways == {Way.INWARD, Way.OUTWARD}
-    for sense in (motion.forward, motion.backward):
-        assert 0 < sense.one_way[1] / sense.limit <= 1
-
-
 @pytest.mark.slow
 def test_a_crank_turns_all_round_and_both_ends_meet():
     first, _ = loop_on_cones(np.radians(CRANK))
@@ -197,18 +188,19 @@ def test_what_is_no_motion_of_one_freedom_is_refused(rocker):
         move_on_cone(rocker.on_cone, at=[np.nan])
 
 
-def test_the_command(data):
-    """A chain of two loops; what is wrong with words."""
-    file = data / "surfaces" / "fig11-stephenson.json"
-    (told,) = json.loads(run("cone", "move", file, "--at", "0.1", "--json").stdout)["linkages"]
-    assert told["range_deg"] == pytest.approx([-1.36169917200493, 0.21235976470108], abs=1e-9)
+def test_the_command_tells_up_to_which_turn_one_way_is_kept(data):
+    """An open four-bar on less than half the cone, a link beside the longest fixed: all leave one way."""
+    words = ("cone", "move", "--steps", "50,50,40", "--lambda", 30, "--at", "3", "--json")
+    (told,) = json.loads(run(*words).stdout)["linkages"]
+    assert {told[sense]["one_way"]["way"] for sense in ("forward", "backward")} == {"inward", "outward"}
+    for sense in (told["forward"], told["backward"]):
+        assert 0 < sense["one_way"]["to_deg"] / sense["limit_deg"] <= 1
     assert told["circuit"]["closed"]
-    assert set(told["forward"]["links"]) == {"0", "1", "2", "3", "4", "5"}
-    assert [each["direct"] for each in told["positions"]].count(True) == 1
-    assert len(told["positions"]) == 4
-    assert told["positions"][0]["joint_angles_deg"]["O"] == pytest.approx(0.1, abs=1e-12)
+    assert set(told["forward"]["links"]) == {"1", "2", "3", "4"}
+    assert told["positions"][0]["joint_angles_deg"]["1"] == pytest.approx(3.0, abs=1e-12)
     assert "Usage:" in run("cone", "move", code=2).output
     assert "any cone" in run("cone", "move", "--steps", "40,50,60", code=2).stderr
+    file = data / "surfaces" / "fig11-stephenson.json"
     assert "'Q' is no joint" in run("cone", "move", file, "--driver", "Q", code=2).stderr
 
 
