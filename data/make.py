@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import hinged_linkages
 import linkages_on_surfaces
 import orientation_tasks
 import patterns
@@ -37,6 +38,9 @@ def main(folder: Path = HERE) -> None:
     (folder / "patterns").mkdir(exist_ok=True)
     for name, sheet in {"bird-base": patterns.bird_base(), "four-bar-vertex": patterns.fourbar_vertex()}.items():
         write(sheet, folder / "patterns" / f"{name}.fold", force=True)
+    (folder / "linkages").mkdir(exist_ok=True)
+    for name, linkage in hinged_linkages.LINKAGES.items():
+        write(linkage, folder / "linkages" / name, force=True)
     surfaces.write_surfaces(folder / "surfaces")
     (folder / "orientations").mkdir(exist_ok=True)
     for name, quaternions in orientation_tasks.TASKS.items():

@@ -22,6 +22,7 @@ from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
 from graphs.rank.pose import pose_mobility_of_axes
 
 __all__ = ["lying", "mobility"]
@@ -47,7 +48,7 @@ def mobility(
 
     Parameters
     ----------
-    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or networkx.Graph
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, HingedSolids, nx.Graph
         A plain graph is a link-joint graph: each face of a drawing of it is given a finite centre.
     exact : bool, optional
         Find the exact generic rank; by default of what is not too large.
@@ -97,6 +98,9 @@ def mobility(
         answer = with_exact(answer, sc, demanded=demanded)
     if pose is not False and isinstance(mechanism, ConicalLinkage):
         return _conformed(answer, mechanism)
+    if pose is not False and isinstance(mechanism, HingedSolids):
+        here = pose_mobility_of_axes(mechanism.chain, mechanism.axes)
+        return replace(answer, pose=here).with_notes(warnings=notes_of_pose(here))
     return answer
 
 

@@ -22,6 +22,7 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, sheet_from_model, sides_of_face
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
 
 __all__ = [
@@ -35,7 +36,7 @@ __all__ = [
     "to_vertex_edge",
 ]
 
-Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage
+Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage | HingedSolids
 """What a file may hold (an SCDGraph is an SCGraph)."""
 
 
@@ -59,7 +60,7 @@ def to_sc(thing: Mechanism) -> SCGraph:
         return sc_from_vertex_edge(thing)
     if isinstance(thing, Sheet):
         return mechanism_of_sheet(thing).sc
-    if isinstance(thing, ConicalLinkage):
+    if isinstance(thing, ConicalLinkage | HingedSolids):
         return thing.chain
     return to_scd(thing).sc_graph()
 

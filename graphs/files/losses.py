@@ -14,6 +14,7 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
+from graphs.mechanism.solids import HingedSolids
 from graphs.plain_text import plain
 
 __all__ = ["lost_as_bare_graph", "lost_as_cp", "lost_as_fold", "lost_as_json", "lost_as_obj", "lost_as_svg"]
@@ -117,6 +118,8 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
         told.append(f"the order of the sides of {_number(len(sc), 'link')}")
     if isinstance(mechanism, ConicalLinkage):
         told.append("angles on the cone")
+    if isinstance(mechanism, HingedSolids):
+        told.append("the axes of its joints")
     if sc.ground is not None:
         told.append("the ground link")
     if names:
@@ -137,6 +140,8 @@ def _lost_as_sheet(mechanism: Mechanism) -> Lost:
         told.append("the ground link")
     if isinstance(mechanism, ConicalLinkage):
         told.append("angles on the cone")
+    if isinstance(mechanism, HingedSolids):
+        told.append("the axes of its joints")
     loops: tuple[Loop, ...] = (*sc.loops, *sc.closing)
     told += _some(sum(loop.at is not None for loop in loops), "centre told by name", "centres told by name")
     told += _some(sum(loop.name is not None for loop in loops), "name of a loop", "names of loops")

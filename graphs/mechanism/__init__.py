@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from graphs.mechanism.scd import SCDGraph as SCDGraph
     from graphs.mechanism.sheet import Sheet as Sheet
     from graphs.mechanism.sheet import sheet_from_model as sheet_from_model
+    from graphs.mechanism.solids import HingedSolids as HingedSolids
     from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
     from graphs.mechanism.vertex_edge import sc_from_vertex_edge as sc_from_vertex_edge
     from graphs.mechanism.vertex_edge import vertex_edge_from_sc as vertex_edge_from_sc
@@ -43,6 +44,7 @@ else:
             "sc": "SCGraph",
             "scd": "FeatureCounts SCDGraph",
             "sheet": "Sheet sheet_from_model",
+            "solids": "HingedSolids",
             "vertex_edge": "VertexEdgeGraph sc_from_vertex_edge vertex_edge_from_sc",
         },
     )

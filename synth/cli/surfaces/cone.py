@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from math import radians
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from synth.cli.surfaces.circles import NumberList, print_cones
 
 if TYPE_CHECKING:
     from synth.conformed.linkages import LinkageBehaviour, OnCone
+    from synth.moving.conical import ConicalMotion
 
 __all__ = ["cone_group"]
 
@@ -151,9 +153,7 @@ def behaviour_command(
       synth cone behaviour --steps 40,50,50 --ground 2
       synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
     """
-    from graphs.files.formats import read_linkage
     from synth.cli.surfaces.conical import print_behaviours
-    from synth.conformed.linkages import linkage_on_cones, loop_of_steps, loop_on_cones
     from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:
@@ -162,14 +162,8 @@ def behaviour_command(
     tilt = None if cone_angle is None else float(checked_cone_angle(radians(cone_angle)))
     if tilt is not None and angles is not None:
         raise click.UsageError("--angles tell the cone themselves")
-    if file is not None:
-        with about(file):
-            found = _behaviours(linkage_on_cones(read_linkage(file), tilt), ground)
-    elif angles is not None:
-        found = _behaviours(loop_on_cones(_radians(angles)), ground)
-    else:
-        assert steps is not None
-        found = _behaviours([loop_of_steps(_radians(steps), tilt)], ground)
+    with _about(file):
+        found = _behaviours(_on_cones(file, angles, steps, tilt), ground)
     if output is not None:
         if not found:
             raise click.UsageError("there is no cone to draw")
@@ -189,4 +183,89 @@ def _behaviours(linkages: list[OnCone], ground: str | None) -> list[LinkageBehav
 
     return [
         linkage.behaviour(None if ground is None else link_named(linkage.chain, ground)) for linkage in linkages
+    ]
+
+
+@cone_group.command("move", short_help="How far a linkage moves from its cone, and where its links go all along.")
+@click.argument("file", required=False, metavar="[FILE]")
+@click.option(
+    "--angles", type=NumberList(), metavar="A,B,...", help="Link angles in loop order; on each of their cones."
+)
+@click.option("--steps", type=NumberList(), metavar="A,B,...", help="Signed steps round the cone in loop order.")
+@click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="Cone angle, with steps.")
+@click.option("--ground", metavar="LINK", help="The fixed link: the first (1) by default; of a FILE, its own.")
+@click.option("--driver", metavar="JOINT", help="The driving joint: by default the first of the fixed link.")
+@click.option("--at", type=NumberList(), metavar="A,B,...", help="Turns of the driver: list positions, degrees.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def move_command(
+    file: str | None,
+    angles: tuple[float, ...] | None,
+    steps: tuple[float, ...] | None,
+    cone_angle: float | None,
+    ground: str | None,
+    driver: str | None,
+    at: tuple[float, ...] | None,
+    as_json: bool,
+) -> None:
+    """Move a linkage of one freedom and any number of loops from its conformed position, all round its circuit.
+
+    Says how far the driving joint goes each way, on which side of the cone each link is all along, what the
+    circuit is, and, with --at, all positions of the circuit at given turns of the driving joint.
+
+    \b
+    Examples:
+      synth cone move --angles 120,95,45,85
+      synth cone move data/surfaces/fig11-stephenson.json --at 0.1
+    """
+    from synth.cli.surfaces.moving import print_motion
+    from synth.surfaces.cone import checked_cone_angle
+
+    if sum(one is not None for one in (file, angles, steps)) != 1:
+        raise click.UsageError("give --angles or --steps of one loop, or a FILE")
+    if cone_angle is not None and angles is not None:
+        raise click.UsageError("--angles tell the cone themselves")
+    tilt = None if cone_angle is None else float(checked_cone_angle(radians(cone_angle)))
+    with _about(file):
+        found = _motions(_on_cones(file, angles, steps, tilt), ground, driver, _radians(at or ()))
+    if as_json:
+        print_json({"linkages": [motion.to_json() for motion in found]})
+    else:
+        for motion in found:
+            print_motion(motion)
+        if not found:
+            click.echo("no cone")
+
+
+def _about(file: str | None) -> AbstractContextManager[None]:
+    return nullcontext() if file is None else about(file)
+
+
+def _on_cones(
+    file: str | None, angles: tuple[float, ...] | None, steps: tuple[float, ...] | None, tilt: float | None
+) -> list[OnCone]:
+    from graphs.files.formats import read_linkage
+    from synth.conformed.linkages import linkage_on_cones, loop_of_steps, loop_on_cones
+
+    if file is not None:
+        return linkage_on_cones(read_linkage(file), tilt)
+    if angles is not None:
+        return loop_on_cones(_radians(angles))
+    assert steps is not None
+    return [loop_of_steps(_radians(steps), tilt)]
+
+
+def _motions(
+    linkages: list[OnCone], ground: str | None, driver: str | None, at: list[float]
+) -> list[ConicalMotion]:
+    from graphs.edit.named import joint_named, link_named
+    from synth.moving.conical import move_on_cone
+
+    return [
+        move_on_cone(
+            one,
+            None if ground is None else link_named(one.chain, ground),
+            None if driver is None else joint_named(one.chain, driver),
+            at,
+        )
+        for one in linkages
     ]

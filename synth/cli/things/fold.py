@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from math import radians
+from typing import TYPE_CHECKING
 
 import click
 
 from synth.cli.output import FORCE, about, console, plain, print_json, table
+
+if TYPE_CHECKING:
+    from graphs.convert.table import Mechanism
+    from synth.moving.motion import Motion
 
 __all__ = ["fold"]
 
@@ -32,11 +37,12 @@ def fold(
     force: bool,
     as_json: bool,
 ) -> None:
-    """Fold a crease pattern. Panels stay rigid; all loops of creases close to 1e-12 in every pose.
+    """Fold a crease pattern, or move another linkage. Panels stay rigid; all loops close to 1e-12 in every pose.
 
     Fold angles are in degrees, valleys positive. From a flat state there are several ways to fold; without
     --branch it is the one that agrees best with the mountains and valleys of the file. Without --drive the crease
     that moves most is folded as far as it goes. JOINT is an id, a number in the list of edges, or two links A,B.
+    What has no panels (solids hinged at edges, rods, a linkage on its cone) moves by joint angles, from the pose.
 
     \b
     Examples:
@@ -45,23 +51,24 @@ def fold(
     """
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.edit.named import joint_named
-    from graphs.errors import UnsolvableError
     from graphs.files.formats import read
-    from graphs.mechanism.sheet import Sheet
     from synth.folding.motion import fold as folded
     from synth.folding.written import check_output, write_folding
+    from synth.moving.linkages import sheet_of
 
     if output is not None:
         check_output(output, force=force)
     thing = read(file)
     with about(file):
-        if not isinstance(thing, Sheet):
-            raise UnsolvableError(f"only crease patterns fold, and this is {thing!r}")
-        sheet = thing.frames.first_placed() if thing.frames is not None else thing
+        sheet = sheet_of(thing)
+        if sheet is None:
+            moved = _moved(thing, drive, branch, frames, output)
+            print_json({"file": file, "output": None, **moved.to_json()}) if as_json else click.echo(str(moved))
+            return
+        sheet = sheet.frames.first_placed() if sheet.frames is not None else sheet
         graph = mechanism_of_sheet(sheet).sc
         goals = {joint_named(graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
-        way: int | str | None = int(branch) if branch is not None and branch.isdigit() else branch
-        found = folded(sheet, drive=goals or None, branch=way, frames=frames)
+        found = folded(sheet, drive=goals or None, branch=_way(branch), frames=frames)
         written = [] if output is None else write_folding(found, output, force=force)
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})
@@ -76,6 +83,26 @@ def fold(
         click.echo(line)
     for place in written:
         click.echo(f"written: {plain(str(place), 4096)}")
+
+
+def _moved(
+    thing: Mechanism, drive: tuple[str, ...], branch: str | None, frames: int, output: str | None
+) -> Motion:
+    """Move what has no panels: solids hinged at edges, rods, a linkage on its cone."""
+    from graphs.edit.named import joint_named
+    from graphs.errors import UnsolvableError
+    from synth.moving.linkages import linkage_of
+    from synth.moving.motion import move
+
+    linkage = linkage_of(thing)
+    if output is not None:
+        raise UnsolvableError("there are no panels to write: --json gives the joint angles of each frame")
+    goals = {joint_named(linkage.graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
+    return move(linkage, drive=goals or None, branch=_way(branch), frames=frames)
+
+
+def _way(branch: str | None) -> int | str | None:
+    return int(branch) if branch is not None and branch.isdigit() else branch
 
 
 def _asked(text: str) -> tuple[str, float]:

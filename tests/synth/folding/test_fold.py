@@ -195,4 +195,4 @@ def test_the_command_line(tmp_path, data):
     assert read(out).frames.others == 3
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
-    assert "only crease patterns fold" in run("fold", data / "wiener" / "watt.json", code=2).stderr
+    assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr

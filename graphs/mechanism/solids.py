@@ -1,0 +1,77 @@
+"""Solids hinged at edges: a linkage whose joint axes are given in space, at one pose.
+
+How it moves is worked out in ``synth.moving``. Theory: docs/theory/moving.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot, isfinite
+from types import MappingProxyType
+
+from graphs.errors import InvariantError, shown
+from graphs.ids import JointId
+from graphs.mechanism.sc import SCGraph
+
+__all__ = ["Axis", "HingedSolids"]
+
+Vector = tuple[float, float, float]
+Axis = tuple[Vector, Vector]
+"""A point of a joint axis and its direction."""
+_LONGEST = 1e100
+"""Squares of longer and of much shorter vectors are no numbers."""
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class HingedSolids:
+    """Links of any shape, and the axes of the hinges between them at one pose.
+
+    Parameters
+    ----------
+    chain : SCGraph
+        Links and joints. Loops may have a centre; their axes meet there, or are parallel.
+    axes : mapping of joint id to (point, direction)
+        Three coordinates each, any unit of length. A positive angle of a joint turns its second link against its
+        first, right-handed about the direction.
+
+    Raises
+    ------
+    InvariantError
+        If a joint has no axis, an axis no direction, or a number is not finite.
+
+    Examples
+    --------
+    A door:
+
+    >>> HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    <HingedSolids: <SCGraph: 2 links, 1 joint, 0 centres>>
+    """
+
+    chain: SCGraph
+    axes: Mapping[JointId, Axis]
+
+    def __post_init__(self) -> None:
+        checked: dict[JointId, Axis] = {}
+        for joint in self.axes:
+            if joint not in self.chain.joints:
+                raise InvariantError("axis", f"{shown(joint)} is no joint", "a joint id", ("axes", joint))
+        for joint in self.chain.joints:
+            if joint not in self.axes:
+                raise InvariantError("axis", f"joint {shown(joint)} has no axis", "one for each joint")
+            point, direction = (_vector(joint, one) for one in self.axes[joint])
+            if not 1 / _LONGEST < hypot(*direction) < _LONGEST:
+                told = f"the axis of joint {shown(joint)} has the direction {shown(list(direction))}"
+                raise InvariantError("axis", told, "a vector that is not zero", ("axes", joint))
+            checked[joint] = (point, direction)
+        object.__setattr__(self, "axes", MappingProxyType(checked))
+
+    def __repr__(self) -> str:
+        return f"<HingedSolids: {self.chain!r}>"
+
+
+def _vector(joint: JointId, given: Sequence[float]) -> Vector:
+    if len(given) != 3 or not all(isfinite(x) and abs(x) < _LONGEST for x in given):
+        told = f"the axis of joint {shown(joint)} has {shown(list(given))}"
+        raise InvariantError("axis", told, "three numbers, none beyond 1e100", ("axes", joint))
+    return (float(given[0]), float(given[1]), float(given[2]))

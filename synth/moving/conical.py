@@ -1,0 +1,196 @@
+"""Motion of linkages on cones from the conformed position: range of a driving joint, ways of links, circuits.
+
+To first order the ways are told by `synth.conformed.behaviours`; here links are looked at all along.
+Theory: docs/theory/moving.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import degrees, isfinite, tau
+from typing import Any
+
+import numpy as np
+
+from graphs.edit.named import known
+from graphs.errors import InvariantError, shown
+from graphs.ids import JointId, LinkId
+from synth.conformed.linkages import OnCone
+from synth.conformed.rates import ConformedChain
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.second_order import rates_at
+from synth.moving.circuits import Circuit, circuit_through
+from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense
+from synth.moving.linkages import linkage_on_cone
+
+__all__ = ["ConicalMotion", "move_on_cone"]
+
+_STILL = 1e-9
+
+
+@dataclass(frozen=True)
+class ConicalMotion:
+    """A linkage of one freedom on its cone, moved from the conformed position.
+
+    Attributes
+    ----------
+    on_cone : OnCone
+    linkage : PosedLinkage
+        At the conformed position.
+    chain : ConformedChain
+        Its first link is fixed.
+    driver : joint id
+    circuit : Circuit
+        All poses that can be reached, from the conformed position on, the driving joint beginning forward.
+    backward, forward : Sense
+    positions : tuple of Position
+        At the turns that were asked for.
+    """
+
+    on_cone: OnCone
+    linkage: PosedLinkage
+    chain: ConformedChain
+    driver: JointId
+    circuit: Circuit
+    backward: Sense
+    forward: Sense
+    positions: tuple[Position, ...]
+
+    @property
+    def turns_fully(self) -> bool:
+        """Whether the driving joint turns all round."""
+        return self.forward.ends == ROUND
+
+    @property
+    def meets(self) -> list[float]:
+        """Turns of the driving joint at which another circuit meets this one: the linkage may go on either way."""
+        place = list(self.linkage.graph.joints).index(self.driver)
+        return [float(pose[place]) for pose in self.circuit.meets]
+
+    @cached_property
+    def turns(self) -> dict[JointId, int]:
+        """How often each joint turns round while the circuit is passed once; of one that is not closed, none."""
+        if not self.circuit.closed:
+            return {}
+        whole = np.rint((self.circuit.angles[-1] - self.circuit.angles[0]) / tau).astype(int).tolist()
+        return dict(zip(self.linkage.graph.joints, whole, strict=True))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the motion as plain data, with the keys that scripts rely on (docs/files.md)."""
+        joints = list(map(str, self.linkage.graph.joints))
+        return {
+            "lambda_deg": None if self.on_cone.cone_angle is None else degrees(self.on_cone.cone_angle),
+            "ground": str(self.chain.links[0]),
+            "driver": str(self.driver),
+            "range_deg": [degrees(self.backward.limit), degrees(self.forward.limit)],
+            "turns_fully": self.turns_fully,
+            "backward": _sense_json(self.backward),
+            "forward": _sense_json(self.forward),
+            "circuit": {
+                "closed": self.circuit.closed,
+                "stopped": self.circuit.stopped or None,
+                "turns": {str(joint): turns for joint, turns in self.turns.items()},
+                "meets_deg": list(map(degrees, self.meets)),
+                "closure": self.circuit.error,
+                "poses": len(self.circuit.angles),
+            },
+            "positions": [
+                {
+                    "at_deg": degrees(each.at),
+                    "joint_angles_deg": dict(zip(joints, np.degrees(each.angles).tolist(), strict=True)),
+                    "direct": each.direct,
+                    "ways": {str(link): way.name.lower() for link, way in each.ways.items()},
+                }
+                for each in self.positions
+            ],
+        }
+
+
+def move_on_cone(
+    on_cone: OnCone, ground: LinkId | None = None, driver: JointId | None = None, at: Sequence[float] = ()
+) -> ConicalMotion:
+    """Move a linkage on a cone, of any number of loops and one freedom, from its conformed position.
+
+    Parameters
+    ----------
+    on_cone : OnCone
+        With a cone angle.
+    ground : link id, optional
+        The fixed link: by default the chain's own, or the first.
+    driver : joint id, optional
+        By default the first joint of the fixed link that moves.
+    at : sequence of float, optional
+        Turns of the driver from the conformed position, radians, at which positions are wanted: all those of the
+        circuit.
+
+    Raises
+    ------
+    UnsolvableError
+        If the cone angle is not known, or the linkage has not just one freedom at the conformed position.
+    InvariantError
+        If the driver is no joint or does not move, or a turn is not finite.
+
+    Examples
+    --------
+    >>> from synth.conformed.linkages import loop_on_cones
+    >>> first, _ = loop_on_cones(np.radians([120, 95, 45, 85]))
+    >>> motion = move_on_cone(first)
+    >>> motion.turns_fully, motion.circuit.closed, motion.driver
+    (False, True, '1')
+    >>> [round(degrees(sense.limit), 3) for sense in (motion.backward, motion.forward)]
+    [-103.923, 5.655]
+    """
+    chain = ConformedChain.of(on_cone.chain, ground)
+    linkage = linkage_on_cone(on_cone)
+    closure = ClosureEquations(linkage)
+    place = _driver(closure, linkage, chain, driver)
+    for turn in at:
+        if not isfinite(turn):
+            raise InvariantError("turn", f"a position is asked for at {turn}", "a finite angle")
+    walk = ConicalWalk(on_cone, chain, linkage, closure, place)
+    towards = np.eye(1, closure.joints, place)[0]
+    ahead = walk.with_turning_points(circuit_through(closure, linkage.angles, towards))
+    back = _reversed(ahead) if ahead.closed else circuit_through(closure, linkage.angles, -towards)
+    behind = back if ahead.closed else walk.with_turning_points(back)
+    senses = (walk.sense(behind, -1.0), walk.sense(ahead, 1.0))
+    positions = [each for turn in at for each in walk.positions(behind, ahead, turn)]
+    name = list(linkage.graph.joints)[place]
+    return ConicalMotion(on_cone, linkage, chain, name, ahead, *senses, tuple(positions))
+
+
+def _driver(
+    closure: ClosureEquations, linkage: PosedLinkage, chain: ConformedChain, driver: JointId | None
+) -> int:
+    joints = list(linkage.graph.joints)
+    if driver is not None and driver not in joints:
+        raise InvariantError("driver", f"{shown(driver)} is no joint", known(joints, str(driver)))
+    rates = np.abs(rates_at(closure, linkage.angles)).max(axis=1, initial=0.0)
+    moving = rates > _STILL * rates.max(initial=0.0)
+    asked = list(chain.joints_of[0]) if driver is None else [joints.index(driver)]
+    found = [joint for joint in asked if moving[joint]]
+    if not found:
+        names = ", ".join(shown(joints[joint]) for joint in asked)
+        raise InvariantError("driver", f"joint {names} does not move at the conformed position", "one that does")
+    return found[0]
+
+
+def _reversed(circuit: Circuit) -> Circuit:
+    """Return a closed circuit passed the other way, from the same pose."""
+    back = circuit.angles[::-1] - (circuit.angles[-1] - circuit.angles[0])
+    return replace(circuit, angles=back, rates=-circuit.rates[::-1])
+
+
+def _sense_json(sense: Sense) -> dict[str, Any]:
+    keeps = sense.one_way
+    return {
+        "limit_deg": degrees(sense.limit),
+        "ends": sense.ends,
+        "one_way": None if keeps is None else {"way": keeps[0].name.lower(), "to_deg": degrees(keeps[1])},
+        "links": {
+            str(link): [{"way": each.way.name.lower(), "to_deg": degrees(each.end)} for each in stretches]
+            for link, stretches in sense.ways.items()
+        },
+    }
