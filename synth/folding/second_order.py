@@ -20,7 +20,7 @@ import scipy.sparse
 from graphs.arrays import Floats, Ints
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
-from synth.folding.singular.definite import definite_weights
+from synth.folding.singular.definite import CLEAR, definite_weights
 from synth.folding.singular.quadrics import ZERO, Quadric, local_forms
 
 __all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near", "space_near", "spaces_within"]
@@ -208,7 +208,7 @@ def _split(case: _Case) -> Iterator[RateSpace]:
     if factors is not None:
         for normal in factors:
             yield from _split(case.across(normal))
-    elif len(case.left) < 2 or definite_weights(case.forms, case.zero) is None:
+    elif len(case.left) < 2 or definite_weights(case.forms, max(case.zero, CLEAR)) is None:
         yield RateSpace(case.basis, case.left)
 
 

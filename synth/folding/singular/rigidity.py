@@ -19,15 +19,13 @@ from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import rates_at, spaces_within
-from synth.folding.singular.definite import definite_weights
+from synth.folding.singular.definite import CLEAR, definite_weights
 from synth.folding.singular.quadrics import ZERO, Quadric, all_quadrics, local_forms
 
 __all__ = ["Rigidity", "rigidity_of"]
 
 Proof = Literal["no rates", "definite stress", "cases"]
 
-_CLEAR = 1e-6
-"""A smallest eigenvalue that is this part of the largest is none that rounding made."""
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
 
@@ -96,7 +94,7 @@ def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
         proved = values.rank == closure.joints
         return Rigidity("no rates" if proved else None, 0, values.smallest if closure.joints else None, None, ())
     quadrics = tuple(all_quadrics(linkage, tangent, zero))
-    definite = definite_weights(local_forms(tangent, quadrics), max(zero, _CLEAR))
+    definite = definite_weights(local_forms(tangent, quadrics), max(zero, CLEAR))
     if definite is not None:
         stress = definite[0] / [np.abs(quadric.form).max() for quadric in quadrics]
         return Rigidity("definite stress", flexes, definite[1], stress, quadrics)
