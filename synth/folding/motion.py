@@ -117,6 +117,8 @@ class Folding:
                 for joint, column in zip(self.joints, self.path.angles.T, strict=True)
             },
             "stopped": self.path.stopped or None,
+            "events": [event.to_json(self.joints) for event in self.path.events],
+            "ranks_watched": self.path.watched,
         }
 
     def blocks(self) -> list[Block]:
@@ -135,6 +137,9 @@ class Folding:
             f"driven: {driven} degrees; {len(self.path.angles)} frames, folds up to {largest:.4g} degrees"
         )
         lines.append(f"loops close to {self.closure:.1e}, panels meet to {self.apart:.1e} of the extent")
+        lines += [event.told(self.joints) for event in self.path.events]
+        if not self.path.watched:
+            lines.append("rank drops on the way were not looked for: there are too many joints")
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
         return lines
@@ -227,7 +232,7 @@ def fold(
     if (goals - start) @ rates[places] < 0.0:
         rates = -rates
     steps = np.arange(1, frames + 1)[:, None] / frames
-    options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report)
+    options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report, names=joints)
     path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
     vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
     driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}

@@ -34,6 +34,8 @@ _SLOW = 0.1
 _STILL = 1e-9
 """Squares of lengths of projected unit vectors below this are of joints that cannot move."""
 _MISSED = 1e-4
+_FREE = 1e-3
+"""Part of a vector across the freedoms that is left where it has become one of them."""
 
 
 class TangentSpace:
@@ -73,6 +75,23 @@ class TangentSpace:
         for _ in range(2):  # the second takes off what regularisation left
             kept = kept - self._solve(self._transposed @ (self._jacobian @ kept))
         return kept
+
+    def sharpened(self, across: Floats) -> Floats:
+        """Return what is nearer to the least singular vector across the freedoms: a unit vector float[J].
+
+        One step of inverse iteration. A vector that has become a freedom is given back as it is.
+        """
+        kept = across - self.projected(across)
+        size = float(np.linalg.norm(kept))
+        if size <= _FREE * float(np.linalg.norm(across)):
+            return across
+        found = self._solve(kept / size)
+        found = found - self.projected(found)
+        return np.asarray(found / np.linalg.norm(found))
+
+    def image(self, rates: Floats) -> Floats:
+        """Return by what loops part at some rates: float[rows]."""
+        return np.asarray(self._jacobian @ rates)
 
     def _move(self, joint: int) -> Floats:
         if joint not in self._moves:
@@ -136,7 +155,9 @@ class Corrected:
         return TangentSpace(self.jacobian)
 
 
-def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
+def corrected(
+    closure: ClosureEquations, angles: Floats, held: Sequence[int] = (), start: TangentSpace | None = None
+) -> Corrected:
     """Return joint angles near given ones at which all loops close.
 
     Parameters
@@ -146,6 +167,8 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
         Radians.
     held : sequence of int
         Places of joints that stay as they are, if the others can follow.
+    start : TangentSpace, optional
+        Of a pose nearby: the first step is made with its derivatives.
 
     Notes
     -----
@@ -154,10 +177,11 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
-    space = best.space if best.error > CLOSED / 100 else None
+    space = start
     for steps in range(1, _STEPS + 1):
-        if space is None or best.error <= CLOSED / 100:
+        if best.error <= CLOSED / 100:
             break
+        space = space or best.space
         moved = best.angles + space.step(off, held)
         residual, jacobian = closure.at(moved)
         tried = Corrected(moved, _largest(residual), steps, jacobian)
