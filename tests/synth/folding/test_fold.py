@@ -1,7 +1,9 @@
 """Folding crease patterns: closed forms, rigid panels, limits, files, the command line, bad input."""
 
 import json
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +23,7 @@ from synth.folding.motion import fold
 from synth.folding.path import PathOptions, driven_path
 from synth.folding.written import write_folding
 
+ROOT = Path(__file__).resolve().parents[3]
 VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")
 
 
@@ -195,4 +198,23 @@ def test_the_command_line(tmp_path, data):
     assert read(out).frames.others == 3
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
+    assert "--all folds without --drive" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
     assert "only crease patterns fold" in run("fold", data / "wiener" / "watt.json", code=2).stderr
+
+
+def test_all_is_what_is_done_without_drive():
+    vertex = ROOT / "data" / "patterns" / "four-bar-vertex.fold"
+    answers = [json.loads(run("fold", vertex, *more, "--frames", 2, "--json").stdout) for more in ([], ["--all"])]
+    assert answers[0] == answers[1]
+    assert max(abs(angles[-1]) for angles in answers[0]["fold_angles_deg"].values()) == pytest.approx(179)
+
+
+@pytest.mark.parametrize("name", ["f.gif", "f.png"])
+def test_pictures_of_foldings(tmp_path, monkeypatch, name):
+    vertex = ROOT / "data" / "patterns" / "four-bar-vertex.fold"
+    run("fold", vertex, "--frames", 2, "-o", tmp_path / name)
+    assert (tmp_path / name).read_bytes()[:4] in (b"GIF8", b"\x89PNG")
+    assert "exists already" in run("fold", vertex, "--frames", 2, "-o", tmp_path / name, code=2).stderr
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    told = run("fold", vertex, "--frames", 2, "-o", tmp_path / f"other-{name}", code=2).stderr
+    assert told.strip() == "pictures need matplotlib: pip install 'synthedra[draw]'"
