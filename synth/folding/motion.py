@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
@@ -23,8 +23,10 @@ from graphs.printing import Block, html_of, text_of
 from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, Wanted, beginning
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.collisions import Panels, Poses, first_collision
+from synth.folding.following.event import PathEvent
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
-from synth.folding.newton import CLOSED
+from synth.folding.newton import CLOSED, corrected
 from synth.folding.opened import opened
 from synth.folding.path import DrivenPath, PathOptions, driven_path
 from synth.folding.placement import vertex_places
@@ -171,6 +173,7 @@ def fold(
     drive: Mapping[JointId, float] | None = None,
     branch: int | str | None = None,
     frames: int = _FRAMES,
+    collisions: bool = False,
     report: Callable[[int], None] | None = None,
 ) -> Folding:
     """Fold a crease pattern from its pose, panels rigid, until driven creases have the angles asked for.
@@ -187,6 +190,8 @@ def fold(
         edges.
     frames : int, optional
         How many after the first.
+    collisions : bool, optional
+        End before the first frame on whose way panels pass through each other.
     report : callable, optional
         Called with the number of frames after each.
 
@@ -234,9 +239,41 @@ def fold(
     steps = np.arange(1, frames + 1)[:, None] / frames
     options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report, names=joints)
     path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    if collisions:
+        path = _unobstructed(path, places[0], sheet, mechanism, linkage)
     vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
     driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Folding(sheet, linkage, found, number, joints, path, driven, apart, vertices)
+
+
+def _unobstructed(
+    path: DrivenPath, driver: int, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage
+) -> DrivenPath:
+    """Return a path as far as no panels pass through each other."""
+    closure = ClosureEquations(linkage)
+
+    def closed(angles: Floats) -> Floats | None:
+        found = corrected(closure, angles)
+        return found.angles if found.closed else None
+
+    def places(angles: Floats) -> Floats:
+        return vertex_places(sheet, mechanism, linkage, angles)[0]
+
+    panel_of = {face: panel for panel, faces in enumerate(mechanism.panels) for face in faces}
+    panels = Panels(sheet.faces, [panel_of[face] for face in range(len(sheet.faces))], places(path.angles[:1])[0])
+    met = first_collision(panels, path.angles, Poses(places, closed))
+    if met is None:
+        return path
+    event = PathEvent("collision", max(met.frame, 0), driver, (driver,), met.angles, panels=met.panels)
+    told = event.told(tuple(linkage.graph.joints))
+    kept = max(met.frame, 0) + 1
+    return replace(
+        path,
+        angles=path.angles[:kept],
+        errors=path.errors[:kept],
+        stopped=told if met.frame >= 0 else f"panels pass through each other where it begins: {told}",
+        events=(*(one for one in path.events if one.frame < kept - 1), event),
+    )
 
 
 def _doubt(precision: Precision) -> str:

@@ -22,6 +22,7 @@ __all__ = ["fold"]
 @click.option("--branch", metavar="K", help="Take this way from a flat state: its number, or its signs.")
 @click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
 @click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses to make.")
+@click.option("--collisions", is_flag=True, help="End before panels pass through each other.")
 @click.option(
     "-o",
     "--output",
@@ -37,6 +38,7 @@ def fold(
     branch: str | None,
     listed: bool,
     frames: int,
+    collisions: bool,
     output: str | None,
     force: bool,
     as_json: bool,
@@ -75,7 +77,9 @@ def fold(
         goals = {joint_named(graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
         way: int | str | None = int(branch) if branch is not None and branch.isdigit() else branch
         with _progress(frames + 1) as report:
-            found = folded(sheet, drive=goals or None, branch=way, frames=frames, report=report)
+            found = folded(
+                sheet, drive=goals or None, branch=way, frames=frames, collisions=collisions, report=report
+            )
         written = [] if output is None else write_folding(found, output, force=force)
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})

@@ -13,7 +13,7 @@ from graphs.ids import JointId
 
 __all__ = ["EventKind", "PathEvent", "angle_told", "joints_told"]
 
-EventKind = Literal["turning point", "limit", "rank drop"]
+EventKind = Literal["turning point", "limit", "rank drop", "collision"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,9 +22,10 @@ class PathEvent:
 
     Attributes
     ----------
-    kind : {"turning point", "limit", "rank drop"}
+    kind : {"turning point", "limit", "rank drop", "collision"}
         Turning point: the driven joint has its extreme angle there. Limit: panels lie on each other. Rank drop:
-        the closure equations leave more rates than before and after; branches may part there.
+        the closure equations leave more rates than before and after; branches may part there. Collision: panels
+        begin to pass through each other.
     frame : int
         The last frame before it, or at it.
     driver : int
@@ -38,6 +39,8 @@ class PathEvent:
         By how much the rank is less than beside it; 0 of other kinds.
     other_ways : int or None
         Of a rank drop, ways to go on, to second order, besides that of the path; None where that does not tell.
+    panels : tuple of int
+        Of a collision, the two links.
     """
 
     kind: EventKind
@@ -47,6 +50,7 @@ class PathEvent:
     angles: Floats
     drop: int = 0
     other_ways: int | None = None
+    panels: tuple[int, ...] = ()
 
     def to_json(self, names: Sequence[JointId]) -> dict[str, Any]:
         """Return the event as plain data, angles in degrees."""
@@ -58,6 +62,7 @@ class PathEvent:
             "joints": [str(names[joint]) for joint in self.joints],
             "drop": self.drop,
             "other_ways": self.other_ways,
+            "panels": list(self.panels),
         }
 
     def told(self, names: Sequence[JointId]) -> str:
@@ -67,6 +72,8 @@ class PathEvent:
             return f"turning point: {at}"
         if self.kind == "limit":
             return f"limit: panels lie on each other at joint(s) {joints_told(self.joints, names)}, {at}"
+        if self.kind == "collision":
+            return f"collision: panels {self.panels[0]} and {self.panels[1]}, {at}"
         others = self.other_ways
         ways = "branches may part" if others is None else f"{others} other way(s) to second order"
         return f"rank drop: {self.drop} less with {at}; {ways}"
