@@ -155,9 +155,7 @@ class Corrected:
         return TangentSpace(self.jacobian)
 
 
-def corrected(
-    closure: ClosureEquations, angles: Floats, held: Sequence[int] = (), start: TangentSpace | None = None
-) -> Corrected:
+def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
     """Return joint angles near given ones at which all loops close.
 
     Parameters
@@ -167,8 +165,6 @@ def corrected(
         Radians.
     held : sequence of int
         Places of joints that stay as they are, if the others can follow.
-    start : TangentSpace, optional
-        Of a pose nearby: the first step is made with its derivatives.
 
     Notes
     -----
@@ -177,7 +173,7 @@ def corrected(
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
-    space = start
+    space, fresh = None, True
     for steps in range(1, _STEPS + 1):
         if best.error <= CLOSED / 100:
             break
@@ -185,15 +181,15 @@ def corrected(
         moved = best.angles + space.step(off, held)
         residual, jacobian = closure.at(moved)
         tried = Corrected(moved, _largest(residual), steps, jacobian)
-        slow, fresh = tried.error > _SLOW * best.error, space is best.space
+        slow = tried.error > _SLOW * best.error
         if tried.error < best.error:
-            best, off = tried, residual
+            best, off, fresh = tried, residual, False
         elif fresh:
             break
         if slow:
             if best.closed:
                 break
-            space = best.space
+            space, fresh = None, True
     return best
 
 

@@ -53,7 +53,7 @@ class Step:
 
     def pose(self, part: float) -> Corrected:
         """Return the closed pose at a part of the step."""
-        return corrected(self.closure, self.expected(part), start=self.before.space)
+        return corrected(self.closure, self.expected(part))
 
     def piece(self, low: float, high: float) -> Step:
         """Return the step between two parts of this one."""
@@ -77,7 +77,7 @@ class Step:
             expected = self.expected(part)
             length = float(np.abs(self.after.angles - self.before.angles).max()) * (high - low)
             expected[joint] = value
-            held = corrected(self.closure, expected, [joint], start=self.before.space)
+            held = corrected(self.closure, expected, [joint])
             if held.closed and np.abs(held.angles - expected).max() <= length:
                 held.angles[joint] = value  # it was held but for rounding
                 return held

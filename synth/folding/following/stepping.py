@@ -30,7 +30,7 @@ _ALIKE = 0.6
 """Cosine of the angle between directions before and after a step, at least."""
 _HARDLY = 0.05
 """A driven joint that has less than this part of the largest rate may be about to turn back."""
-_EASY = 4
+_EASY = 5
 """Steps of Newton's method after which a step of the path may be longer."""
 _ALONG = 1e-6
 """Part of rates that is left across the path where there is one freedom."""
@@ -123,7 +123,7 @@ class Stepping:
             expected = here.angles + length * rates + length**2 / 2.0 * bend
             held = self._drivers if lands or several else []
             expected[held] = here.angles[held] + (left if lands else length / most * left)[: len(held)]
-            end = corrected(self._closure, expected, held, here.space)
+            end = corrected(self._closure, expected, held)
             if end.closed and np.abs(end.angles - expected).max() <= _STRAY * length:
                 arriving = end.space.projected(rates)
                 if several or _alike(arriving, rates):
