@@ -37,6 +37,8 @@ _FRAMES = 20
 _WHOLE = radians(179.0)
 """How far a pattern is folded if nothing is said; at 180 degrees panels lie on each other."""
 _CLOSE = 1e-9
+_TOGETHER = 1e-10
+"""Panels that disagree by more on the place of a vertex, in units of the extent, do not hold together."""
 _EXACT = 1e-12
 """Coordinates that are precise to this part of the extent are taken at their word."""
 
@@ -242,8 +244,24 @@ def fold(
     if collisions:
         path = _unobstructed(path, places[0], sheet, mechanism, linkage)
     vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
+    path = _together(path, apart, wanted.doubt)
+    vertices, parted = vertices[: len(path.angles)], float(apart[: len(path.angles)].max())
     driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
-    return Folding(sheet, linkage, found, number, joints, path, driven, apart, vertices)
+    return Folding(sheet, linkage, found, number, joints, path, driven, parted, vertices)
+
+
+def _together(path: DrivenPath, apart: Floats, doubt: str) -> DrivenPath:
+    """Return a path as far as panels agree on the places of vertices.
+
+    Loops close by the axes of creases. One of several pieces that are in line but for rounding has one axis, and
+    panels part at the other pieces.
+    """
+    kept = int(np.argmax(apart > _TOGETHER)) if (apart > _TOGETHER).any() else len(apart)
+    if kept == len(apart):
+        return path
+    told = f"panels come apart by {apart[kept]:.1e} of the extent in frame {kept}: creases between them are bent"
+    events = tuple(event for event in path.events if event.frame < kept - 1)
+    return replace(path, angles=path.angles[:kept], errors=path.errors[:kept], stopped=told + doubt, events=events)
 
 
 def _unobstructed(

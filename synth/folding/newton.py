@@ -19,7 +19,7 @@ from scipy.sparse.linalg import splu
 from graphs.arrays import Floats
 from synth.folding.closure import ClosureEquations
 
-__all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected"]
+__all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected", "exactly_held"]
 
 CLOSED = 1e-12
 """Loops that close to this, radians and units of the extent, are closed."""
@@ -29,6 +29,8 @@ along freedoms is multiplied by its inverse."""
 _DENSE = 40
 """Up to this many joints matrices are full; larger full ones would wait for threads of BLAS."""
 _STEPS = 12
+_HOLDS = 2
+"""Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
 _STILL = 1e-9
@@ -191,6 +193,34 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
                 break
             space, fresh = None, True
     return best
+
+
+def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int], values: Floats) -> Corrected:
+    """Return a pose with held joints at their angles to the last digit; its error is that of the angles it has.
+
+    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    pose : Corrected
+        Found with the joints held.
+    held : sequence of int
+        Places of the joints.
+    values : float[H]
+        Their angles, radians.
+    """
+    places = list(held)
+    for _ in range(_HOLDS):
+        angles = pose.angles.copy()
+        angles[places] = values
+        if np.array_equal(angles, pose.angles):
+            return pose
+        pose = corrected(closure, angles, held)
+    angles = pose.angles.copy()
+    angles[places] = values
+    residual, jacobian = closure.at(angles)
+    return Corrected(angles, _largest(residual), pose.steps, jacobian)
 
 
 def _largest(residual: Floats) -> float:

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from graphs.arrays import Floats
 from synth.folding.closure import ClosureEquations
-from synth.folding.newton import Corrected, corrected
+from synth.folding.newton import Corrected, corrected, exactly_held
 
 __all__ = ["Step"]
 
@@ -78,8 +78,8 @@ class Step:
             length = float(np.abs(self.after.angles - self.before.angles).max()) * (high - low)
             expected[joint] = value
             held = corrected(self.closure, expected, [joint])
+            held = exactly_held(self.closure, held, [joint], expected[[joint]])
             if held.closed and np.abs(held.angles - expected).max() <= length:
-                held.angles[joint] = value  # it was held but for rounding
                 return held
             part = (low + high) / 2.0
             middle = float(self.pose(part).angles[joint])

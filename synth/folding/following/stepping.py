@@ -18,7 +18,7 @@ from graphs.arrays import Flags, Floats
 from graphs.ids import JointId
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.between import Step
-from synth.folding.newton import Corrected, corrected
+from synth.folding.newton import Corrected, corrected, exactly_held
 
 __all__ = ["PathOptions", "Stepping"]
 
@@ -126,9 +126,10 @@ class Stepping:
             end = corrected(self._closure, expected, held)
             if end.closed and np.abs(end.angles - expected).max() <= _STRAY * length:
                 arriving = end.space.projected(rates)
-                if several or _alike(arriving, rates):
-                    end.angles[held] = expected[held]  # they were held but for rounding
-                    if end.steps <= _EASY and not lands:
+                easy = end.steps <= _EASY and not lands
+                end = exactly_held(self._closure, end, held, expected[held])
+                if end.closed and (several or _alike(arriving, rates)):
+                    if easy:
                         self._length = min(1.5 * self._length, _LARGEST)
                     return Step(self._closure, here, end, rates, arriving)
             self._length = length / 2.0

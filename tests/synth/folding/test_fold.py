@@ -89,7 +89,9 @@ def test_several_creases_are_driven_together():
     folded = fold(star, drive=asked, frames=4)
     assert folded.path.stopped == ""
     assert {joint: folded.path.angles[-1][joint] for joint in asked} == pytest.approx(asked, abs=1e-12)
-    assert folded.closure < 1e-12
+    closure = ClosureEquations(folded.linkage)
+    assert max(closure.error(angles) for angles in folded.path.angles) == folded.closure < 1e-12
+    assert folded.apart < 1e-11
 
 
 def test_a_joint_turns_back_where_it_must():
@@ -118,6 +120,16 @@ def test_panels_do_not_pass_each_other():
     options = PathOptions(folded.branches.branches[folded.branch].rates, np.ones(4, dtype=bool))
     path = driven_path(ClosureEquations(linkage), linkage.angles, [0], [-3.0, -3.2], options=options)
     assert path.stopped
+
+
+@pytest.mark.parametrize(("off", "frames"), [(0.0, 4), (1e-13, 4), (1e-5, 1)])
+def test_panels_that_do_not_hold_together_are_not_answered(off, frames):
+    """Two panels with a crease of two pieces, in line or a little bent: then they hinge on neither."""
+    places = ((0, -1), (0 + off, 0), (0, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
+    folded = fold(Sheet(7, ((0, 1), (1, 2)), "VV", ((0, 1, 2, 3, 4), (0, 5, 6, 2, 1)), places), frames=3)
+    assert len(folded.path.angles) == len(folded.places) == frames
+    assert folded.apart <= 1e-10
+    assert ("panels come apart" in folded.path.stopped) == (frames == 1)
 
 
 def test_the_sides_of_slits_come_apart():
