@@ -43,17 +43,17 @@ def test_a_strip_has_twelve_poses_at_most():
 
 
 def test_a_moving_picture_goes_there_and_back(tmp_path):
-    poses = np.stack([SQUARE * [1, 1 - k / 8, 1] for k in range(4)])
+    poses = np.stack([SQUARE * [1, 1 - k / 8, 1] for k in range(3)])
     place = tmp_path / "square.gif"
     save_moving_poses([(0, 1, 2, 3)], poses, place)
     with Image.open(place) as picture:
-        assert picture.n_frames == 6
+        assert picture.n_frames == 4
         shown = []
-        for frame in range(6):
+        for frame in range(4):
             picture.seek(frame)
             shown.append(np.asarray(picture.convert("RGB")).astype(int))
     areas = [(np.abs(image - image[0, 0]).sum(axis=2) > 30).sum() for image in shown]
-    assert areas[0] > areas[1] > areas[2] > areas[3]
-    assert areas[4:] == areas[2:0:-1]
+    assert areas[0] > areas[1] > areas[2]
+    assert areas[3] == areas[1]
     with pytest.raises(FileError, match="exists already"):
         save_moving_poses([(0, 1, 2, 3)], poses, place)

@@ -68,7 +68,7 @@ def test_what_turns_away_or_only_touches_goes_on():
 
 
 def test_a_miura_sheet_never_meets_itself():
-    folded = fold(miura(2, 3, np.radians(60)), frames=4, collisions=True)
+    folded = fold(miura(2, 2, np.radians(60)), frames=4, collisions=True)
     assert (folded.path.stopped, len(folded.path.angles)) == ("", 5)
 
 

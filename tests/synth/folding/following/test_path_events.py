@@ -86,7 +86,9 @@ def test_a_rocker_turns_back_where_crank_and_coupler_are_in_line():
     assert "turns back" in path.stopped
 
 
-@pytest.mark.parametrize("angles", [(45, 80, 100, 170, 200), (45, 90, 100, 200), (90, 200)])
+@pytest.mark.parametrize(
+    "angles", [(80, 200), pytest.param((90, 200), marks=pytest.mark.slow), (45, 90, 100, 200)]
+)
 def test_a_parallelogram_stays_one_past_its_flat_position(angles):
     linkage = four_bar((0, 0), (2, 0), (2, 1), (0, 1))
     path = driven_path(ClosureEquations(linkage), linkage.angles, [0], np.radians(angles))
@@ -103,11 +105,11 @@ def test_regular_paths_meet_nothing():
     linkage = four_bar((0, 0), (0, 1), (3.0, 2.5), (4, 0))
     path = driven_path(ClosureEquations(linkage), linkage.angles, [0], np.radians([90, 180, 270, 360]))
     assert (path.stopped, path.events, path.watched) == ("", (), True)
-    folded = fold(miura(2, 3, 1.0), frames=2)
+    folded = fold(miura(2, 2, 1.0), frames=2)
     assert (folded.path.stopped, folded.path.events) == ("", ())
 
 
-@pytest.mark.parametrize("driven", range(4))
+@pytest.mark.parametrize("driven", [0, *(pytest.param(joint, marks=pytest.mark.slow) for joint in (1, 2, 3))])
 def test_a_vertex_that_folds_flat_does_so_exactly(driven):
     folded = fold(fan(np.radians([0, 60, 180, 300]), "MVVV"), drive={driven: np.pi}, frames=6)
     assert folded.path.stopped == ""
@@ -116,7 +118,9 @@ def test_a_vertex_that_folds_flat_does_so_exactly(driven):
     assert folded.path.events[1].joints == (0, 1, 2, 3)
 
 
-@pytest.mark.parametrize("size", [(2, 2), (3, 3), pytest.param((6, 6), marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "size", [(2, 2), pytest.param((3, 3), marks=pytest.mark.slow), pytest.param((6, 6), marks=pytest.mark.slow)]
+)
 def test_a_miura_sheet_folds_flat(size):
     sheet = miura(*size, np.radians(60))
     joints = tuple(mechanism_of_sheet(sheet).sc.joints)
