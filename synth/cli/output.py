@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FORCE",
     "LOSSY",
+    "PATIENCE",
     "about",
     "check_output",
     "check_picture",
@@ -42,7 +43,7 @@ FORCE = click.option(
 LOSSY = click.option("--lossy", is_flag=True, help="Write also where the type would be another.")
 """The option of every command that writes a mechanism."""
 
-_PATIENCE = 2.0
+PATIENCE = 2.0
 """Seconds before progress is shown."""
 
 
@@ -96,7 +97,7 @@ def console() -> Console:
     return console_for(None, None if sys.stdout.isatty() else UNWRAPPED)
 
 
-def entries(files: Sequence[str], failures: list[str], patience: float = _PATIENCE) -> Iterator[Entry]:
+def entries(files: Sequence[str], failures: list[str], patience: float = PATIENCE) -> Iterator[Entry]:
     """Yield the mechanisms of files; what is wrong with a file that cannot be read is added to the failures.
 
     Where it takes longer than some seconds, the patience, a terminal shows how far it has come.

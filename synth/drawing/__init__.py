@@ -1,4 +1,4 @@
-"""Pictures: loop sums, linkages on cones, orientations on the sphere."""
+"""Pictures: loop sums, linkages on cones, orientations on the sphere, panels in space."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from synth.drawing.figure import check_picture as check_picture
     from synth.drawing.figure import new_figure as new_figure
     from synth.drawing.figure import save_figure as save_figure
+    from synth.drawing.panels import draw_poses as draw_poses
+    from synth.drawing.panels import save_moving_poses as save_moving_poses
     from synth.drawing.sphere import draw_hoop as draw_hoop
     from synth.drawing.sphere import draw_map as draw_map
     from synth.drawing.sums import draw_loop_sums as draw_loop_sums
@@ -20,6 +22,7 @@ else:
         {
             "conformed": "draw_conformed",
             "figure": "check_picture new_figure save_figure",
+            "panels": "draw_poses save_moving_poses",
             "sphere": "draw_hoop draw_map",
             "sums": "draw_loop_sums",
         },

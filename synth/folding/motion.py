@@ -13,30 +13,33 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.duality import SheetMechanism
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.mechanism.precision import Precision, precision_of_sheet
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
-from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, MOST_SECONDS, Wanted, beginning
-from synth.folding.branches import Branch, Branches, Search, branches_of
+from synth.folding.beginning import MOST_SECONDS, Wanted, beginning
+from synth.folding.branches import Branch, Branches
 from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage, linkage_of_sheet
-from synth.folding.newton import CLOSED
-from synth.folding.opened import opened
+from synth.folding.following.collisions import Panels, Poses, first_collision
+from synth.folding.following.event import PathEvent
+from synth.folding.linkage import PosedLinkage
+from synth.folding.mending.mended import EXACT, Mended
+from synth.folding.newton import corrected
 from synth.folding.path import DrivenPath, PathOptions, driven_path
 from synth.folding.placement import vertex_places
+from synth.folding.prepared import prepared
 
 __all__ = ["Folding", "fold"]
 
 _FRAMES = 20
 _WHOLE = radians(179.0)
 """How far a pattern is folded if nothing is said; at 180 degrees panels lie on each other."""
-_CLOSE = 1e-9
-_EXACT = 1e-12
-"""Coordinates that are precise to this part of the extent are taken at their word."""
+
+_TOGETHER = 1e-10
+"""Panels that disagree by more on the place of a vertex, in units of the extent, do not hold together."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -64,6 +67,8 @@ class Folding:
         How far panels disagree on the place of a vertex, at most, in units of the extent.
     places : float[F, vertices, 3]
         Of the vertices in each frame, in the unit of the coordinates.
+    repairs : tuple of Mended
+        What was done to rounded coordinates before they were moved.
     """
 
     sheet: Sheet
@@ -75,6 +80,7 @@ class Folding:
     driven: Mapping[JointId, float]
     apart: float
     places: Floats
+    repairs: tuple[Mended, ...] = ()
 
     @property
     def closure(self) -> float:
@@ -118,11 +124,14 @@ class Folding:
                 for joint, column in zip(self.joints, self.path.angles.T, strict=True)
             },
             "stopped": self.path.stopped or None,
+            "mended": [str(repair) for repair in self.repairs],
+            "events": [event.to_json(self.joints) for event in self.path.events],
+            "ranks_watched": self.path.watched,
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        lines: list[Block] = []
+        lines: list[Block] = [f"mended: {repair}" for repair in self.repairs]
         if self.branches is not None and not self.branches.regular:
             how = (
                 "all there are" if self.branches.exhaustive else f"those that were found ({self.branches.method})"
@@ -138,6 +147,9 @@ class Folding:
             f"driven: {driven} degrees; {len(self.path.angles)} frames, folds up to {largest:.4g} degrees"
         )
         lines.append(f"loops close to {self.closure:.1e}, panels meet to {self.apart:.1e} of the extent")
+        lines += [event.told(self.joints) for event in self.path.events]
+        if not self.path.watched:
+            lines.append("rank drops on the way were not looked for: there are too many joints")
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
         return lines
@@ -170,6 +182,7 @@ def fold(
     drive: Mapping[JointId, float] | None = None,
     branch: int | str | None = None,
     frames: int = _FRAMES,
+    collisions: bool = False,
     report: Callable[[int], None] | None = None,
 ) -> Folding:
     """Fold a crease pattern from its pose, panels rigid, until driven creases have the angles asked for.
@@ -186,6 +199,8 @@ def fold(
         edges.
     frames : int, optional
         How many after the first.
+    collisions : bool, optional
+        End before the first frame on whose way panels pass through each other.
     report : callable, optional
         Called with the number of frames after each.
 
@@ -208,21 +223,14 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
-    given = with_all_edges(sheet)
-    mechanism = mechanism_of_sheet(given)
-    sheet = opened(given, mechanism)
-    if sheet is not given:
-        mechanism = mechanism_of_sheet(sheet)
-    linkage = linkage_of_sheet(sheet, mechanism)
-    closure = ClosureEquations(linkage)
-    _check_closed(closure, linkage)
+    pattern = prepared(sheet, seconds=MOST_SECONDS)
+    sheet, mechanism, linkage = pattern.sheet, pattern.mechanism, pattern.linkage
+    closure, found = pattern.closure, pattern.branches
     joints = tuple(linkage.graph.joints)
     if not joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
     places, goals = _asked(joints, drive or {})
-    marks = _marks(sheet, linkage)
-    search = Search(MOST_BRANCHES, MOST_SECONDS, towards=marks)
-    found = branches_of(linkage, closure, search) if len(joints) <= MOST_JOINTS else None
+    marks = pattern.marks if pattern.marks.any() else np.ones(len(joints))
     turns = goals - linkage.angles[places]
     wanted = Wanted(branch, marks, places, turns, _doubt(precision_of_sheet(sheet)))
     number, rates = beginning(closure, linkage, found, wanted)
@@ -233,36 +241,67 @@ def fold(
     if (goals - start) @ rates[places] < 0.0:
         rates = -rates
     steps = np.arange(1, frames + 1)[:, None] / frames
-    options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report)
+    options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report, names=joints)
     path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    if collisions:
+        path = _unobstructed(path, places[0], sheet, mechanism, linkage)
     vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
+    path = _together(path, apart, wanted.doubt)
+    vertices, parted = vertices[: len(path.angles)], float(apart[: len(path.angles)].max())
     driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
-    return Folding(sheet, linkage, found, number, joints, path, driven, apart, vertices)
+    return Folding(sheet, linkage, found, number, joints, path, driven, parted, vertices, pattern.repairs)
+
+
+def _together(path: DrivenPath, apart: Floats, doubt: str) -> DrivenPath:
+    """Return a path as far as panels agree on the places of vertices.
+
+    Loops close by the axes of creases. One of several pieces that are in line but for rounding has one axis, and
+    panels part at the other pieces.
+    """
+    kept = int(np.argmax(apart > _TOGETHER)) if (apart > _TOGETHER).any() else len(apart)
+    if kept == len(apart):
+        return path
+    told = f"panels come apart by {apart[kept]:.1e} of the extent in frame {kept}: creases between them are bent"
+    events = tuple(event for event in path.events if event.frame < kept - 1)
+    return replace(path, angles=path.angles[:kept], errors=path.errors[:kept], stopped=told + doubt, events=events)
+
+
+def _unobstructed(
+    path: DrivenPath, driver: int, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage
+) -> DrivenPath:
+    """Return a path as far as no panels pass through each other."""
+    closure = ClosureEquations(linkage)
+
+    def closed(angles: Floats) -> Floats | None:
+        found = corrected(closure, angles)
+        return found.angles if found.closed else None
+
+    def places(angles: Floats) -> Floats:
+        return vertex_places(sheet, mechanism, linkage, angles)[0]
+
+    panel_of = {face: panel for panel, faces in enumerate(mechanism.panels) for face in faces}
+    panels = Panels(sheet.faces, [panel_of[face] for face in range(len(sheet.faces))], places(path.angles[:1])[0])
+    met = first_collision(panels, path.angles, Poses(places, closed))
+    if met is None:
+        return path
+    event = PathEvent("collision", max(met.frame, 0), driver, (driver,), met.angles, panels=met.panels)
+    told = event.told(tuple(linkage.graph.joints))
+    kept = max(met.frame, 0) + 1
+    return replace(
+        path,
+        angles=path.angles[:kept],
+        errors=path.errors[:kept],
+        stopped=told if met.frame >= 0 else f"panels pass through each other where it begins: {told}",
+        events=(*(one for one in path.events if one.frame < kept - 1), event),
+    )
 
 
 def _doubt(precision: Precision) -> str:
     """Return what rounded coordinates leave open: panels that would fit need not fit as they are written."""
-    if precision.size <= _EXACT:
+    if precision.size <= EXACT:
         return ""
     told = f"{precision.size:.0e} of the extent ({precision.source})"
     return f", with the coordinates as they are written; they are precise to {told}, and exact ones may move"
-
-
-def _check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
-    error = closure.error(linkage.angles)
-    if error > CLOSED:
-        told = f"loops miss closing by {error:.1e}, expected {CLOSED:.0e}"
-        raise UnsolvableError(f"the panels do not fit at the pose of the file: {told}")
-
-
-def _marks(sheet: Sheet, linkage: PosedLinkage) -> Floats:
-    """Return 1 for valleys and -1 for mountains, as marked; without marks, as they are folded, or all 1."""
-    letters = {joint: sheet.assignments[joint] for joint in linkage.graph.joints if joint < len(sheet.edges)}  # type: ignore[operator,index]
-    marks = np.array([{"V": 1.0, "M": -1.0}.get(letters.get(joint, "U"), 0.0) for joint in linkage.graph.joints])
-    if marks.any():
-        return marks
-    folded = np.abs(linkage.angles) > _CLOSE
-    return np.where(folded, np.sign(linkage.angles), 0.0 if folded.any() else 1.0)
 
 
 def _asked(joints: tuple[JointId, ...], drive: Mapping[JointId, float]) -> tuple[list[int], Floats]:

@@ -19,7 +19,7 @@ from scipy.sparse.linalg import splu
 from graphs.arrays import Floats
 from synth.folding.closure import ClosureEquations
 
-__all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected"]
+__all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected", "exactly_held"]
 
 CLOSED = 1e-12
 """Loops that close to this, radians and units of the extent, are closed."""
@@ -29,11 +29,15 @@ along freedoms is multiplied by its inverse."""
 _DENSE = 40
 """Up to this many joints matrices are full; larger full ones would wait for threads of BLAS."""
 _STEPS = 12
+_HOLDS = 2
+"""Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
 _STILL = 1e-9
 """Squares of lengths of projected unit vectors below this are of joints that cannot move."""
 _MISSED = 1e-4
+_FREE = 1e-3
+"""Part of a vector across the freedoms that is left where it has become one of them."""
 
 
 class TangentSpace:
@@ -75,6 +79,23 @@ class TangentSpace:
         for _ in range(2):  # the second takes off what regularisation left
             kept = kept - self._solve(self._transposed @ (self._jacobian @ kept))
         return kept
+
+    def sharpened(self, across: Floats) -> Floats:
+        """Return what is nearer to the least singular vector across the freedoms: a unit vector float[J].
+
+        One step of inverse iteration. A vector that has become a freedom is given back as it is.
+        """
+        kept = across - self.projected(across)
+        size = float(np.linalg.norm(kept))
+        if size <= _FREE * float(np.linalg.norm(across)):
+            return across
+        found = self._solve(kept / size)
+        found = found - self.projected(found)
+        return np.asarray(found / np.linalg.norm(found))
+
+    def image(self, rates: Floats) -> Floats:
+        """Return by what loops part at some rates: float[rows]."""
+        return np.asarray(self._jacobian @ rates)
 
     def _move(self, joint: int) -> Floats:
         if joint not in self._moves:
@@ -158,23 +179,52 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
-    space = best.space if best.error > CLOSED / 100 else None
+    space, fresh = None, True
     for steps in range(1, _STEPS + 1):
-        if space is None or best.error <= CLOSED / 100:
+        if best.error <= CLOSED / 100:
             break
+        space = space or best.space
         moved = best.angles + space.step(off, held)
         residual, jacobian = closure.at(moved)
         tried = Corrected(moved, _largest(residual), steps, jacobian)
-        slow, fresh = tried.error > _SLOW * best.error, space is best.space
+        slow = tried.error > _SLOW * best.error
         if tried.error < best.error:
-            best, off = tried, residual
+            best, off, fresh = tried, residual, False
         elif fresh:
             break
         if slow:
             if best.closed:
                 break
-            space = best.space
+            space, fresh = None, True
     return best
+
+
+def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int], values: Floats) -> Corrected:
+    """Return a pose with held joints at their angles to the last digit; its error is that of the angles it has.
+
+    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    pose : Corrected
+        Found with the joints held.
+    held : sequence of int
+        Places of the joints.
+    values : float[H]
+        Their angles, radians.
+    """
+    places = list(held)
+    for _ in range(_HOLDS):
+        angles = pose.angles.copy()
+        angles[places] = values
+        if np.array_equal(angles, pose.angles):
+            return pose
+        pose = corrected(closure, angles, held)
+    angles = pose.angles.copy()
+    angles[places] = values
+    residual, jacobian = closure.at(angles)
+    return Corrected(angles, _largest(residual), pose.steps, jacobian)
 
 
 def _largest(residual: Floats) -> float:

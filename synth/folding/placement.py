@@ -84,7 +84,7 @@ def moved(linkage: PosedLinkage, angles: Floats) -> PosedLinkage:
 
 def vertex_places(
     sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage, angles: Floats
-) -> tuple[Floats, float]:
+) -> tuple[Floats, Floats]:
     """Return where the vertices of a crease pattern are, and how far panels disagree on that.
 
     Parameters
@@ -102,7 +102,7 @@ def vertex_places(
     -------
     places : float[F, vertices, 3]
         In the unit of the coordinates. Vertices of no face stay.
-    apart : float
+    apart : float[F]
         Largest distance between two places of one vertex, by different panels, in units of the extent.
     """
     assert sheet.coordinates is not None
@@ -112,14 +112,14 @@ def vertex_places(
     motions = link_motions(linkage, angles, _largest(mechanism.panels))
     places = np.broadcast_to(local, (len(angles), *local.shape)).copy()
     placed = np.zeros(sheet.vertices, dtype=bool)
-    apart = 0.0
+    apart = np.zeros(len(angles))
     for link, faces in enumerate(mechanism.panels):
         here = sorted({vertex for face in faces for vertex in sheet.faces[face]})
         rotation, shift = motions[link]
         moved = np.einsum("fij,vj->fvi", rotation, local[here]) + shift[:, None]
         known = placed[here]
         again = moved[:, known] - places[:, np.array(here)[known]]
-        apart = max(apart, float(np.linalg.norm(again, axis=-1).max(initial=0.0)))
+        apart = np.maximum(apart, np.linalg.norm(again, axis=-1).max(axis=1, initial=0.0))
         places[:, np.array(here)[~known]] = moved[:, ~known]
         placed[here] = True
     return places * linkage.extent + linkage.middle, apart

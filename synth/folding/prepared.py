@@ -19,6 +19,7 @@ from synth.folding.branches import Branches, Search, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.mending.mended import EXACT, Mended, flattened, mended, nearly
+from synth.folding.mending.places import VertexPlaces
 from synth.folding.newton import CLOSED
 from synth.folding.opened import opened
 from synth.folding.second_order import rate_spaces, rates_near
@@ -26,8 +27,7 @@ from synth.folding.singular.quadrics import quadrics_of
 
 __all__ = ["Prepared", "prepared"]
 
-_MOST_SECONDS = 6.0
-"""The branches are looked for so long."""
+_SECONDS = 6.0
 
 _ALL_WAYS = 120
 """Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
@@ -74,7 +74,7 @@ def marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
     return np.where(np.abs(linkage.angles) > _FOLDED, np.sign(linkage.angles), 0.0)
 
 
-def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
+def prepared(sheet: Sheet, *, hinge_flat: bool = False, seconds: float = _SECONDS) -> Prepared:
     """Make a crease pattern ready to move.
 
     Parameters
@@ -83,6 +83,8 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
         With coordinates.
     hinge_flat : bool, optional
         Make hinges of flat (F) edges too.
+    seconds : float, optional
+        So long the branches are looked for.
 
     Raises
     ------
@@ -120,7 +122,7 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
     branches = None
     if len(linkage.graph.joints) <= MOST_JOINTS:
         marks = marks_of(apart, linkage)
-        search = Search(MOST_BRANCHES, _MOST_SECONDS, towards=marks if marks.any() else None)
+        search = Search(MOST_BRANCHES, seconds, towards=marks if marks.any() else None)
         branches = branches_of(linkage, closure, search)
     return Prepared(apart, mechanism, linkage, closure, branches, tuple(repairs))
 
@@ -140,7 +142,9 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
             return _ways(linkage) >= nearly_all
         return rates_near(ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), wanted) is not None
 
-    if moves(linkage):
+    places = VertexPlaces(sheet, mechanism, linkage)
+    bent, _ = places.off_lines(places.given)
+    if np.abs(bent).max(initial=0.0) <= EXACT and moves(linkage):
         return None
     return mended(sheet, mechanism, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
 

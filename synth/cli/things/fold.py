@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from math import radians
+from time import monotonic
 from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, about, console, plain, print_json, table
+from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
@@ -19,20 +23,27 @@ __all__ = ["fold"]
 @click.command(short_help="Fold a crease pattern with rigid panels; list its ways to fold.")
 @click.argument("file", metavar="FILE")
 @click.option("--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease so far; may be repeated.")
+@click.option("--all", "whole", is_flag=True, help="Fold all creases together, by one freedom (without --drive).")
 @click.option("--branch", metavar="K", help="Take this way from a flat state: its number, or its signs.")
 @click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
 @click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses to make.")
+@click.option("--collisions", is_flag=True, help="End before panels pass through each other.")
 @click.option(
-    "-o", "--output", metavar="OUT", help="Write the poses: .fold with frames, or a series of .obj files."
+    "-o",
+    "--output",
+    metavar="OUT",
+    help="Write the poses: .fold with frames, a series of .obj files, .gif, or .png (a strip).",
 )
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def fold(
     file: str,
     drive: tuple[str, ...],
+    whole: bool,
     branch: str | None,
     listed: bool,
     frames: int,
+    collisions: bool,
     output: str | None,
     force: bool,
     as_json: bool,
@@ -40,14 +51,16 @@ def fold(
     """Fold a crease pattern, or move another linkage. Panels stay rigid; all loops close to 1e-12 in every pose.
 
     Fold angles are in degrees, valleys positive. From a flat state there are several ways to fold; without
-    --branch it is the one that agrees best with the mountains and valleys of the file. Without --drive the crease
-    that moves most is folded as far as it goes. JOINT is an id, a number in the list of edges, or two links A,B.
+    --branch it is the one that agrees best with the mountains and valleys of the file. Without --drive, as with
+    --all, the crease that moves most is folded as far as it goes, and the others follow. JOINT is an id, a number
+    in the list of edges, or two links A,B.
     What has no panels (solids hinged at edges, rods, a linkage on its cone) moves by joint angles, from the pose.
 
     \b
     Examples:
       synth fold data/patterns/bird-base.fold --branches
       synth fold data/patterns/four-bar-vertex.fold --drive 2=90 --frames 5 -o folded.fold
+      synth fold data/patterns/bird-base.fold --all -o folded.gif
     """
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.edit.named import joint_named
@@ -56,6 +69,8 @@ def fold(
     from synth.folding.written import check_output, write_folding
     from synth.moving.linkages import sheet_of
 
+    if whole and drive:
+        raise click.UsageError("--all folds without --drive: leave one of them out")
     if output is not None:
         check_output(output, force=force)
     thing = read(file)
@@ -68,7 +83,15 @@ def fold(
         sheet = sheet.frames.first_placed() if sheet.frames is not None else sheet
         graph = mechanism_of_sheet(sheet).sc
         goals = {joint_named(graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
-        found = folded(sheet, drive=goals or None, branch=_way(branch), frames=frames)
+        with _progress(frames + 1) as report:
+            found = folded(
+                sheet,
+                drive=goals or None,
+                branch=_way(branch),
+                frames=frames,
+                collisions=collisions,
+                report=report,
+            )
         written = [] if output is None else write_folding(found, output, force=force)
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})
@@ -103,6 +126,24 @@ def _moved(
 
 def _way(branch: str | None) -> int | str | None:
     return int(branch) if branch is not None and branch.isdigit() else branch
+
+
+@contextmanager
+def _progress(frames: int) -> Iterator[Callable[[int], None]]:
+    """Show how many frames there are, on a terminal, where it takes longer than some seconds."""
+    start, shown = monotonic(), False
+
+    def report(made: int) -> None:
+        nonlocal shown
+        if sys.stderr.isatty() and monotonic() - start > PATIENCE:
+            click.echo(f"\r{made} of {frames} frames", nl=False, err=True)
+            shown = True
+
+    try:
+        yield report
+    finally:
+        if shown:
+            click.echo("\r" + " " * 40 + "\r", nl=False, err=True)
 
 
 def _asked(text: str) -> tuple[str, float]:

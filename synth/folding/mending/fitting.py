@@ -141,8 +141,10 @@ class Fitting:
         closure = ClosureEquations(self._places.linkage(corners))
         axes = self._places.motions_of_axes(corners) * _DEAR
         off, planes = self._places.off_planes(corners)
-        residuals, columns = [off, self._angles.off(corners)], [planes * _DEAR, self._angles.by_axes() @ axes]
-        turning = [scipy.sparse.csr_matrix((len(off) + len(self._angles), 0))]
+        bent, lines = self._places.off_lines(corners)
+        residuals = [off, bent, self._angles.off(corners)]
+        columns = [planes * _DEAR, lines * _DEAR, self._angles.by_axes() @ axes]
+        turning = [scipy.sparse.csr_matrix((sum(map(len, residuals)), 0))]
         for pose, size in zip(state.poses, sizes, strict=True):
             residual, jacobian = closure.at(pose)
             residuals.append(residual / size)

@@ -24,7 +24,7 @@ from synth.folding.mending.places import VertexPlaces
 from synth.folding.second_order import rate_spaces, rates_near
 from synth.folding.singular.quadrics import quadrics_of
 
-__all__ = ["Mended", "flattened", "mended", "nearly"]
+__all__ = ["EXACT", "Mended", "flattened", "mended", "nearly"]
 
 EXACT = 1e-12
 """Coordinates that are precise to this part of the extent are taken at their word."""
@@ -122,7 +122,8 @@ def mended(
     if precision.size <= EXACT:
         return None
     places = VertexPlaces(sheet, mechanism, linkage)
-    farthest = _FARTHEST * precision.size
+    bent = np.abs(places.off_lines(places.given)[0]).max(initial=0.0)
+    farthest = max(_FARTHEST * precision.size, float(bent))  # pieces of one crease were taken to be in line
     meant = MeantAngles(places, precision.size)
     for angles in (meant, MeantAngles(places, 0.0)) if len(meant) else (meant,):
         fitting = Fitting(places, angles, linkage.angles)
@@ -130,7 +131,7 @@ def mended(
             continue
         now = _placed(sheet, fitting.corners * linkage.extent + linkage.middle)
         if moves(now):
-            why = "angles that nearly agree are equal" if len(angles) else "panels are plane"
+            why = "angles that nearly agree are equal" if len(angles) else "creases are straight and panels plane"
             return Mended(now, fitting.moved, precision, why)
         for rates in _nearly_agreeing(linkage, precision, wanted, most):
             if not fitting.along(rates, farthest):

@@ -5,6 +5,7 @@ Theory: docs/theory/mending.md.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -58,6 +59,7 @@ class VertexPlaces:
         ways = ((self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]]) * linkage.directions).sum(axis=1)
         self._ways: Floats = np.sign(ways)
         self.along = _plane_of(self.given)
+        self._on_lines = np.array(list(_between(mechanism, linkage)), dtype=np.int64).reshape(-1, 3)
         self._panels = [] if len(self.along) == 2 else [panel for panel in sheet.faces if len(panel) > 3]
         self.unknowns = len(self.given) * len(self.along)
 
@@ -91,6 +93,24 @@ class VertexPlaces:
         values = np.concatenate([near.ravel(), far.ravel()])
         return scipy.sparse.csr_matrix((values, places), shape=(6 * joints, self.unknowns))
 
+    def off_lines(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return how far vertices on creases of several pieces are off their lines, with the derivatives."""
+        vertices, near, far = corners[self._on_lines.T]
+        along = far - near
+        sizes = np.linalg.norm(along, axis=1, keepdims=True)
+        direction = along / np.where(sizes == 0.0, 1.0, sizes)
+        off = np.cross(vertices - near, direction)
+        part = ((vertices - near) * direction).sum(axis=1, keepdims=True) / np.where(sizes == 0.0, 1.0, sizes)
+        across = -_crossing(direction) @ self.along.T
+        count, free = len(vertices), len(self.along)
+        rows = np.broadcast_to((3 * np.arange(count)[:, None] + np.arange(3))[..., None], across.shape).ravel()
+        matrix = scipy.sparse.csr_matrix((3 * count, self.unknowns))
+        for share, which in zip((np.ones_like(part), part - 1.0, -part), self._on_lines.T, strict=True):
+            columns = np.broadcast_to((free * which[:, None] + np.arange(free))[:, None], across.shape).ravel()
+            values = (share[..., None] * across).ravel()
+            matrix = matrix + scipy.sparse.csr_matrix((values, (rows, columns)), shape=matrix.shape)
+        return off.ravel(), matrix.tocsr()
+
     def off_planes(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
         """Return how far vertices are off the planes of their panels, with the derivatives by the unknowns."""
         rows: list[Floats] = []
@@ -115,6 +135,14 @@ class VertexPlaces:
             matrix[start : start + size, columns] = values
             start += size
         return np.concatenate([np.zeros(0), *off]), matrix.tocsr()
+
+
+def _between(mechanism: SheetMechanism, linkage: PosedLinkage) -> Iterator[tuple[int, int, int]]:
+    """Yield vertices on creases of several pieces, each with the ends of its crease."""
+    for joint in linkage.graph.joints:
+        near, far = mechanism.hinges[joint]  # type: ignore[index]
+        inside = {vertex for edge in mechanism.pieces[joint] for vertex in edge} - {near, far}  # type: ignore[index]
+        yield from ((vertex, near, far) for vertex in sorted(inside))
 
 
 def _with_all_equations(loop: PosedLoop) -> PosedLoop:

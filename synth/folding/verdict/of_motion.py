@@ -58,7 +58,8 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
         return _of_large(pattern, generic)
     found = pattern.branches
     ways = tuple(_way(linkage, branch) for branch in found.branches)
-    still = _common(linkage, ways)
+    known = found.complete and all(way.freedoms is not None for way in ways)
+    still = _common(linkage, ways) if known else ()
     chosen, agree = _chosen(found.branches, pattern.marks, _is_flat(linkage))
     told = Told(
         linkage,

@@ -10,6 +10,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
+from synth.folding.newton import TangentSpace, corrected
 from synth.folding.path import driven_path
 from synth.folding.singular.sampling import freedoms_at
 
@@ -90,6 +91,20 @@ def test_what_has_no_axis_is_refused():
         linkage_of_axes(two, {})
     with pytest.raises(InvariantError, match="no direction"):
         linkage_of_axes(two, {0: ((0, 0, 0), (0, 0, 0))})
+
+
+def test_a_correction_factorises_once(monkeypatch):
+    """Steps with the first matrix leave little enough."""
+    graph, axes = bennett((0.7, 1.2), 1.0)
+    closure = ClosureEquations(linkage_of_axes(graph, axes))
+    made, begin = [], TangentSpace.__init__
+    monkeypatch.setattr(
+        TangentSpace, "__init__", lambda space, matrix: (made.append(space), begin(space, matrix))[1]
+    )
+    pose = corrected(closure, np.array([1e-4, 0.0, 0.0, -1e-4]))
+    assert pose.closed
+    assert pose.steps > 1
+    assert len(made) == 1
 
 
 def test_flat_sheets_close(rng):

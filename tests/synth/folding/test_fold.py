@@ -1,7 +1,9 @@
 """Folding crease patterns: closed forms, rigid panels, limits, files, the command line, bad input."""
 
 import json
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,6 +23,7 @@ from synth.folding.motion import fold
 from synth.folding.path import PathOptions, driven_path
 from synth.folding.written import write_folding
 
+ROOT = Path(__file__).resolve().parents[3]
 VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")
 
 
@@ -86,7 +89,9 @@ def test_several_creases_are_driven_together():
     folded = fold(star, drive=asked, frames=4)
     assert folded.path.stopped == ""
     assert {joint: folded.path.angles[-1][joint] for joint in asked} == pytest.approx(asked, abs=1e-12)
-    assert folded.closure < 1e-12
+    closure = ClosureEquations(folded.linkage)
+    assert max(closure.error(angles) for angles in folded.path.angles) == folded.closure < 1e-12
+    assert folded.apart < 1e-11
 
 
 def test_a_joint_turns_back_where_it_must():
@@ -115,6 +120,16 @@ def test_panels_do_not_pass_each_other():
     options = PathOptions(folded.branches.branches[folded.branch].rates, np.ones(4, dtype=bool))
     path = driven_path(ClosureEquations(linkage), linkage.angles, [0], [-3.0, -3.2], options=options)
     assert path.stopped
+
+
+@pytest.mark.parametrize(("off", "frames"), [(0.0, 4), (1e-13, 4), (1e-5, 1)])
+def test_panels_that_do_not_hold_together_are_not_answered(off, frames):
+    """Two panels with a crease of two pieces, in line or a little bent: then they hinge on neither."""
+    places = ((0, -1), (0 + off, 0), (0, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
+    folded = fold(Sheet(7, ((0, 1), (1, 2)), "VV", ((0, 1, 2, 3, 4), (0, 5, 6, 2, 1)), places), frames=3)
+    assert len(folded.path.angles) == len(folded.places) == frames
+    assert folded.apart <= 1e-10
+    assert ("panels come apart" in folded.path.stopped) == (frames == 1)
 
 
 def test_the_sides_of_slits_come_apart():
@@ -195,4 +210,23 @@ def test_the_command_line(tmp_path, data):
     assert read(out).frames.others == 3
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
+    assert "--all folds without --drive" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
     assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
+
+
+def test_all_is_what_is_done_without_drive():
+    vertex = ROOT / "data" / "patterns" / "four-bar-vertex.fold"
+    answers = [json.loads(run("fold", vertex, *more, "--frames", 2, "--json").stdout) for more in ([], ["--all"])]
+    assert answers[0] == answers[1]
+    assert max(abs(angles[-1]) for angles in answers[0]["fold_angles_deg"].values()) == pytest.approx(179)
+
+
+@pytest.mark.parametrize("name", ["f.gif", "f.png"])
+def test_pictures_of_foldings(tmp_path, monkeypatch, name):
+    vertex = ROOT / "data" / "patterns" / "four-bar-vertex.fold"
+    run("fold", vertex, "--frames", 2, "-o", tmp_path / name)
+    assert (tmp_path / name).read_bytes()[:4] in (b"GIF8", b"\x89PNG")
+    assert "exists already" in run("fold", vertex, "--frames", 2, "-o", tmp_path / name, code=2).stderr
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    told = run("fold", vertex, "--frames", 2, "-o", tmp_path / f"other-{name}", code=2).stderr
+    assert told.strip() == "pictures need matplotlib: pip install 'synthedra[draw]'"

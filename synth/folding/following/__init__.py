@@ -1,0 +1,18 @@
+"""One path of closed poses, step by step: how far a step can be trusted, and what happens on the way.
+
+`stepping` takes the steps, `leg` goes from one frame to the next, `between` finds a pose within a step, `rank`
+watches for singular poses, `parting` says how many ways there are, `event` names what was met. `collisions`:
+panels that pass through each other. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from graphs.lazy import offered
+
+if TYPE_CHECKING:
+    from synth.folding.following.event import PathEvent as PathEvent
+    from synth.folding.following.stepping import PathOptions as PathOptions
+else:
+    __getattr__, __dir__, __all__ = offered(__name__, {"event": "PathEvent", "stepping": "PathOptions"})

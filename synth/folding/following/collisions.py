@@ -1,0 +1,231 @@
+"""Panels that pass through each other: found pose by pose, and how far a path leads before the first time.
+
+Two plane convex pieces cross if each has corners on both sides of the other's plane and the stretches that they
+cut out of the line of both planes overlap. For panels that share a vertex this is the crossing of the arcs that
+they cut out of a sphere about it; panels that share a crease, lie on each other or touch do not cross. Pairs are
+sorted out by bounding boxes first. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, radians
+
+import numpy as np
+
+from graphs.arrays import Flags, Floats, Ints
+from graphs.mechanism.precision import extent_of
+
+__all__ = ["Collision", "Panels", "Poses", "first_collision"]
+
+_TOUCHING = 1e-7
+"""In units of the extent: what is no deeper is no collision."""
+_APART = radians(3.0)
+"""Between poses that are looked at no joint turns by more."""
+_HALVINGS = 30
+_BLOCK = 256
+"""Pieces whose boxes are compared with all others at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """The first collision on a path.
+
+    Attributes
+    ----------
+    panels : (int, int)
+        Numbers of the two, the first of all that cross.
+    frame : int
+        The last frame before it; -1 if they cross in the first.
+    angles : float[J]
+        Joint angles where they meet, radians, bracketed to 1e-9 of the way between two poses.
+    """
+
+    panels: tuple[int, int]
+    frame: int
+    angles: Floats
+
+
+class Panels:
+    """Panels as plane convex pieces.
+
+    Parameters
+    ----------
+    faces : sequence of sequence of int
+        Vertices round each face.
+    panel_of : sequence of int
+        The panel that each face is part of.
+    flat : float[vertices, 3]
+        Places of the vertices in a pose in which faces are plane.
+
+    Examples
+    --------
+    >>> flat = np.array([[0, 0, 0], [2, 0, 0], [0, 2, 0], [.5, .5, -1], [.6, .5, 1], [.5, .6, 1.0]])
+    >>> Panels([(0, 1, 2), (3, 4, 5)], [0, 1], flat).crossing(flat), Panels([(0, 1, 2)], [0], flat).crossing(flat)
+    ((0, 1), None)
+    """
+
+    def __init__(self, faces: Sequence[Sequence[int]], panel_of: Sequence[int], flat: Floats) -> None:
+        pieces = [
+            (piece, panel) for face, panel in zip(faces, panel_of, strict=True) for piece in _convex(face, flat)
+        ]
+        most = max((len(piece) for piece, _ in pieces), default=3)
+        self._corners = np.array(
+            [[*piece, *[piece[-1]] * (most - len(piece))] for piece, _ in pieces], dtype=np.int64
+        )
+        self._panel = np.array([panel for _, panel in pieces], dtype=np.int64)
+        self._touching = _TOUCHING * (extent_of(flat) or 1.0)
+
+    def crossing(self, places: Floats) -> tuple[int, int] | None:
+        """Return two panels that cross where vertices are at float[vertices, 3]; None if there are none."""
+        if len(self._panel) < 2:
+            return None
+        corners = places[self._corners]
+        normals = np.cross(corners, np.roll(corners, -1, axis=1)).sum(axis=1)
+        sizes = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals /= np.where(sizes == 0.0, 1.0, sizes)
+        for first, second in self._near(corners):
+            found = np.flatnonzero(self._cross(corners, normals, first, second))
+            if len(found):
+                one, other = (int(self._panel[pieces[found[0]]]) for pieces in (first, second))
+                return min(one, other), max(one, other)
+        return None
+
+    def _near(self, corners: Floats) -> Iterator[tuple[Ints, Ints]]:
+        """Yield pairs of pieces of different panels whose boxes meet, block by block."""
+        low, high = corners.min(axis=1) - self._touching, corners.max(axis=1)
+        for start in range(0, len(corners), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            meet = self._panel[block, None] < self._panel
+            for axis in range(3):
+                meet &= low[block, None, axis] <= high[:, axis]
+                meet &= low[:, axis] <= high[block, None, axis]
+            first, second = np.nonzero(meet)
+            yield first + start, second
+
+    def _cross(self, corners: Floats, normals: Floats, first: Ints, second: Ints) -> Flags:
+        """Tell which pairs of pieces cross: bool[pairs]."""
+        line = np.cross(normals[first], normals[second])
+        size = np.linalg.norm(line, axis=1, keepdims=True)
+        line /= np.where(size == 0.0, 1.0, size)
+        origin = corners[first, :1]
+        ends = []
+        for one, other in ((first, second), (second, first)):
+            plane = corners[other, :1]
+            heights = ((corners[one] - plane) * normals[other][:, None]).sum(axis=-1)
+            along = ((corners[one] - origin) * line[:, None]).sum(axis=-1)
+            ends.append(self._stretch(heights, along))
+        (low, high), (other_low, other_high) = ends
+        return np.asarray(np.minimum(high, other_high) - np.maximum(low, other_low) > self._touching)
+
+    def _stretch(self, heights: Floats, along: Floats) -> tuple[Floats, Floats]:
+        """Return the ends, along the line of both planes, of where pieces meet the other's plane.
+
+        Pieces that lie on one side of it, or only touch it, have an empty stretch: from infinity to -infinity.
+
+        Parameters
+        ----------
+        heights, along : float[pairs, k]
+            Of the corners, over the other plane and along the line.
+        """
+        after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
+        passes = heights * after < 0.0
+        part = heights / np.where(passes, heights - after, 1.0)
+        at = along + part * (along_after - along)
+        in_plane = np.abs(heights) <= self._touching
+        low = np.minimum(np.where(passes, at, np.inf), np.where(in_plane, along, np.inf)).min(axis=1)
+        high = np.maximum(np.where(passes, at, -np.inf), np.where(in_plane, along, -np.inf)).max(axis=1)
+        both = (heights.max(axis=1) > self._touching) & (heights.min(axis=1) < -self._touching)
+        return np.where(both, low, np.inf), np.where(both, high, -np.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class Poses:
+    """How poses between frames are made.
+
+    Attributes
+    ----------
+    places : callable
+        Gives the places of the vertices, float[F, vertices, 3], at joint angles float[F, J].
+    closed : callable
+        Gives the closed pose near joint angles float[J], or None.
+    """
+
+    places: Callable[[Floats], Floats]
+    closed: Callable[[Floats], Floats | None]
+
+
+def first_collision(panels: Panels, angles: Floats, poses: Poses) -> Collision | None:
+    """Return where panels first cross on a path, None if they do not.
+
+    Poses are looked at so that no joint turns by more than three degrees between two of them: panels that pass
+    through each other altogether in less are not seen.
+
+    Parameters
+    ----------
+    panels : Panels
+    angles : float[F, J]
+        Joint angles of the frames, radians.
+    poses : Poses
+    """
+    frames, on_the_way = [-1], [angles[0]]
+    for frame, (before, after) in enumerate(pairwise(angles)):
+        count = max(ceil(float(np.abs(after - before).max(initial=0.0)) / _APART), 1)
+        between = (poses.closed(before + step / count * (after - before)) for step in range(1, count))
+        found = [*(pose for pose in between if pose is not None), after]
+        on_the_way += found
+        frames += [frame] * len(found)
+    for number, places in enumerate(poses.places(np.array(on_the_way))):
+        crossing = panels.crossing(places)
+        if crossing is not None:
+            free = on_the_way[max(number - 1, 0)]
+            return _bracketed(Collision(crossing, frames[number], on_the_way[number]), free, panels, poses)
+    return None
+
+
+def _bracketed(collision: Collision, free: Floats, panels: Panels, poses: Poses) -> Collision:
+    """Return a collision with the pose at which panels meet, after one at which none do."""
+    if collision.frame < 0:
+        return collision
+    for _ in range(_HALVINGS):
+        middle = poses.closed((free + collision.angles) / 2.0)
+        if middle is None:
+            break
+        found = panels.crossing(poses.places(middle[None])[0])
+        if found is None:
+            free = middle
+        else:
+            collision = Collision(found, collision.frame, middle)
+    return collision
+
+
+def _convex(face: Sequence[int], flat: Floats) -> list[list[int]]:
+    """Return a face as convex pieces: itself, or triangles."""
+    corners = list(face)
+    places = flat[corners]
+    normal = np.cross(places, np.roll(places, -1, axis=0)).sum(axis=0)
+    across = np.linalg.svd(normal[None])[2][1:]
+    plane = {corner: across @ place for corner, place in zip(corners, places, strict=True)}
+    turn = 1.0 if np.cross(*across) @ normal >= 0.0 else -1.0
+
+    def bend(a: int, b: int, c: int) -> float:
+        (x, y), (u, v) = plane[b] - plane[a], plane[c] - plane[b]
+        return float(turn * (x * v - y * u))
+
+    def is_ear(k: int) -> bool:
+        a, b, c = corners[k - 1], corners[k], corners[(k + 1) % len(corners)]
+        inside = (all(bend(p, q, d) > 0.0 for p, q in ((a, b), (b, c), (c, a))) for d in {*corners} - {a, b, c})
+        return bend(a, b, c) > 0.0 and not any(inside)
+
+    rounding = -1e-9 * float(np.abs(normal).max(initial=0.0))
+    if all(bend(corners[k - 2], corners[k - 1], corners[k]) >= rounding for k in range(len(corners))):
+        return [corners]
+    pieces = []
+    while len(corners) > 3:
+        # only where corners are in line but for rounding there is no ear
+        ear = next((k for k in range(len(corners)) if is_ear(k)), 0)
+        pieces.append([corners[ear - 1], corners[ear], corners[(ear + 1) % len(corners)]])
+        del corners[ear]
+    return [*pieces, corners]

@@ -1,0 +1,101 @@
+"""What a path meets: turning points of a driver, panels on each other, poses at which a rank drops."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import degrees
+from typing import Any, Literal
+
+from graphs.arrays import Floats
+from graphs.errors import shown
+from graphs.ids import JointId
+
+__all__ = ["EventKind", "PathEvent", "angle_told", "joints_told"]
+
+EventKind = Literal["turning point", "limit", "rank drop", "collision"]
+
+
+@dataclass(frozen=True, slots=True)
+class PathEvent:
+    """Something that a path met.
+
+    Attributes
+    ----------
+    kind : {"turning point", "limit", "rank drop", "collision"}
+        Turning point: the driven joint has its extreme angle there. Limit: panels lie on each other. Rank drop:
+        the closure equations leave more rates than before and after; branches may part there. Collision: panels
+        begin to pass through each other.
+    frame : int
+        The last frame before it, or at it.
+    driver : int
+        Place of the driven joint; of several, of the one that has farthest to go.
+    joints : tuple of int
+        Places of the joints that lie at 180 degrees; of other kinds, the driver.
+    angles : float[J]
+        Joint angles there, radians: a turning point closes as frames do, a limit is bracketed to 1e-9 of a step,
+        and at a rank drop, where Newton's method would not keep to the path, they are interpolated.
+    drop : int
+        By how much the rank is less than beside it; 0 of other kinds.
+    other_ways : int or None
+        Of a rank drop, ways to go on, to second order, besides that of the path; None where that does not tell.
+    panels : tuple of int
+        Of a collision, the two links.
+    """
+
+    kind: EventKind
+    frame: int
+    driver: int
+    joints: tuple[int, ...]
+    angles: Floats
+    drop: int = 0
+    other_ways: int | None = None
+    panels: tuple[int, ...] = ()
+
+    def to_json(self, names: Sequence[JointId]) -> dict[str, Any]:
+        """Return the event as plain data, angles in degrees."""
+        return {
+            "kind": self.kind,
+            "frame": self.frame,
+            "driver": str(names[self.driver]),
+            "at_deg": degrees(float(self.angles[self.driver])),
+            "joints": [str(names[joint]) for joint in self.joints],
+            "drop": self.drop,
+            "other_ways": self.other_ways,
+            "panels": list(self.panels),
+        }
+
+    def told(self, names: Sequence[JointId]) -> str:
+        """Return one line, joints called by names: sequence of J ids."""
+        at = f"joint {shown(names[self.driver])} at {angle_told(float(self.angles[self.driver]))}"
+        if self.kind == "turning point":
+            return f"turning point: {at}"
+        if self.kind == "limit":
+            return f"limit: panels lie on each other at joint(s) {joints_told(self.joints, names)}, {at}"
+        if self.kind == "collision":
+            return f"collision: panels {self.panels[0]} and {self.panels[1]}, {at}"
+        others = self.other_ways
+        ways = "branches may part" if others is None else f"{others} other way(s) to second order"
+        return f"rank drop: {self.drop} less with {at}; {ways}"
+
+
+def angle_told(angle: float) -> str:
+    """Return an angle, radians, as it is told.
+
+    Examples
+    --------
+    >>> angle_told(1.0471975511966)
+    '60 degrees'
+    """
+    return f"{degrees(angle):.6g} degrees"
+
+
+def joints_told(joints: Sequence[int], names: Sequence[JointId]) -> str:
+    """Return some joints by their names.
+
+    Examples
+    --------
+    >>> joints_told([0, 2], ["a", "b", "c"])
+    "'a', 'c'"
+    """
+    return ", ".join(shown(names[joint]) for joint in joints)
