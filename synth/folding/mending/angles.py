@@ -1,8 +1,8 @@
 """Angles of a flat crease pattern that are meant to be alike: what its drawing says about its geometry.
 
 Sectors between neighbouring creases that agree within the precision of the coordinates, or make 180 degrees
-together, are meant to; creases that go straight on are too. About flat vertices only these angles count for
-motion. Theory: docs/theory/mending.md.
+together, are meant to; so are creases that go straight on, and those of a loop whose creases are parallel. About
+flat vertices only these angles count for motion. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -70,6 +70,9 @@ class MeantAngles:
                     round_vertex = self._sectors(loop.joints)
                     sectors += round_vertex
                     self._sums += _straight(round_vertex)
+                elif loop.centre is Centre.INFINITE:
+                    first, *others = loop.joints
+                    self._sums += [_Sum((joint, first), (1, -1), 0.0) for joint in others]
             self._sums += _alike(sectors)
 
     def __len__(self) -> int:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 
@@ -31,6 +32,9 @@ EXACT = 1e-12
 
 _FARTHEST = 4.0
 """Vertices are moved by this times the precision at most."""
+
+_TRIES = 4
+"""So many motions are tried, those first that agree best with the marks."""
 
 _BLURRED, _COARSEST = 30.0, 3e-3
 """Rates agree if they do to this times the precision; to no less than the second."""
@@ -133,7 +137,7 @@ def mended(
         if moves(now):
             why = "angles that nearly agree are equal" if len(angles) else "creases are straight and panels plane"
             return Mended(now, fitting.moved, precision, why)
-        for rates in _nearly_agreeing(linkage, precision, wanted, most):
+        for rates in islice(_nearly_agreeing(linkage, precision, wanted, most), _TRIES):
             if not fitting.along(rates, farthest):
                 continue
             now = _placed(sheet, fitting.corners * linkage.extent + linkage.middle)
