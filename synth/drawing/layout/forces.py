@@ -13,14 +13,14 @@ from synth.drawing.layout.plane import PlaneGraph
 
 __all__ = ["Springs", "pulled", "springs_of"]
 
-_ROUNDS = 120
+_ROUNDS = 80
 _LOOKS = 8
 """Rounds between two looks at the outer face."""
 _STILL = 2e-3
 _SPRING, _PUSH = 0.2, 0.06
 _LEAST_AREA = 0.02
 """Of a triangle that a move may leave, in squares of a side's length."""
-_HALVINGS = 5
+_HALVINGS = 2
 _APART, _AWAY = 0.5, 0.8
 """How near nodes may come to edges before they are pushed, and how hard, in units of a side's length."""
 _UPRIGHT = np.array([-1.0, 1.0])
@@ -92,7 +92,7 @@ def pulled(
     image = None if mirror is None else _images(graph, mirror)
     whole = here  # the last drawing whose outer face was found not to cross itself
     for number in range(_ROUNDS):
-        longest = 0.15 * (1 - number / _ROUNDS) + 0.005
+        longest = 0.2 * (1 - number / _ROUNDS) + 0.005
         move = forces.at(here)
         length = np.sqrt((move**2).sum(axis=1))
         move *= np.minimum(1.0, longest / np.maximum(length, 1e-12))[:, None]

@@ -28,6 +28,8 @@ __all__ = ["Layout", "PlacedFace", "layout_of"]
 
 Place = tuple[float, float]
 _GAP = 1.0
+_MOST_CHOICES = 2
+"""Mirrored drawings that are compared: there are many where there are many symmetries."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,36 +142,34 @@ def _placed(
         return _Part([node], np.zeros((1, 2)), Skeleton({node: ()}, {}, None), [], True)
     made = bodies if as_bodies else dots
     wanted = frozenset(outer)
-    tried = list(_drawings(part, joints, kept))
-    choices = [
-        (skeleton, face)
-        for rotations, swap in tried
-        for skeleton in [made(rotations, swap)]
-        for face in [_outer_face(skeleton, joints, wanted)]
-        if face is not None
-    ]
+    plain = kept if kept is not None else embedded(part)
+    if plain is None:
+        return _drawn_crossing(part, as_bodies)
+    choices = []
+    for rotations, swap in _drawings(part, joints, plain, kept is not None):
+        skeleton = made(rotations, swap)
+        face = _outer_face(skeleton, joints, wanted)
+        if face is not None:
+            choices.append((skeleton, face))
+        if len(choices) == _MOST_CHOICES or swap is None:
+            break
     if choices:
         skeleton, face = max(choices, key=lambda choice: (choice[0].mirror is not None, len(choice[1])))
         return _drawn_plane(skeleton, face)
-    if tried:
-        return _drawn_filled(made(tried[-1][0]), joints, wanted)
-    return _drawn_crossing(part, as_bodies)
+    return _drawn_filled(made(plain), joints, wanted)
 
 
 def _drawings(
-    part: nx.Graph, joints: Joints, kept: Neighbours | None
+    part: nx.Graph, joints: Joints, plain: Neighbours, kept: bool
 ) -> Iterator[tuple[Neighbours, dict[Node, Node] | None]]:
-    """Yield rotations, each with the symmetry that it mirrors, the plain ones last; none if there are none."""
-    plain = kept if kept is not None else embedded(part)
-    if plain is None:
-        return
+    """Yield rotations, each with the symmetry that it mirrors, the plain ones last."""
     if nx.is_biconnected(part):
         links = [name for kind, name in part if kind == "link"]
         own = {name: joints[name] for kind, name in part if kind == "joint"}
         for swap in swaps_of(links, own):
             if all(swap["link", link] == ("link", link) for link in links):
                 continue
-            rotations = mirrored(part, swap) if kept is None else _if_reversed(kept, swap)
+            rotations = _if_reversed(plain, swap) if kept else mirrored(part, swap)
             if rotations is not None:
                 yield rotations, swap
     yield plain, None

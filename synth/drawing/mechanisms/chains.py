@@ -8,7 +8,7 @@ from math import hypot
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.frame import COLUMN, Frame, framed, page_of
+from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import joint_dot
 from synth.drawing.scene.palette import NORMAL, SMALL
@@ -46,7 +46,7 @@ def chain_scene(
     *,
     look: ChainLook | None = None,
     box: tuple[float, float] = (COLUMN, COLUMN),
-    caption: str = "",
+    caption: str | None = "",
 ) -> Scene:
     """Return a picture of a link-joint graph with links as bodies: the loops' centres are not shown.
 
@@ -57,7 +57,7 @@ def chain_scene(
     box : (width, height), optional
         Points there are at most.
     caption : str, optional
-        Goes before the line that says what is seen.
+        Goes before the line that says what is seen; None: no line at all.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def chain_scene(
     layout = layout_of(chain.nodes, chain.joints)
     frame = framed([place for row in _places(layout) for place in row], _UNIT, box)
     layers = chain_layers(chain, layout, frame, look or ChainLook())
-    return page_of(frame, layers, [text for text in (caption, _said(chain, layout)) if text])
+    return page_of(frame, layers, captions_of(caption, _said(chain, layout)))
 
 
 def _places(layout: Layout) -> list[list[Point]]:

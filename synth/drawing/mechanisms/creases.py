@@ -18,7 +18,7 @@ from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.drawing.mechanisms.frame import COLUMN, Frame, framed, page_of
+from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
@@ -67,7 +67,7 @@ def crease_scene(
     numbers: bool = True,
     graph: bool = False,
     box: tuple[float, float] = (COLUMN, COLUMN),
-    caption: str = "",
+    caption: str | None = "",
 ) -> Scene:
     """Return a picture of a crease pattern that lies in a plane.
 
@@ -83,7 +83,7 @@ def crease_scene(
     box : (width, height), optional
         Points there are at most.
     caption : str, optional
-        Goes before the line that says what is seen.
+        Goes before the line that says what is seen; None: no line at all.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def crease_scene(
         layers.append(Layer("graph", tuple(_graph(drawn))))
     if numbers:
         layers.append(Layer("labels", tuple(_labels(drawn, graph))))
-    return page_of(frame, layers, [text for text in (caption, _said(drawn, colour, graph)) if text])
+    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph)))
 
 
 def _panels(drawn: _Drawn) -> list[Shape]:

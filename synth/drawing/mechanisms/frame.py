@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from synth.drawing.scene.palette import SMALL
 from synth.drawing.scene.shapes import Label, Layer, Point, Scene, text_width
 
-__all__ = ["COLUMN", "Frame", "framed", "page_of"]
+__all__ = ["COLUMN", "Frame", "captions_of", "framed", "page_of"]
 
 COLUMN = 340.0
 """The width of a picture at most, points: it fits a page with margins, and a half of it is a column."""
@@ -84,6 +84,17 @@ def framed(
         if extent * scale > room - 2 * margin:
             scale = (room - 2 * margin) / extent
     return Frame(scale, left, high, margin, margin, wide * scale + 2 * margin, tall * scale + 2 * margin)
+
+
+def captions_of(caption: str | None, *said: str) -> list[str]:
+    """Return the lines below a picture: one that was given, if any, and those that say what is seen; None: none.
+
+    Examples
+    --------
+    >>> captions_of("", "4 links"), captions_of("a", "4 links"), captions_of(None, "4 links")
+    (['4 links'], ['a', '4 links'], [])
+    """
+    return [] if caption is None else [text for text in (caption, *said) if text]
 
 
 def page_of(frame: Frame, layers: Iterable[Layer], captions: Sequence[str] = (), title: str = "") -> Scene:

@@ -9,6 +9,7 @@ from typing import Any
 
 import networkx as nx
 
+from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, graph_of, to_sc
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.conical import ConicalLinkage
@@ -21,9 +22,14 @@ from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
 from synth.drawing.mechanisms.frame import COLUMN
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene
+from synth.drawing.mechanisms.strips import strip_scene
 from synth.drawing.scene.shapes import Scene
 
 __all__ = ["COLOURINGS", "KINDS", "Look", "draw"]
+
+
+_SMALL = 200.0
+"""Points of width and height below which a chain has smaller joints, without numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,24 +46,24 @@ class Look:
         Whether the SC graph lies over a crease pattern.
     box : (width, height)
         Points there are at most.
-    caption : str
-        A line that goes first below the picture.
+    caption : str or None
+        A line that goes first below the picture; None: there is no line at all.
     """
 
     colour: str = "letters"
     numbers: bool = True
     graph: bool = False
     box: tuple[float, float] = (COLUMN, COLUMN)
-    caption: str = ""
+    caption: str | None = ""
 
 
-def draw(thing: Mechanism | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
+def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
     """Return a picture of a mechanism.
 
     Parameters
     ----------
-    thing : SCGraph, SCDGraph, Sheet, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or networkx graph
-    kind : {"pattern", "folded", "chain", "graph", "model"}, optional
+    thing : SCGraph, SCDGraph, Sheet, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString or networkx
+    graph kind : {"pattern", "folded", "chain", "graph", "model"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
         the centres, vertices and rods. Without it what suits the thing: a sheet is a pattern or folded, as it
         lies; a graph whose centres nobody gave is a chain.
@@ -85,7 +91,10 @@ def draw(thing: Mechanism | nx.Graph, kind: str | None = None, **look: Any) -> S
     kind = _suiting(thing) if kind is None else kind
     if kind not in KINDS:
         raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
-    return KINDS[kind](thing, Look(**look))
+    how = Look(**look)
+    if isinstance(thing, ChainString):
+        return strip_scene(thing, box=how.box, caption=how.caption)
+    return KINDS[kind](thing, how)
 
 
 def _suiting(thing: object) -> str:
@@ -119,6 +128,8 @@ def _folded(thing: Any, look: Look) -> Scene:
 
 def _chain(thing: Any, look: Look) -> Scene:
     how = ChainLook(look.numbers, look.numbers)
+    if min(look.box) < _SMALL:
+        how = ChainLook(look.numbers, False, size=5.0, dot=1.6)
     return chain_scene(_graph_of(thing), look=how, box=look.box, caption=look.caption)
 
 

@@ -20,7 +20,7 @@ from graphs.mechanism.rotation import trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.frame import COLUMN, Frame, framed, page_of
+from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
 from synth.drawing.scene.palette import NORMAL, SMALL, STRONG, colour_of_class
@@ -35,7 +35,7 @@ _LOOSE_LOOPS = 12
 """Loops that are not faces and are listed below; more are counted."""
 
 
-def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str = "") -> Scene:
+def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = "") -> Scene:
     """Return a picture of an SC or SCD graph.
 
     Parameters
@@ -45,7 +45,7 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
     box : (width, height), optional
         Points there are at most.
     caption : str, optional
-        Goes before the lines that say what is seen.
+        Goes before the lines that say what is seen; None: no lines at all.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
         Layer("centres", tuple(shape for shapes in signs.values() for shape in shapes[2])),
         Layer("labels", tuple(labels)),
     ]
-    return page_of(frame, layers, [text for text in (caption, *_said(sc, layout, loose)) if text])
+    return page_of(frame, layers, captions_of(caption, *_said(sc, layout, loose)))
 
 
 def class_numbers(sc: SCGraph) -> dict[int, int]:

@@ -18,7 +18,7 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.drawing.layout.mechanisms import layout_of
-from synth.drawing.mechanisms.frame import COLUMN, framed, page_of
+from synth.drawing.mechanisms.frame import COLUMN, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
@@ -68,7 +68,7 @@ def seen_from_above(points: Floats) -> _Seen:
 
 
 def folded_scene(
-    sheet: Sheet, *, numbers: bool = True, box: tuple[float, float] = (COLUMN, COLUMN), caption: str = ""
+    sheet: Sheet, *, numbers: bool = True, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = ""
 ) -> Scene:
     """Return a picture of a folded sheet: panels shaded, creases in the colours of their letters.
 
@@ -128,7 +128,7 @@ def folded_scene(
     labels = _numbers(visible, link_of) if numbers and len(visible) <= _MANY else []
     said = f"{len(mechanism.sc)} links, {len(mechanism.sc.joints)} joints; in space, seen from above"
     layers = [Layer("panels", tuple(shapes)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, [text for text in (caption, said) if text])
+    return page_of(frame, layers, captions_of(caption, said))
 
 
 def _light(corners: Floats) -> float:
@@ -218,7 +218,7 @@ def _height(at: Floats, corners: Floats, near: Floats) -> float:
 
 
 def model_scene(
-    model: PolyhedronModel, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str = ""
+    model: PolyhedronModel, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = ""
 ) -> Scene:
     """Return a picture of a polyhedron model: vertices, rods, remote centres and what else it has, in words.
 
@@ -252,7 +252,7 @@ def model_scene(
     wishes = [(Label((0, 0), str(v), SMALL, widest=10), beside(page[v], 8)) for v in vertices]
     labels = placed(wishes, Obstacles([(*page[v], 3.4) for v in vertices], lines if len(lines) < 200 else []))
     layers = [Layer("rods", tuple(rods)), Layer("vertices", tuple(dots)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, [text for text in (caption, *_terms(model)) if text])
+    return page_of(frame, layers, captions_of(caption, *_terms(model)))
 
 
 def _sides_of_scissors(model: PolyhedronModel) -> list[tuple[object, object]]:
