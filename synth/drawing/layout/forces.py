@@ -18,9 +18,9 @@ _LOOKS = 8
 """Rounds between two looks at the outer face."""
 _STILL = 2e-3
 _SPRING, _PUSH = 0.2, 0.06
-_LEAST_AREA = 0.02
-"""Of a triangle that a move may leave, in squares of a side's length."""
-_HALVINGS = 2
+_OF_HEIGHT = 0.45
+_OPEN, _LOW = 0.04, 0.3
+"""How hard, and below which height, triangles are opened, in units of a side's length."""
 _APART, _AWAY = 0.5, 0.8
 """How near nodes may come to edges before they are pushed, and how hard, in units of a side's length."""
 _UPRIGHT = np.array([-1.0, 1.0])
@@ -95,10 +95,11 @@ def pulled(
         longest = 0.2 * (1 - number / _ROUNDS) + 0.005
         move = forces.at(here)
         length = np.sqrt((move**2).sum(axis=1))
-        move *= np.minimum(1.0, longest / np.maximum(length, 1e-12))[:, None]
+        most = np.minimum(longest, _free_way(graph.triangles, here))
+        move *= np.minimum(1.0, most / np.maximum(length, 1e-12))[:, None]
         if image is not None:
             move = (move + move[image] * _UPRIGHT) / 2
-        here = _moved(graph.triangles, here, move)
+        here = here + move
         if number % _LOOKS == _LOOKS - 1:
             if _crosses_itself(here[graph.outer]):
                 return whole
@@ -153,7 +154,8 @@ class _Forces:
         np.fill_diagonal(square, np.inf)
         force[: self._own] += ((_PUSH / square**1.5)[:, :, None] * between).sum(axis=1)
         force[: self._own] += self._off_edges(own)
-        force[self._hubs] = _HUB_PULL * (self._means @ here - here[self._hubs])
+        self._open(force, here)
+        force[self._hubs] += _HUB_PULL * (self._means @ here - here[self._hubs])
         return force
 
     def _off_edges(self, own: Floats) -> Floats:
@@ -170,6 +172,18 @@ class _Forces:
         force: Floats = pushes.sum(axis=1) - self._ends.T @ pushes.sum(axis=0)
         return force
 
+    def _open(self, force: Floats, here: Floats) -> None:
+        """Push the corners of low triangles off their opposite sides: a flat one would hold its corners fast."""
+        triangles = self._graph.triangles
+        corners = here[triangles]
+        opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+        length = np.maximum(np.sqrt((opposite**2).sum(axis=2)), 1e-12)
+        twice_area = opposite[:, 0, 0] * opposite[:, 1, 1] - opposite[:, 0, 1] * opposite[:, 1, 0]
+        height = np.maximum(twice_area[:, None] / length, 1e-9)
+        push = np.minimum(_OPEN * np.maximum(1 / height - 1 / _LOW, 0.0), 1.0) / length
+        inward = np.stack([-opposite[:, :, 1], opposite[:, :, 0]], axis=2) * push[:, :, None]
+        np.add.at(force, triangles, inward - np.roll(inward, 1, axis=1) / 2 - np.roll(inward, 2, axis=1) / 2)
+
 
 def _differences(pairs: Ints, size: int) -> Floats:
     """Return the matrix that takes places to the vectors from the first of each pair to the second."""
@@ -180,23 +194,18 @@ def _differences(pairs: Ints, size: int) -> Floats:
     return matrix
 
 
-def _moved(triangles: Ints, here: Floats, move: Floats) -> Floats:
-    """Move the nodes; those of a triangle that would be turned over half as far, and at last not at all."""
-    floor = np.minimum(_areas(here, triangles), _LEAST_AREA) * 0.9
-    for number in range(_HALVINGS + len(here)):
-        there: Floats = here + move
-        bad = _areas(there, triangles) < floor
-        if not bad.any():
-            return there
-        move[np.unique(triangles[bad])] *= 0.5 if number < _HALVINGS else 0.0
-    return here
+def _free_way(triangles: Ints, here: Floats) -> Floats:
+    """Return how far each node may go so that no triangle is turned over, wherever the others go: float[n].
 
-
-def _areas(places: Floats, triangles: Ints) -> Floats:
-    corners = places[triangles]
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    area: Floats = (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2
-    return area
+    A triangle keeps its sense while no corner moves half its least height.
+    """
+    corners = here[triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    twice_area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+    height = twice_area / np.sqrt((sides**2).sum(axis=2).max(axis=1))
+    way = np.full(len(here), np.inf)
+    np.minimum.at(way, triangles, height[:, None])
+    return _OF_HEIGHT * way
 
 
 def _crosses_itself(ring: Floats) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, hypot, pi, sin
+from typing import TypeAlias
 
 from synth.drawing.scene.shapes import Label, Point
 
@@ -13,6 +14,9 @@ __all__ = ["Obstacles", "beside", "overlaps", "placed"]
 _WEIGHT_OF_LABEL = 1000.0
 _WEIGHT_OF_POINT = 60.0
 _AIR = 0.6
+_SQUARE = 16.0
+_Box: TypeAlias = tuple[float, float, float, float]
+"""Left, top, right, bottom."""
 
 
 @dataclass(slots=True)
@@ -75,25 +79,54 @@ def placed(wishes: Iterable[tuple[Label, Sequence[Point]]], obstacles: Obstacles
     [(0, 0), (20, 0)]
     """
     done: list[Label] = []
+    taken = _Taken()
     for label, places in wishes:
+        x, y = label.at
+        left, top, right, bottom = label.box
         best, least = None, _WEIGHT_OF_LABEL
         for liking, place in enumerate(places):
-            there = replace(label, at=place)
             cost = 0.4 * liking
             if cost >= least:
                 break
-            cost += _cost(there, obstacles)
-            if cost < least and not any(overlaps(there, other) for other in done):
-                best, least = there, cost
+            across, down = place[0] - x, place[1] - y
+            box = (left + across, top + down, right + across, bottom + down)
+            if not taken.is_free(box):
+                continue
+            cost += _cost(box, obstacles)
+            if cost < least:
+                best, least = (place, box), cost
         if best is not None:
-            done.append(best)
+            done.append(replace(label, at=best[0]))
+            taken.add(best[1])
     return done
 
 
-def _cost(label: Label, obstacles: Obstacles) -> float:
-    """Return how much a label covers."""
-    left, top, right, bottom = label.box
-    left, top, right, bottom = left - _AIR, top - _AIR, right + _AIR, bottom + _AIR
+class _Taken:
+    """Boxes that are taken, found by the squares that they reach into."""
+
+    def __init__(self) -> None:
+        self._squares: dict[tuple[int, int], list[_Box]] = {}
+
+    def is_free(self, box: _Box) -> bool:
+        return not any(
+            box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
+            for square in _squares_of(box)
+            for other in self._squares.get(square, ())
+        )
+
+    def add(self, box: _Box) -> None:
+        for square in _squares_of(box):
+            self._squares.setdefault(square, []).append(box)
+
+
+def _squares_of(box: _Box) -> list[tuple[int, int]]:
+    left, top, right, bottom = (int(edge // _SQUARE) for edge in box)
+    return [(x, y) for x in range(left, right + 1) for y in range(top, bottom + 1)]
+
+
+def _cost(box: _Box, obstacles: Obstacles) -> float:
+    """Return how much of what is drawn a label would cover."""
+    left, top, right, bottom = box[0] - _AIR, box[1] - _AIR, box[2] + _AIR, box[3] + _AIR
     cost = 0.0
     for x, y, radius in obstacles.points:
         off = hypot(x - min(max(x, left), right), y - min(max(y, top), bottom))

@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
-from math import atan2, cos, pi, sin
+from math import atan2, cos, hypot, inf, pi, sin
+
+import numpy as np
 
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import drawing_of
@@ -58,9 +60,9 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
     places = [*layout.links.values(), *layout.joints.values()]
     frame = framed(places, _UNIT, box, margin=_STUB + 2 * _LINK)
     numbers = class_numbers(sc)
-    radius = min(_LINK, 0.24 * frame.scale)
     ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
     links = {link: frame.at(place) for link, place in layout.links.items()}
+    radius = min(_LINK, 0.042 * min(box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
     labels = _labels(ways, links, radius, signs, numbers)
@@ -95,6 +97,16 @@ def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None
     return bare, faces[left_of[joint, link]].joints
 
 
+def _least_distance(places: Sequence[Point]) -> float:
+    """Return how near two places come to each other; of one place, without end."""
+    if len(places) < 2:
+        return inf
+    found = np.asarray(places)
+    apart = np.sqrt(((found[:, None] - found[None]) ** 2).sum(axis=-1))
+    np.fill_diagonal(apart, inf)
+    return float(apart.min())
+
+
 _Sign = tuple[Point, int, list[Shape]]
 
 
@@ -103,6 +115,7 @@ def _signs(
 ) -> tuple[dict[int, _Sign], list[Loop]]:
     """Return the sign of each loop that is a face; and the loops with a centre that are none."""
     places = {frozenset(face.joints): frame.at(face.at) for face in layout.faces}
+    middles = frame.row([*layout.joints.values(), *layout.links.values()])
     signs: dict[int, _Sign] = {}
     loose: list[Loop] = []
     for index, loop in enumerate((*sc.loops, *sc.closing)):
@@ -112,7 +125,8 @@ def _signs(
         if at is None or index >= len(sc.loops):
             loose.append(loop)
             continue
-        size = min(SIGN, 0.1 * frame.scale)
+        nearest = min(hypot(at[0] - x, at[1] - y) for x, y in middles)
+        size = max(1.2, min(SIGN, 0.1 * frame.scale, 0.4 * nearest))
         signs[index] = (at, numbers[index], centre_sign(at, loop.centre, colour_of_class(numbers[index]), size))
     return signs, loose
 

@@ -47,6 +47,7 @@ def test_joints_and_links_can_be_found():
     assert {element.get("data-link") for element in root.iter()} - {None} == set("0123")
 
 
+@pytest.mark.slow
 def test_equal_input_gives_equal_bytes_in_every_process():
     """Neither sets nor hashes of names decide on anything."""
     code = (
