@@ -22,7 +22,7 @@ __all__ = ["draw"]
 _KINDS = ("pattern", "folded", "chain", "graph", "model")
 _PATIENCE = 2.0
 """Seconds between two words on how far a catalogue has come."""
-_COLOURS = ("letters", "centres", "none")
+_COLOURS = ("letters", "verdict", "centres", "none")
 
 
 @click.command(short_help="Draw a crease pattern, a chain, an SC or SCD graph, a model.")
@@ -37,7 +37,7 @@ _COLOURS = ("letters", "centres", "none")
 )
 @click.option(
     "--colour", type=click.Choice(_COLOURS), default="letters", show_default=True,
-    help="What colours of creases tell: letters of the file, classes of centres, nothing.",
+    help="What colours of a crease pattern tell: letters of the file, what moves, classes of centres, nothing.",
 )  # fmt: skip
 @click.option("--graph", is_flag=True, help="Draw the SC graph over a crease pattern.")
 @click.option("--numbers/--no-numbers", default=True, show_default=True, help="Numbers of links and joints.")

@@ -22,13 +22,14 @@ from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, p
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
+from synth.drawing.mechanisms.verdicts import Verdict, clusters_of, still_joints
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
 
 __all__ = ["COLOURINGS", "crease_scene", "inside"]
 
-COLOURINGS = ("letters", "centres", "none")
-"""What the colours of creases tell: the letters of the file, the class of the centre at each end, nothing."""
+COLOURINGS = ("letters", "verdict", "centres", "none")
+"""What colours tell: letters of the file; what is still, and moves as one; the class of centres; nothing."""
 
 _LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
     "M": ("mountain", ()),
@@ -54,6 +55,7 @@ class _Drawn:
     mechanism: SheetMechanism
     frame: Frame
     places: list[Point]
+    verdict: Verdict
 
     def middle(self, edge: Sequence[int]) -> Point:
         (ax, ay), (bx, by) = (self.places[v] for v in edge)
@@ -74,7 +76,7 @@ def crease_scene(
     Parameters
     ----------
     sheet : Sheet
-    colour : {"letters", "centres", "none"}, optional
+    colour : {"letters", "verdict", "centres", "none"}, optional
         What the colours of creases tell; see `COLOURINGS`.
     numbers : bool, optional
         Write the numbers of links and joints.
@@ -105,7 +107,9 @@ def crease_scene(
     flat = flat_places(whole, "a picture of a crease pattern")
     extent = max(max(p[i] for p in flat) - min(p[i] for p in flat) for i in (0, 1)) if flat else 1.0
     frame = framed(flat, min(box) / (extent or 1.0), box)
-    drawn = _Drawn(whole, mechanism_of_sheet(sheet), frame, frame.row(flat))
+    mechanism = mechanism_of_sheet(sheet)
+    verdict = still_joints(sheet, mechanism) if colour == "verdict" else Verdict()
+    drawn = _Drawn(whole, mechanism, frame, frame.row(flat), verdict)
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
     if graph:
         layers.append(Layer("graph", tuple(_graph(drawn))))
@@ -116,11 +120,18 @@ def crease_scene(
 
 def _panels(drawn: _Drawn) -> list[Shape]:
     link_of = {face: link for link, faces in enumerate(drawn.mechanism.panels) for face in faces}
-    return [
-        Polygon([drawn.places[v] for v in face], "body", None, opacity=0.6, data=(("link", str(link_of[number])),))
-        for number, face in enumerate(drawn.sheet.faces)
-        if number in link_of
-    ]
+    cluster_of: dict[LinkId, int] = {}
+    for number, links in enumerate(clusters_of(drawn.mechanism.sc, drawn.verdict.still)):
+        cluster_of.update(dict.fromkeys(links, number))
+    found: list[Shape] = []
+    for number, face in enumerate(drawn.sheet.faces):
+        if number in link_of:
+            link = link_of[number]
+            fill = colour_of_class(cluster_of[link]) if link in cluster_of else "body"
+            opacity = 0.3 if link in cluster_of else 0.6
+            row = [drawn.places[v] for v in face]
+            found.append(Polygon(row, fill, None, opacity=opacity, data=(("link", str(link)),)))
+    return found
 
 
 def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
@@ -139,7 +150,12 @@ def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
         elif colour == "letters":
             scaled = tuple(length * max(width, 0.6) for length in dash)
             found.append((0, Line(ends, name, NORMAL * width if letter in "MVU" else FINE, scaled, data)))
-        elif colour == "none" or joint is None:
+        elif colour == "verdict" and joint is not None:
+            if joint in drawn.verdict.still:
+                found.append((0, Line(ends, "grey", NORMAL * width, (1.0, 2.0), data)))
+            else:
+                found.append((0, Line(ends, "class1", 1.3 * width, (), data)))
+        elif colour != "centres" or joint is None:
             found.append((0, Line(ends, "grey" if joint is not None else "faint", FINE, (), data)))
         else:
             found += [(0, half) for half in _halves(drawn, edge, classes, width, data)]
@@ -262,6 +278,9 @@ def _said(drawn: _Drawn, colour: str, graph: bool) -> str:
         }
         told = [f"{word} {looks[word]}" for word in there if word in looks]
         said += "; " + ", ".join(told) if told else ""
+    if colour == "verdict":
+        said += f"; {len(drawn.verdict.still)} creases still {drawn.verdict.known}: grey, dotted; others orange"
+        said += "; panels of one colour move as one" if drawn.verdict.still else ""
     if colour == "centres":
         said += "; half-creases in the colour of their centre's class"
     return said + ("; SC graph in black" if graph else "")

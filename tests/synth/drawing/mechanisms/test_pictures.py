@@ -92,6 +92,19 @@ def test_creases_by_centre_class_have_the_colours_of_their_ends():
     assert any(layer.name == "graph" for layer in scene.layers)
 
 
+def test_panels_that_move_as_one():
+    """A vertex of three creases holds its panels together; a flap beside it moves."""
+    corners = ((0, 0), (2, 0), (-1, 2), (-1, -2), (3, 3))
+    sheet = Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 4, 2)), corners)
+    scene = draw(sheet, colour="verdict", numbers=False)
+    panels, creases = (
+        next(layer.shapes for layer in scene.layers if layer.name == name) for name in ("panels", "creases")
+    )
+    assert [panel.fill for panel in panels] == ["class0", "class0", "class0", "body"]
+    looks = {(shape.colour, bool(shape.dash)) for shape in creases if shape.data}
+    assert looks == {("grey", True), ("class1", False)}
+
+
 def test_signs_of_centres():
     """A circled dot, a lying eight, nothing."""
     joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
