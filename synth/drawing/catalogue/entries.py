@@ -148,6 +148,8 @@ def _entry_of_row(place: Path, number: int, row: Mapping[str, Any]) -> Catalogue
 def _said(row: Mapping[str, Any]) -> str:
     """Return freedoms, centres and symmetry of a row, those that it has."""
     words = []
+    if isinstance(row.get("order"), list):  # of the joints round a cone: the picture shows the chain alone
+        words.append("order " + " ".join(map(str, row["order"])))
     freedoms = row.get("exact_dof", row.get("dof"))
     if freedoms is not None:
         words.append(f"M = {freedoms}")

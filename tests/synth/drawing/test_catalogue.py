@@ -113,6 +113,17 @@ def test_strings_are_strips(tmp_path):
     assert {element.get("data-joint") for element in ElementTree.parse(out).iter()} - {None} == {"0", "1", "2"}
 
 
+def test_orders_round_a_cone_are_said(tmp_path):
+    """Their pictures are of one chain; the order tells them apart."""
+    rows = listed(
+        tmp_path / "a.jsonl", [{"chain": "k1:Cr", "order": order} for order in ([0, 1, 2, 3], [0, 2, 1, 3])]
+    )
+    assert [entry.said for entry in catalogue_entries(rows)] == [
+        "four-bar, order 0 1 2 3",
+        "four-bar, order 0 2 1 3",
+    ]
+
+
 def test_a_catalogue_as_pdf(six_links, tmp_path):
     pytest.importorskip("reportlab")
     for name in "ab":
