@@ -14,7 +14,8 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `reduce`, `convert`; edits are in `graphs.edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
-`four_bars`. Motion: `fold`, a crease pattern with rigid panels, frame by frame; `move`, any linkage.
+`four_bars`. Motion: `fold`, a crease pattern with rigid panels, frame by frame; `move`, any linkage. Pictures:
+`draw`, of any mechanism; a notebook shows them, `synth.drawing.save_scene` writes them.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
     from graphs.mechanism.sheet import Sheet as Sheet
     from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
     from graphs.reduce.ride_alongs import reduce as reduce
+    from synth.drawing.mechanisms.pictures import draw as draw
     from synth.folding.motion import fold as fold
     from synth.folding.verdict.mobility import mobility as mobility
     from synth.guidance.fourbars import four_bars as four_bars
@@ -83,6 +85,7 @@ else:
             "graphs.mechanism.sheet": "Sheet",
             "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
             "graphs.reduce.ride_alongs": "reduce",
+            "synth.drawing.mechanisms.pictures": "draw",
             "synth.folding.motion": "fold",
             "synth.folding.verdict.mobility": "mobility",
             "synth.guidance.fourbars": "four_bars",

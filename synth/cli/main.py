@@ -25,6 +25,7 @@ _COMMANDS = {
     "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
     "id": "synth.cli.graphs.id:id_command",
     "fold": "synth.cli.things.fold:fold",
+    "draw": "synth.cli.things.draw:draw",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",

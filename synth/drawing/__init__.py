@@ -1,4 +1,9 @@
-"""Pictures: loop sums, linkages on cones, orientations on the sphere, panels in space."""
+"""Pictures: crease patterns, chains, SC graphs, models; loop sums, linkages on cones, orientations on the
+sphere, panels in space.
+
+Scenes are in `synth.drawing.scene`, places of links and joints in `synth.drawing.layout`, pictures of mechanisms
+in `synth.drawing.mechanisms`.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +16,12 @@ if TYPE_CHECKING:
     from synth.drawing.figure import check_picture as check_picture
     from synth.drawing.figure import new_figure as new_figure
     from synth.drawing.figure import save_figure as save_figure
+    from synth.drawing.mechanisms.pictures import draw as draw
     from synth.drawing.panels import draw_poses as draw_poses
     from synth.drawing.panels import save_moving_poses as save_moving_poses
+    from synth.drawing.scene.shapes import Scene as Scene
+    from synth.drawing.scene.svg import svg_text as svg_text
+    from synth.drawing.scene.writing import save_scene as save_scene
     from synth.drawing.sphere import draw_hoop as draw_hoop
     from synth.drawing.sphere import draw_map as draw_map
     from synth.drawing.sums import draw_loop_sums as draw_loop_sums
@@ -23,6 +32,10 @@ else:
             "conformed": "draw_conformed",
             "figure": "check_picture new_figure save_figure",
             "panels": "draw_poses save_moving_poses",
+            "synth.drawing.mechanisms.pictures": "draw",
+            "synth.drawing.scene.shapes": "Scene",
+            "synth.drawing.scene.svg": "svg_text",
+            "synth.drawing.scene.writing": "save_scene",
             "sphere": "draw_hoop draw_map",
             "sums": "draw_loop_sums",
         },

@@ -1,6 +1,7 @@
 """Pictures of a linkage at its conformed position: circle with ICRL and shadow, cone with the links as strips.
 
-Static pictures; Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
+Both are seen from the side of the apex, where azimuths grow counter-clockwise. Static pictures;
+Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
 """
 
 from __future__ import annotations
@@ -85,7 +86,7 @@ def _circle(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, gr
     behaviour = behaviour_of_motion(chain, t, motion, laid.arcs)
     lines = icrl(motion.motions) if grounded else np.full(len(chain.links), np.nan)
     round_ = np.linspace(0, 2 * np.pi, 361)
-    axes.plot(np.sin(round_), np.cos(round_), color="0.55", linewidth=1.0, zorder=1)
+    axes.plot(*_on_circle(round_), color="0.55", linewidth=1.0, zorder=1)
     four_bar = grounded and len(chain.links) == 4 and len(t) == 4
     if four_bar:
         _shadow(axes, chain, t)
@@ -97,29 +98,35 @@ def _circle(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, gr
         name = _link_name(chain, number)
         told = "ground" if number == 0 else _WAYS[Way(int(behaviour.ways[number]))]
         axes.plot(
-            radius * np.sin(along), radius * np.cos(along), color=colour, linewidth=4.5, solid_capstyle="butt",
+            *_on_circle(along, radius), color=colour, linewidth=4.5, solid_capstyle="butt",
             label=f"{name}: {told}" if grounded else name, zorder=3,
         )  # fmt: skip
         order = sorted(joints, key=lambda joint: (t[joint] - start) % (2 * np.pi))
         corners = [*order, order[0]] if len(order) > 2 else order
-        axes.plot(np.sin(t[corners]), np.cos(t[corners]), color=colour, linewidth=1.6, zorder=3)
+        axes.plot(*_on_circle(t[corners]), color=colour, linewidth=1.6, zorder=3)
         if number and np.isfinite(lines[number]):
-            s, c = 1.42 * np.sin(lines[number]), 1.42 * np.cos(lines[number])
-            axes.plot([-s, s], [-c, c], color=colour, linewidth=1.0, linestyle=(0, (6, 3)), zorder=2)
-    axes.scatter(np.sin(t), np.cos(t), s=34, facecolor="white", edgecolor="black", zorder=5)
+            x, y = _on_circle(lines[number], 1.42)
+            axes.plot([-x, x], [-y, y], color=colour, linewidth=1.0, linestyle=(0, (6, 3)), zorder=2)
+    axes.scatter(*_on_circle(t), s=34, facecolor="white", edgecolor="black", zorder=5)
     _name_joints(axes, chain, t)
     axes.scatter([0], [0], marker="+", color="black", s=60, zorder=4)
     axes.set(aspect="equal", xlim=(-1.6, 1.6), ylim=(-1.6, 1.6))
     axes.axis("off")
     axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=2, fontsize=9)
-    notes = ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * four_bar
+    notes = ["seen from the apex"] + ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * four_bar
     axes.set_title(", ".join(notes), fontsize=10)
+
+
+def _on_circle(azimuths: npt.ArrayLike, radius: float = 1.0) -> tuple[Floats, Floats]:
+    """Return x and y of places on the circle: 0 on top, growing counter-clockwise, as the cone shows them."""
+    t = np.asarray(azimuths, dtype=float)
+    return -radius * np.sin(t), radius * np.cos(t)
 
 
 def _name_joints(axes: Any, chain: ConformedChain, t: Floats) -> None:
     for joint, place in zip(chain.joints, t, strict=True):
         axes.text(
-            0.87 * np.sin(place), 0.87 * np.cos(place), plain_label(str(joint)[:8]),
+            *_on_circle(place, 0.87), plain_label(str(joint)[:8]),
             ha="center", va="center", zorder=6,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "boxstyle": "round,pad=0.12"},
         )  # fmt: skip
@@ -131,7 +138,7 @@ def _link_name(chain: ConformedChain, number: int) -> str:
 
 def _shadow(axes: Any, chain: ConformedChain, t: Floats) -> None:
     """Shade the double wedge between the lines of the side links that holds ground and coupler."""
-    points = np.stack([np.sin(t), np.cos(t)], axis=-1)
+    points = np.stack(_on_circle(t), axis=-1)
     ground = chain.joints_of[0]
     sides = [joints for joints in chain.joints_of[1:] if set(joints) & set(ground)]
     (a, b), (c, d) = (sorted(joints, key=lambda joint: joint not in ground) for joints in sides)
@@ -153,8 +160,10 @@ def _cone(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, cone
 
     width = 0.62 / (int(laid.layers.max()) + 1)
     round_ = np.linspace(0, 2 * np.pi, 181)
+    panels, shades = _surface(cone_angle)
+    axes.add_collection3d(Poly3DCollection(panels, facecolor=shades, edgecolor=shades, linewidth=0.5, zorder=0))
     for radius in (0.35, 1.05):
-        axes.plot(*_upright(radius * joint_axes(round_, cone_angle)), color="0.7", linewidth=0.7)
+        axes.plot(*_upright(radius * joint_axes(round_, cone_angle)), color="0.45", linewidth=0.9)
     for number, layer in enumerate(laid.layers.tolist()):
         start, length = laid.arcs[number]
         inner = 0.38 + width * layer
@@ -164,10 +173,12 @@ def _cone(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, cone
             for i in range(39)
         ]
         colour = "0.45" if number == 0 else COLOURS[(number - 1) % len(COLOURS)]
-        axes.add_collection3d(Poly3DCollection(panels, facecolor=colour, edgecolor=colour, linewidth=0.4))
+        axes.add_collection3d(
+            Poly3DCollection(panels, facecolor=colour, edgecolor=colour, linewidth=0.4, zorder=2)
+        )
     for joint, axis in zip(chain.joints, joint_axes(t, cone_angle), strict=True):
-        axes.plot(*_upright(np.stack([np.zeros(3), 1.1 * axis])), color="black", linewidth=0.9)
-        axes.text(*_upright(1.22 * axis), plain_label(str(joint)[:8]), ha="center", va="center")
+        axes.plot(*_upright(np.stack([np.zeros(3), 1.1 * axis])), color="black", linewidth=0.9, zorder=3)
+        axes.text(*_upright(1.22 * axis), plain_label(str(joint)[:8]), ha="center", va="center", zorder=4)
     reach = 1.1 * np.cos(cone_angle)
     deep = 1.1 * np.sin(cone_angle)
     middle = deep / 2
@@ -175,9 +186,23 @@ def _cone(axes: Any, chain: ConformedChain, t: Floats, laid: LinksInLayers, cone
     axes.set(xlim=(-half, half), ylim=(-half, half), zlim=(-middle - half, -middle + half))
     axes.set_box_aspect((1, 1, 1), zoom=1.55)
     middle_of_links = np.degrees(np.angle(np.exp(1j * t).sum()))
-    axes.view_init(elev=38, azim=middle_of_links + 15)  # from outside the links, a little aside
+    # from outside the links, a little aside; so high that no part of the cone hides another
+    axes.view_init(elev=min(88.0, max(38.0, np.degrees(cone_angle) + 8)), azim=middle_of_links + 15)
+    axes.computed_zorder = False
     axes.set_axis_off()
-    axes.set_title(f"λ = {np.degrees(cone_angle):.4g}°", fontsize=10)
+    axes.set_title(f"cone of λ = {np.degrees(cone_angle):.4g}°, seen from the apex's side", fontsize=10)
+
+
+def _surface(cone_angle: float) -> tuple[list[Floats], Any]:
+    """Return the reference cone as narrow panels, and their colours: light from one side, darker away from it."""
+    azimuths = np.linspace(0, 2 * np.pi, 73)
+    inner, outer = strip(0.0, 2 * np.pi, cone_angle, (0.35, 1.05), len(azimuths))
+    panels = [
+        np.stack(_upright(np.array([inner[i], inner[i + 1], outer[i + 1], outer[i]])), axis=-1)
+        for i in range(len(azimuths) - 1)
+    ]
+    greys = 0.93 - 0.12 * (1 - np.cos(azimuths[:-1] - np.pi / 3)) / 2
+    return panels, [str(grey) for grey in greys]
 
 
 def _upright(points: Floats) -> tuple[Floats, Floats, Floats]:

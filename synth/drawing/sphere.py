@@ -126,8 +126,12 @@ def draw_map(
     points, inside = hammer_inverse(*np.meshgrid(x, y))
     colours = np.array([to_rgba(CW), to_rgba(NEITHER), to_rgba(CCW)])
     picture = colours[order_verdicts(orientations, points.reshape(-1, 3)) + 1].reshape(*inside.shape, 4)
-    picture[~inside] = 0.0
-    plane.imshow(picture, extent=(x[0], x[-1], y[0], y[-1]), origin="lower", interpolation="nearest")
+    picture[~inside] = (1.0, 1.0, 1.0, 0.0)  # clear, and no dark rim where it is mixed with what is inside
+    # colours, not verdicts, are mixed at the borders of regions, which else are steps
+    plane.imshow(
+        picture, extent=(x[0], x[-1], y[0], y[-1]), origin="lower", interpolation="bilinear",
+        interpolation_stage="rgba",
+    )  # fmt: skip
     _draw_graticule(plane)
     for curve in curves:
         for ends in (curve.fixed, -curve.fixed):

@@ -3,7 +3,8 @@
 `fold` takes a crease pattern along one of its branches. Below it: `linkage` (links and axes at a pose), `closure`
 (the equations and their derivatives), `newton`, `path` (joints driven), `second_order` and `branches` (ways to
 move from a singular pose, such as a flat sheet), `singular` (what these rest on; proofs that nothing moves),
-`placement` (where panels and vertices are), `written` (files). Theory: docs/theory/folding.md.
+`placement` (where panels and vertices are), `prepared` and `mending` (coordinates made ready), `verdict` (how a
+mechanism moves, in a sentence). Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from synth.folding.placement import link_motions as link_motions
     from synth.folding.singular.rigidity import Rigidity as Rigidity
     from synth.folding.singular.rigidity import rigidity_of as rigidity_of
-    from synth.folding.written import write_folding as write_folding
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -41,6 +41,5 @@ else:
             "path": "DrivenPath PathOptions driven_path",
             "placement": "link_motions",
             "synth.folding.singular.rigidity": "Rigidity rigidity_of",
-            "written": "write_folding",
         },
     )

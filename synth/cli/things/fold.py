@@ -66,8 +66,8 @@ def fold(
     from graphs.edit.named import joint_named
     from graphs.files.formats import read
     from synth.folding.motion import fold as folded
-    from synth.folding.written import check_output, write_folding
     from synth.moving.linkages import sheet_of
+    from synth.moving.written import check_output, write_folding
 
     if whole and drive:
         raise click.UsageError("--all folds without --drive: leave one of them out")

@@ -48,7 +48,7 @@ def test_the_map_has_the_colours_of_the_verdicts():
         there = inside & (verdicts == verdict)
         assert there.any()
         assert np.allclose(picture[there], to_rgba(colour))
-    assert np.all(picture[~inside] == 0.0)
+    assert np.all(picture[~inside][:, 3] == 0.0)
 
 
 def test_the_map_numbers_the_dyads():
@@ -105,3 +105,18 @@ def test_pictures_of_other_kinds_are_refused(tmp_path):
     given = random_orientations(3, np.random.default_rng(69))
     with pytest.raises(FileError, match="the extension is not known"):
         save_figure(draw_map(given, width=60), tmp_path / "a.jpeg")
+
+
+def test_borders_of_regions_are_smooth():
+    """On a border colours are mixed; whole regions have the three colours of the legend."""
+    pytest.importorskip("matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure = draw_map(random_orientations(5, np.random.default_rng(61)), width=400)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    (image,) = figure.axes[0].images
+    pixels = image.make_image(canvas.get_renderer())[0].reshape(-1, 4)
+    colours, counts = np.unique(pixels[pixels[:, 3] == 255], axis=0, return_counts=True)
+    assert len(colours) > 10
+    assert np.sort(counts)[-3:].sum() > 0.9 * counts.sum()

@@ -21,7 +21,7 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
 from synth.folding.motion import fold
 from synth.folding.path import PathOptions, driven_path
-from synth.folding.written import write_folding
+from synth.moving.written import write_folding
 
 ROOT = Path(__file__).resolve().parents[3]
 VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")

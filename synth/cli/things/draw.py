@@ -1,0 +1,127 @@
+"""``synth draw``: a picture of any mechanism, a catalogue of many."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from synth.cli.output import FORCE, about, check_picture, plain
+from synth.cli.runner import LimitsType
+
+if TYPE_CHECKING:
+    from enumerate.runner.limits import Limits
+    from synth.drawing.catalogue.entries import CatalogueEntry
+
+__all__ = ["draw"]
+
+_KINDS = ("pattern", "folded", "chain", "graph", "model")
+_PATIENCE = 2.0
+"""Seconds between two words on how far a catalogue has come."""
+_COLOURS = ("letters", "verdict", "centres", "none")
+
+
+@click.command(short_help="Draw a crease pattern, a chain, an SC or SCD graph, a model.")
+@click.argument("file", metavar="FILE")
+@click.option("-o", "--output", required=True, metavar="OUT", help="Picture to write: .svg, .png or .pdf.")
+@click.option(
+    "--as",
+    "kind",
+    type=click.Choice(_KINDS),
+    help="Kind of picture. Default: what suits the file.",
+    metavar="KIND",
+)
+@click.option(
+    "--colour", type=click.Choice(_COLOURS), default="letters", show_default=True,
+    help="What colours of a crease pattern tell: letters of the file, what moves, classes of centres, nothing.",
+)  # fmt: skip
+@click.option("--graph", is_flag=True, help="Draw the SC graph over a crease pattern.")
+@click.option("--numbers/--no-numbers", default=True, show_default=True, help="Numbers of links and joints.")
+@click.option("--paper", type=click.Choice(["light", "dark"]), default="light", show_default=True)
+@click.option(
+    "--where", multiple=True, metavar="COLUMN=VALUE",
+    help="Of a catalogue, rows with a number (2, 2..4, 2..) or text in a column; may be repeated.",
+)  # fmt: skip
+@FORCE
+def draw(
+    file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], force: bool, **look: Any
+) -> None:
+    """Draw the mechanism of a file, or of an id; or all those of a store, a list or a folder, on pages.
+
+    KIND is pattern (a crease pattern in its plane), folded (a folded sheet in space), chain (links as bodies,
+    joints as small circles), graph (an SC or SCD graph, with the signs of the centres) or model (vertices and
+    rods). Numbers are those that messages and JSON use; in SVG, shapes carry them as data-link and data-joint.
+
+    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder a catalogue is made, 24 pictures a
+    page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
+
+    \b
+    Examples:
+      synth draw data/patterns/bird-base.fold -o bird-base.svg
+      synth draw data/patterns/bird-base.fold --graph --colour centres -o bird-base.pdf
+      synth draw data/wiener/fortune-teller.json -o graph.png
+      synth draw k1:Cr -o four-bar.svg
+      synth draw chains.sqlite -o catalogue.pdf --where symmetry=2.. --where planar=1
+    """
+    from synth.drawing.catalogue.entries import is_catalogue
+
+    check_picture(output, force=force)
+    if is_catalogue(file):
+        _catalogue(file, output, kind, dict(map(_asked, where)), paper, force)
+        return
+    if where:
+        raise click.UsageError("--where is for catalogues: a store, rows, a graph6 file or a folder")
+    from graphs.files.formats import read
+    from synth.drawing.mechanisms import pictures
+    from synth.drawing.scene.writing import save_scene
+
+    thing = read(file)
+    with about(file):
+        scene = pictures.draw(thing, kind, **look)
+    save_scene(scene, output, paper=paper, force=force)
+    click.echo(f"written: {plain(output, 4096)}")
+
+
+def _catalogue(
+    file: str, output: str, kind: str | None, where: dict[str, Limits | str], paper: str, force: bool
+) -> None:
+    from synth.drawing.catalogue.entries import catalogue_entries
+    from synth.drawing.catalogue.pages import catalogue_pages
+    from synth.drawing.catalogue.writing import write_catalogue
+
+    failures: list[str] = []
+    shown = _counted(catalogue_entries(file, where, failures))
+    written = write_catalogue(catalogue_pages(shown, Path(file).name, kind), output, paper=paper, force=force)
+    for place in written:
+        click.echo(f"written: {plain(str(place), 4096)}")
+    if not written:
+        click.echo("nothing to draw")
+    for failure in failures:
+        click.echo(f"left out: {plain(failure, 4096)}", err=True)
+
+
+def _counted(entries: Iterator[CatalogueEntry]) -> Iterator[CatalogueEntry]:
+    """Yield entries; a terminal shows now and then how many there were."""
+    number, told = 0, monotonic()
+    for number, entry in enumerate(entries, start=1):
+        if sys.stderr.isatty() and monotonic() - told > _PATIENCE:
+            click.echo(f"\r{number} drawn", nl=False, err=True)
+            told = monotonic()
+        yield entry
+    if sys.stderr.isatty():
+        click.echo(f"\r{number} drawn", err=True)
+
+
+def _asked(text: str) -> tuple[str, Limits | str]:
+    column, equals, value = text.partition("=")
+    if not equals or not column:
+        raise click.BadParameter(f"{plain(text)!r} is not COLUMN=VALUE", param_hint="--where")
+    try:
+        limits: Limits = LimitsType().convert(value, None, None)
+    except click.BadParameter:
+        return column, value
+    return column, limits

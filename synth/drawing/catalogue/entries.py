@@ -1,0 +1,162 @@
+"""What is in a catalogue: the mechanisms of a store, of rows, of a graph6 file or of a folder, one by one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from enumerate.chains.names import name_of
+from enumerate.runner.columns import row_as_dict
+from enumerate.runner.limits import Limits
+from enumerate.runner.store import read_meta, read_rows
+from enumerate.strings.panel_strings import ChainString
+from graphs.errors import FileError, InvariantError, SynthedraError, shown
+from graphs.files.formats import is_id, mechanism_of_id, read_all
+
+__all__ = ["CatalogueEntry", "catalogue_entries", "is_catalogue"]
+
+_STORES = (".sqlite", ".db")
+_LISTS = (*_STORES, ".jsonl", ".g6")
+_IDS = ("code", "mechanism", "chain")
+"""Columns that may hold an id, the one that says most first."""
+
+
+@dataclass(frozen=True, slots=True)
+class CatalogueEntry:
+    """One mechanism of a catalogue.
+
+    Attributes
+    ----------
+    number : int
+        Its place among all, from 1; those that a filter leaves out are counted.
+    mechanism : SCGraph, or whatever else can be drawn
+    name : str
+        Its id, or where it is from.
+    said : str
+        Freedoms, centres, symmetry: what is known of them.
+    """
+
+    number: int
+    mechanism: Any
+    name: str
+    said: str
+
+
+def is_catalogue(path: str | Path) -> bool:
+    """Tell whether a path names many mechanisms: a store, a list or a folder.
+
+    Examples
+    --------
+    >>> is_catalogue("chains.sqlite"), is_catalogue("watt.json")
+    (True, False)
+    """
+    return not is_id(path) and (Path(path).suffix.lower() in _LISTS or Path(path).is_dir())
+
+
+def catalogue_entries(
+    path: str | Path, where: Mapping[str, Limits | str] | None = None, failures: list[str] | None = None
+) -> Iterator[CatalogueEntry]:
+    """Yield the mechanisms of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder, in order.
+
+    Parameters
+    ----------
+    path : str or Path
+    where : mapping of column to limits or text, optional
+        Rows to show: numbers within limits, text that is equal. Only rows have columns.
+    failures : list of str, optional
+        What is wrong with files of a folder that cannot be read is added; without it, it is raised.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read, or a row has no mechanism.
+    InvariantError
+        If there is no such column.
+
+    Examples
+    --------
+    >>> list(catalogue_entries("nowhere.jsonl"))
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
+    """
+    place = Path(path)
+    if place.suffix.lower() in (*_STORES, ".jsonl") and not place.is_dir():
+        for number, row in enumerate(_rows(place), start=1):
+            if all(_admits(row, column, asked) for column, asked in (where or {}).items()):
+                yield _entry_of_row(place, number, row)
+        return
+    if where:
+        raise InvariantError("filter", f"{shown(str(path))} has no columns", "a store or rows, .sqlite or .jsonl")
+    files = sorted(one for one in place.iterdir() if one.is_file()) if place.is_dir() else [place]
+    number = 0
+    for file in files:
+        try:
+            for entry in read_all(file):
+                number += 1
+                yield CatalogueEntry(number, entry.mechanism, Path(entry.label).name, repr(entry.mechanism)[1:-1])
+        except SynthedraError as error:
+            if failures is None or not place.is_dir():
+                raise
+            failures.append(str(error))
+
+
+def _rows(place: Path) -> Iterator[dict[str, Any]]:
+    if place.suffix.lower() in _STORES:
+        columns = read_meta(place)["columns"]
+        for row in read_rows(place):
+            yield row_as_dict(columns, row)
+        return
+    try:
+        with place.open(encoding="utf-8") as lines:
+            for number, line in enumerate(lines, start=1):
+                row = json.loads(line)
+                if not isinstance(row, dict):
+                    raise FileError(place, f"line {number}", f"{shown(row)} is no object", "an object a line")
+                yield row
+    except OSError as error:
+        raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
+    except (ValueError, RecursionError) as error:
+        raise FileError(place, "", f"is not JSON: {error}", "an object a line") from None
+
+
+def _admits(row: Mapping[str, Any], column: str, asked: Limits | str) -> bool:
+    if column not in row:
+        raise InvariantError("filter", f"there is no column {shown(column)}", ", ".join(map(str, row)))
+    value = row[column]
+    if isinstance(asked, Limits):
+        return isinstance(value, int) and value in asked
+    text = ",".join(map(str, value)) if isinstance(value, list) else str(value)
+    return text == asked
+
+
+def _entry_of_row(place: Path, number: int, row: Mapping[str, Any]) -> CatalogueEntry:
+    if isinstance(row.get("string"), str):
+        return CatalogueEntry(number, ChainString.parse(row["string"]), row["string"], _said(row))
+    for column in _IDS:
+        code = row.get(column)
+        if isinstance(code, str) and is_id(code):
+            name = row.get("name") or name_of(str(row.get("chain", code)))
+            told = f"{name}, {_said(row)}" if name else _said(row)
+            return CatalogueEntry(number, mechanism_of_id(code), code, told)
+    raise FileError(place, f"row {number}", "has no id", f"an id in one of the columns {', '.join(_IDS)}")
+
+
+def _said(row: Mapping[str, Any]) -> str:
+    """Return freedoms, centres and symmetry of a row, those that it has."""
+    words = []
+    if isinstance(row.get("order"), list):  # of the joints round a cone: the picture shows the chain alone
+        words.append("order " + " ".join(map(str, row["order"])))
+    freedoms = row.get("exact_dof", row.get("dof"))
+    if freedoms is not None:
+        words.append(f"M = {freedoms}")
+    if "centres" in row:
+        words.append(f"{row['centres']} centre{'s' * (row['centres'] != 1)}")
+    if "symmetry" in row:
+        words.append(f"symmetry {row['symmetry']}")
+    if row.get("joints") and isinstance(row["joints"], str):
+        words.append(row["joints"])
+    return ", ".join(words)

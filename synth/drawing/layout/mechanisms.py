@@ -1,0 +1,361 @@
+"""Where the links, joints and loops of a link-joint graph are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import networkx as nx
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.ids import JointId, Joints, LinkId
+from synth.drawing.layout.embedding import (
+    Neighbours,
+    Node,
+    embedded,
+    faces_of,
+    made_biconnected,
+    part_of,
+    same_cycle,
+)
+from synth.drawing.layout.forces import pulled, springs_of
+from synth.drawing.layout.mirror import mirrored, swaps_of
+from synth.drawing.layout.plane import barycentric, plane_graph
+from synth.drawing.layout.skeleton import Skeleton, bodies, dots
+
+__all__ = ["Layout", "PlacedFace", "layout_of"]
+
+Place = tuple[float, float]
+_GAP = 1.0
+_MOST_CHOICES = 2
+"""Mirrored drawings that are compared: there are many where there are many symmetries."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedFace:
+    """A bounded face: the joints round it, counter-clockwise, and a place inside from which all are seen."""
+
+    joints: tuple[JointId, ...]
+    at: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Places in the plane, y upwards, in units of the length of a side.
+
+    Attributes
+    ----------
+    links : mapping of link to (x, y)
+        The middle of each.
+    joints : mapping of joint to (x, y)
+    outlines : mapping of link to tuple of (x, y)
+        The corners of each body, counter-clockwise; empty where links are dots.
+    ways : mapping of joint to tuple of (x, y)
+        Where links are dots: the places that the line of a joint passes, from its first link to its second.
+    faces : tuple of PlacedFace
+        Those inside; none of a drawing with crossings.
+    plane : bool
+        Whether no two lines cross.
+    mirror : mapping of link to link, or None
+        The symmetry that is seen as a mirror, upright.
+    """
+
+    links: dict[LinkId, Place]
+    joints: dict[JointId, Place]
+    outlines: dict[LinkId, tuple[Place, ...]]
+    ways: dict[JointId, tuple[Place, ...]]
+    faces: tuple[PlacedFace, ...]
+    plane: bool
+    mirror: dict[LinkId, LinkId] | None
+
+
+def layout_of(
+    links: Iterable[LinkId],
+    joints: Joints,
+    *,
+    as_bodies: bool = True,
+    rotation: Mapping[LinkId, Sequence[JointId]] | None = None,
+    outer: Sequence[JointId] = (),
+) -> Layout:
+    """Return a layout of a link-joint graph: without crossings if it is planar, mirrored if that can be.
+
+    Parameters
+    ----------
+    links : iterable of link ids
+    joints : mapping of joint id to (link, link)
+    as_bodies : bool, optional
+        Links are polygons of their joints; else they are dots.
+    rotation : mapping of link to its joints counter-clockwise, optional
+        The drawing to keep. Without it one is chosen.
+    outer : sequence of joint ids, optional
+        The face to be outside; else one with most joints.
+
+    Examples
+    --------
+    >>> square = layout_of(range(4), {0: (0, 1), 1: (1, 2), 2: (2, 3), 3: (3, 0)})
+    >>> square.plane, len(square.faces), square.mirror is not None
+    (True, 1, True)
+    """
+    graph = _incidence(links, joints)
+    parts = []
+    for nodes in nx.connected_components(graph):
+        part = part_of(graph, nodes)
+        kept = None if rotation is None else _given(part, rotation, joints)
+        parts.append(_placed(part, joints, as_bodies, kept, outer))
+    return _side_by_side(parts, joints)
+
+
+def _incidence(links: Iterable[LinkId], joints: Joints) -> nx.Graph:
+    graph = nx.Graph()
+    graph.add_nodes_from(("link", link) for link in links)
+    for joint, ends in joints.items():
+        graph.add_edges_from((("joint", joint), ("link", end)) for end in ends)
+    return graph
+
+
+def _given(part: nx.Graph, rotation: Mapping[LinkId, Sequence[JointId]], joints: Joints) -> Neighbours:
+    return {
+        (kind, name): tuple(("joint", joint) for joint in rotation[name])
+        if kind == "link"
+        else tuple(("link", end) for end in joints[name])
+        for kind, name in part
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """A connected part with the places of its nodes."""
+
+    nodes: list[Node]
+    places: Floats
+    skeleton: Skeleton
+    faces: list[tuple[tuple[Node, ...], Floats]]
+    plane: bool
+
+
+def _placed(
+    part: nx.Graph, joints: Joints, as_bodies: bool, kept: Neighbours | None, outer: Sequence[JointId]
+) -> _Part:
+    if len(part) == 1:
+        node = next(iter(part))
+        return _Part([node], np.zeros((1, 2)), Skeleton({node: ()}, {}, None), [], True)
+    made = bodies if as_bodies else dots
+    wanted = frozenset(outer)
+    plain = kept if kept is not None else embedded(part)
+    if plain is None:
+        return _drawn_crossing(part, as_bodies)
+    choices = []
+    for rotations, swap in _drawings(part, joints, plain, kept is not None):
+        skeleton = made(rotations, swap)
+        face = _outer_face(skeleton, joints, wanted)
+        if face is not None:
+            choices.append((skeleton, face))
+        if len(choices) == _MOST_CHOICES or swap is None:
+            break
+    if choices:
+        skeleton, face = max(choices, key=lambda choice: (choice[0].mirror is not None, len(choice[1])))
+        return _drawn_plane(skeleton, face)
+    return _drawn_filled(made(plain), joints, wanted)
+
+
+def _drawings(
+    part: nx.Graph, joints: Joints, plain: Neighbours, kept: bool
+) -> Iterator[tuple[Neighbours, dict[Node, Node] | None]]:
+    """Yield rotations, each with the symmetry that it mirrors, the plain ones last."""
+    if nx.is_biconnected(part):
+        links = [name for kind, name in part if kind == "link"]
+        own = {name: joints[name] for kind, name in part if kind == "joint"}
+        for swap in swaps_of(links, own):
+            if all(swap["link", link] == ("link", link) for link in links):
+                continue
+            rotations = _if_reversed(plain, swap) if kept else mirrored(part, swap)
+            if rotations is not None:
+                yield rotations, swap
+    yield plain, None
+
+
+def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | None:
+    """Return rotations if a symmetry reverses them all."""
+    for node, row in kept.items():
+        image = tuple(swap[other] for other in reversed(row))
+        there = kept[swap[node]]
+        turned = there[(i := there.index(image[0])) :] + there[:i] if image and image[0] in there else ()
+        if turned != image:
+            return None
+    return kept
+
+
+def _outer_face(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> tuple[Node, ...] | None:
+    """Return the face to be outside, its own mirror image; None if there is none, or a node comes twice in it."""
+    faces = [face for face in faces_of(skeleton.around) if not _is_body(face, skeleton)]
+    if any(len(set(face)) < len(face) for face in faces):
+        return None
+    if skeleton.mirror is not None:
+        mirror = skeleton.mirror
+        faces = [
+            face for face in faces if same_cycle([mirror[node] for node in face[::-1]], face) and len(face) > 2
+        ]
+        faces = [face for face in faces if {mirror[node] for node in face} == set(face)]
+    if not faces:
+        return None
+    best = max(faces, key=lambda face: (_shared(face, joints, skeleton, wanted), len(face)))
+    return best if _shared(best, joints, skeleton, wanted) == len(wanted) else None
+
+
+def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, wanted: frozenset[JointId]) -> int:
+    """Return how many joints of the face that is wanted outside lie round a face."""
+    return len(wanted & set(_joints_of_face(face, joints, skeleton))) if wanted else 0
+
+
+def _is_body(face: Sequence[Node], skeleton: Skeleton) -> bool:
+    return any(len(row) > 2 and set(row) == set(face) and same_cycle(row, face) and _turns(row, face)
+               for row in skeleton.outlines.values())  # fmt: skip
+
+
+def _turns(row: Sequence[Node], face: Sequence[Node]) -> bool:
+    """Whether two rows of one cycle run the same way."""
+    i = list(face).index(row[0])
+    return tuple(row) == (*face[i:], *face[:i])
+
+
+def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
+    graph = plane_graph(skeleton.around, outer)
+    number = {node: i for i, node in enumerate(graph.nodes)}
+    bodies_of = [[number[node] for node in row] for row in skeleton.outlines.values() if len(row) > 2]
+    inside = {
+        pair for body in bodies_of for i, a in enumerate(body) for b in body[i + 1 :] for pair in [(a, b), (b, a)]
+    }
+    sides = [(a, b) for a, b in graph.edges.tolist() if (a, b) not in inside]
+    start = barycentric(graph, skeleton.mirror)
+    places = pulled(graph, start, springs_of(sides, bodies_of), skeleton.mirror)
+    faces = []
+    for face, hub in zip(graph.faces, graph.hub_of, strict=True):
+        row = tuple(graph.nodes[i] for i in face)
+        if not _is_body(row, skeleton):
+            faces.append((row, places[hub] if hub is not None else places[list(face)].mean(axis=0)))
+    own = graph.own
+    if skeleton.mirror is None:
+        turn = _lying(places[:own])
+        places = places @ turn
+        faces = [(row, at @ turn) for row, at in faces]
+    return _Part(graph.nodes[:own], places[:own], skeleton, faces, True)
+
+
+def _drawn_filled(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> _Part:
+    """Draw a graph that a node cuts in two, with nodes that close it, which then are left out."""
+    around = made_biconnected(skeleton.around)
+    filled = Skeleton(around, skeleton.outlines, None)
+    faces = [face for face in faces_of(around) if not _is_body(face, filled)]
+    best = max(faces, key=lambda face: (_shared(face, joints, skeleton, wanted), len(face)))
+    part = _drawn_plane(filled, best)
+    kept = [i for i, node in enumerate(part.nodes) if node in skeleton.around]
+    real = [(face, at) for face, at in part.faces if all(node in skeleton.around for node in face)]
+    return _Part([part.nodes[i] for i in kept], part.places[kept], skeleton, real, True)
+
+
+def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
+    """Draw a graph that is not planar: distances as those along the graph, as well as can be."""
+    incidence = {node: tuple(part[node]) for node in part}
+    if as_bodies:
+        skeleton = bodies(incidence)
+        graph = nx.Graph(
+            (a, b) for row in skeleton.outlines.values() for i, a in enumerate(row) for b in row[i + 1 :]
+        )
+    else:
+        skeleton = dots(incidence)
+        graph = nx.Graph((a, b) for a, row in skeleton.around.items() for b in row)
+    found = nx.kamada_kawai_layout(graph, pos=nx.circular_layout(graph))
+    nodes = list(graph)
+    places = np.array([found[node] for node in nodes])
+    ends = np.array([(nodes.index(a), nodes.index(b)) for a, b in graph.edges])
+    places = places / np.median(np.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1))
+    at = dict(zip(nodes, places, strict=True))
+    outlines = {link: _round(row, at) for link, row in skeleton.outlines.items()}
+    return _Part(nodes, places @ _lying(places), Skeleton(skeleton.around, outlines, None), [], False)
+
+
+def _round(row: Sequence[Node], at: Mapping[Node, Floats]) -> tuple[Node, ...]:
+    """Return the corners of a body in the order in which they lie round their middle."""
+    if len(row) < 4:
+        return tuple(row)
+    middle = np.mean([at[node] for node in row], axis=0)
+    return tuple(sorted(row, key=lambda node: float(np.arctan2(*(at[node] - middle)[::-1]))))
+
+
+def _lying(places: Floats) -> Floats:
+    """Return the turn after which places are widest from left to right."""
+    centred = places - places.mean(axis=0)
+    _, _, axes = np.linalg.svd(centred, full_matrices=False)
+    along = axes[0] * (1 if axes[0][0] >= 0 else -1)
+    return np.array([[along[0], -along[1]], [along[1], along[0]]])
+
+
+def _side_by_side(parts: Sequence[_Part], joints: Joints) -> Layout:
+    """Put the parts in a row, and name what is where."""
+    layout = Layout({}, {}, {}, {}, (), all(part.plane for part in parts), None)
+    faces: list[PlacedFace] = []
+    right = 0.0
+    for part in parts:
+        shift = np.array(
+            [right - part.places[:, 0].min(), -(part.places[:, 1].min() + part.places[:, 1].max()) / 2]
+        )
+        right += float(np.ptp(part.places[:, 0])) + _GAP
+        _name(part, shift, joints, layout)
+        for row, at in part.faces:
+            x, y = (at + shift).tolist()
+            faces.append(PlacedFace(_joints_of_face(row, joints, part.skeleton), (x, y)))
+    mirror = parts[0].skeleton.mirror if len(parts) == 1 else None
+    links = None if mirror is None else {a[1]: b[1] for a, b in mirror.items() if a[0] == "link"}
+    return Layout(layout.links, layout.joints, layout.outlines, layout.ways, tuple(faces), layout.plane, links)
+
+
+def _name(part: _Part, shift: Floats, joints: Joints, layout: Layout) -> None:
+    """Enter the places of a part in a layout."""
+    at: dict[Node, Place] = {}
+    for node, place in zip(part.nodes, (part.places + shift).tolist(), strict=True):
+        at[node] = (place[0], place[1])
+    mine: dict[str, list[LinkId]] = {"link": [], "joint": []}
+    for node in [*part.skeleton.around, *part.skeleton.outlines]:
+        kind, name = node[0], node[1]
+        if kind in mine and name not in mine[kind]:
+            mine[kind].append(name)
+    for link, row in part.skeleton.outlines.items():
+        layout.outlines[link[1]] = tuple(at[node] for node in row)
+        layout.links[link[1]] = _middle([at[node] for node in row])
+    for node, place in at.items():
+        kind, name = node[0], node[1]
+        if kind == "link":
+            layout.links.setdefault(name, place)
+        elif kind == "joint":
+            layout.joints[name] = place
+    if not part.skeleton.outlines:
+        _enter_ways(joints, layout)
+
+
+def _enter_ways(joints: Joints, layout: Layout) -> None:
+    for joint, (a, b) in joints.items():
+        if joint in layout.ways or a not in layout.links or b not in layout.links:
+            continue
+        middle = layout.joints.get(joint)
+        ends = (layout.links[a], layout.links[b])
+        layout.ways[joint] = ends if middle is None else (ends[0], middle, ends[1])
+        layout.joints.setdefault(joint, _middle(ends))
+
+
+def _middle(places: Sequence[Place]) -> Place:
+    return sum(x for x, _ in places) / len(places), sum(y for _, y in places) / len(places)
+
+
+def _joints_of_face(row: Sequence[Node], joints: Joints, skeleton: Skeleton) -> tuple[JointId, ...]:
+    """Return the joints round a face, from the nodes round it."""
+    if skeleton.outlines:
+        return tuple(node[1] for node in row if node[0] == "joint")
+    found: list[JointId] = []
+    between = {frozenset(ends): joint for joint, ends in joints.items()}
+    for a, b in zip(row, (*row[1:], row[0]), strict=True):
+        if a[0] == "joint":
+            found.append(a[1])
+        elif a[0] == b[0] == "link":
+            found.append(between[frozenset((a[1], b[1]))])
+    return tuple(found)

@@ -1,0 +1,286 @@
+"""Crease patterns: mountains, valleys, cuts, borders; panels and creases by number; the SC graph over them.
+
+Mountains are red and whole, valleys blue and dashed, cuts green and dotted, what is unassigned purple, borders
+black. Numbers are those of the mechanism: links count panels, joint ids are places in the list of edges, as
+messages and JSON have them. Theory: docs/theory/crease-patterns.md. The overlay is that of Wiener 2016, Figs. 21,
+32, 35.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.errors import InvariantError, shown
+from graphs.ids import LinkId
+from graphs.loops.loop import Centre
+from graphs.mechanism.plane import flat_places
+from graphs.mechanism.sheet import Sheet, with_all_edges
+from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
+from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
+from synth.drawing.mechanisms.sc_graphs import class_numbers
+from synth.drawing.mechanisms.signs import SIGN, centre_sign
+from synth.drawing.mechanisms.verdicts import Stillness, stillness_of
+from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
+
+__all__ = ["COLOURINGS", "crease_scene", "inside"]
+
+COLOURINGS = ("letters", "verdict", "centres", "none")
+"""What colours tell: letters of the file; what is still, and moves as one; the class of centres; nothing."""
+
+_LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
+    "M": ("mountain", ()),
+    "V": ("valley", (4.0, 2.0)),
+    "U": ("unassigned", (6.0, 1.5, 1.0, 1.5)),
+    "F": ("flat", (1.0, 1.5)),
+    "J": ("flat", (0.5, 1.5)),
+    "C": ("cut", (1.5, 2.0)),
+    "B": ("ink", ()),
+}
+_WORDS = {"M": "mountain", "V": "valley", "U": "unassigned", "F": "flat", "J": "join", "C": "cut", "B": "border"}
+_LEAST_LETTERS = 2.2
+"""Height of letters, points, below which numbers are left out: nobody reads them."""
+_MANY = 120
+"""Labels of which more are put in the middle of what they name, without looking what lies there."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Drawn:
+    """A sheet on the page with its mechanism."""
+
+    sheet: Sheet
+    mechanism: SheetMechanism
+    frame: Frame
+    places: list[Point]
+    verdict: Stillness
+
+    def middle(self, edge: Sequence[int]) -> Point:
+        (ax, ay), (bx, by) = (self.places[v] for v in edge)
+        return (ax + bx) / 2, (ay + by) / 2
+
+
+def crease_scene(
+    sheet: Sheet,
+    *,
+    colour: str = "letters",
+    numbers: bool = True,
+    graph: bool = False,
+    box: tuple[float, float] = (COLUMN, COLUMN),
+    caption: str | None = "",
+) -> Scene:
+    """Return a picture of a crease pattern that lies in a plane.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    colour : {"letters", "verdict", "centres", "none"}, optional
+        What the colours of creases tell; see `COLOURINGS`.
+    numbers : bool, optional
+        Write the numbers of links and joints.
+    graph : bool, optional
+        Draw the SC graph over it: links in their panels, joints across their creases, the signs of the centres.
+    box : (width, height), optional
+        Points there are at most.
+    caption : str, optional
+        Goes before the line that says what is seen; None: no line at all.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, or does not lie in a plane.
+    InvariantError
+        If the colouring is not known.
+
+    Examples
+    --------
+    >>> square = Sheet(4, ((0, 1), (1, 2), (2, 3), (3, 0), (0, 2)), "BBBBV", ((0, 1, 2), (0, 2, 3)),
+    ...                ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> [layer.name for layer in crease_scene(square).layers]
+    ['panels', 'creases', 'labels', 'caption']
+    """
+    if colour not in COLOURINGS:
+        raise InvariantError("colour", f"the colouring {shown(colour)} is not known", ", ".join(COLOURINGS))
+    whole = with_all_edges(sheet)
+    flat = flat_places(whole, "a picture of a crease pattern")
+    extent = max(max(p[i] for p in flat) - min(p[i] for p in flat) for i in (0, 1)) if flat else 1.0
+    frame = framed(flat, min(box) / (extent or 1.0), box)
+    mechanism = mechanism_of_sheet(sheet)
+    verdict = stillness_of(sheet) if colour == "verdict" else Stillness()
+    drawn = _Drawn(whole, mechanism, frame, frame.row(flat), verdict)
+    layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
+    if graph:
+        layers.append(Layer("graph", tuple(_graph(drawn))))
+    if numbers:
+        layers.append(Layer("labels", tuple(_labels(drawn, graph))))
+    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph)))
+
+
+def _panels(drawn: _Drawn) -> list[Shape]:
+    link_of = {face: link for link, faces in enumerate(drawn.mechanism.panels) for face in faces}
+    cluster_of: dict[LinkId, int] = {}
+    for number, links in enumerate(drawn.verdict.clusters):
+        cluster_of.update(dict.fromkeys(links, number))
+    found: list[Shape] = []
+    for number, face in enumerate(drawn.sheet.faces):
+        if number in link_of:
+            link = link_of[number]
+            fill = colour_of_class(cluster_of[link]) if link in cluster_of else "body"
+            opacity = 0.3 if link in cluster_of else 0.6
+            row = [drawn.places[v] for v in face]
+            found.append(Polygon(row, fill, None, opacity=opacity, data=(("link", str(link)),)))
+    return found
+
+
+def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
+    """Return the lines, borders and cuts above creases, so that the outline is whole."""
+    joint_of = {frozenset(edge): joint for joint, edges in drawn.mechanism.pieces.items() for edge in edges}
+    width = _width(drawn) * (0.7 if faint else 1.0)
+    classes = _class_at(drawn) if colour == "centres" else {}
+    found: list[tuple[int, Shape]] = []
+    for edge, letter in zip(drawn.sheet.edges, drawn.sheet.assignments, strict=True):
+        ends = [drawn.places[v] for v in edge]
+        name, dash = _LOOKS.get(letter, _LOOKS["U"])
+        joint = joint_of.get(frozenset(edge))
+        data = () if joint is None else (("joint", str(joint)),)
+        if letter in "BC":
+            found.append((1, Line(ends, name, STRONG * width if letter == "B" else NORMAL * width, dash, data)))
+        elif colour == "letters":
+            scaled = tuple(length * max(width, 0.6) for length in dash)
+            found.append((0, Line(ends, name, NORMAL * width if letter in "MVU" else FINE, scaled, data)))
+        elif colour == "verdict" and joint is not None:
+            if joint in drawn.verdict.still:
+                found.append((0, Line(ends, "grey", NORMAL * width, (1.0, 2.0), data)))
+            else:
+                found.append((0, Line(ends, "class1", 1.3 * width, (), data)))
+        elif colour != "centres" or joint is None:
+            found.append((0, Line(ends, "grey" if joint is not None else "faint", FINE, (), data)))
+        else:
+            found += [(0, half) for half in _halves(drawn, edge, classes, width, data)]
+    return [shape for _, shape in sorted(found, key=lambda item: item[0])]
+
+
+def _halves(
+    drawn: _Drawn, edge: Sequence[int], classes: Mapping[int, int], width: float, data: tuple[tuple[str, str], ...]
+) -> list[Shape]:
+    """Return the halves of a crease, each in the colour of the class of the centre at its end."""
+    middle = drawn.middle(edge)
+    return [
+        Line(
+            [drawn.places[v], middle],
+            colour_of_class(classes[v]) if v in classes else "grey",
+            1.3 * width,
+            (),
+            data,
+        )
+        for v in edge
+    ]
+
+
+def _class_at(drawn: _Drawn) -> dict[int, int]:
+    """Return the centre class of each vertex that is a centre."""
+    numbers = class_numbers(drawn.mechanism.sc)
+    return {vertex: numbers[loop] for loop, vertex in enumerate(drawn.mechanism.loop_vertices) if loop in numbers}
+
+
+def _width(drawn: _Drawn) -> float:
+    """Return how wide lines are: less on dense patterns."""
+    lengths = _lengths(drawn)
+    return 1.0 if not lengths else min(1.0, max(0.3, median(lengths) / 26))
+
+
+def _lengths(drawn: _Drawn) -> list[float]:
+    ends = [(drawn.places[a], drawn.places[b]) for a, b in drawn.mechanism.hinges.values()]
+    return [((ax - bx) ** 2 + (ay - by) ** 2) ** 0.5 for (ax, ay), (bx, by) in ends]
+
+
+def _graph(drawn: _Drawn) -> list[Shape]:
+    """Return the SC graph: a line for each joint by way of its crease, a dot for each link, the centres' signs."""
+    sc, size = drawn.mechanism.sc, max(0.25, _width(drawn))
+    middles: dict[LinkId, Point] = {
+        link: _middle_of_link(drawn, faces) for link, faces in enumerate(drawn.mechanism.panels)
+    }
+    found: list[Shape] = []
+    for joint, hinge in drawn.mechanism.hinges.items():
+        a, b = sc.joints[joint]
+        row = [middles[a], drawn.middle(hinge), middles[b]]
+        found.append(Line(row, "ink", 1.1 * size, data=(("joint", str(joint)),)))
+    for link, at in middles.items():
+        found.append(Disc(at, 2.4 * size, "ink", "paper", 0.6 * size, (("link", str(link)),)))
+    for vertex, number in _class_at(drawn).items():
+        found += centre_sign(drawn.places[vertex], Centre.FINITE, colour_of_class(number), SIGN * size)
+    return found
+
+
+def _middle_of_link(drawn: _Drawn, faces: Sequence[int]) -> Point:
+    rows = [[drawn.places[v] for v in drawn.sheet.faces[face]] for face in faces]
+    return inside(max(rows, key=_area))
+
+
+def _area(row: Sequence[Point]) -> float:
+    return abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(row, (*row[1:], row[0]), strict=True))) / 2
+
+
+def inside(row: Sequence[Point]) -> Point:
+    """Return a point inside a polygon: the middle of its area if that lies there, else one that does.
+
+    Examples
+    --------
+    >>> inside([(0, 0), (2, 0), (2, 2), (0, 2)])
+    (1.0, 1.0)
+    """
+    from shapely.geometry import Polygon as Area
+
+    area = Area(row)
+    middle = area.centroid
+    if not area.is_valid:
+        return sum(x for x, _ in row) / len(row), sum(y for _, y in row) / len(row)
+    if not area.contains(middle):
+        middle = area.representative_point()
+    return float(middle.x), float(middle.y)
+
+
+def _labels(drawn: _Drawn, graph: bool) -> list[Label]:
+    """Return the numbers of links, bold, in their panels, and of joints, beside the middles of their creases."""
+    lengths = _lengths(drawn)
+    size = min(SMALL, 0.3 * median(lengths)) if lengths else SMALL
+    if size < _LEAST_LETTERS:
+        return []
+    wishes: list[tuple[Label, list[Point]]] = []
+    for link, faces in enumerate(drawn.mechanism.panels):
+        label = Label((0, 0), str(link), size, bold=True, halo=graph, data=(("link", str(link)),))
+        middle = _middle_of_link(drawn, faces)
+        wishes.append((label, beside(middle, 0.9 * size) if graph else [middle, *beside(middle, 0.8 * size)]))
+    for joint, edge in drawn.mechanism.hinges.items():
+        label = Label((0, 0), str(joint), 0.85 * size, "grey", data=(("joint", str(joint)),))
+        middle = drawn.middle(edge)
+        wishes.append((label, [middle, *beside(middle, 0.8 * size, 8)] if not graph else beside(middle, size, 8)))
+    if len(wishes) > _MANY:
+        return placed([(label, places[:3]) for label, places in wishes], Obstacles([], []))
+    points = [(*place, 1.5) for place in drawn.places]
+    lines = [(drawn.places[a], drawn.places[b]) for a, b in drawn.sheet.edges] if not graph else []
+    return placed(wishes, Obstacles(points, lines))
+
+
+def _said(drawn: _Drawn, colour: str, graph: bool) -> str:
+    sc = drawn.mechanism.sc
+    said = f"{len(sc)} links, {len(sc.joints)} joints, {len(sc.centre_classes())} centres"
+    if colour == "letters":
+        there = [word for letter, word in _WORDS.items() if letter in drawn.sheet.assignments]
+        looks = {
+            "mountain": "red",
+            "valley": "blue, dashed",
+            "cut": "green",
+            "unassigned": "purple",
+            "flat": "grey",
+        }
+        told = [f"{word} {looks[word]}" for word in there if word in looks]
+        said += "; " + ", ".join(told) if told else ""
+    if colour == "verdict":
+        said += f"; {len(drawn.verdict.still)} creases still {drawn.verdict.known}: grey, dotted; others orange"
+        said += "; panels of one colour move as one" if drawn.verdict.still else ""
+    if colour == "centres":
+        said += "; half-creases in the colour of their centre's class"
+    return said + ("; SC graph in black" if graph else "")

@@ -1,0 +1,164 @@
+"""One picture of any mechanism: which kind suits it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import networkx as nx
+
+from enumerate.strings.panel_strings import ChainString
+from graphs.convert.table import Mechanism, graph_of, to_sc
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import Sheet
+from synth.drawing.mechanisms.chains import ChainLook, chain_scene
+from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
+from synth.drawing.mechanisms.frame import COLUMN
+from synth.drawing.mechanisms.sc_graphs import sc_scene
+from synth.drawing.mechanisms.space import folded_scene, model_scene
+from synth.drawing.mechanisms.strips import strip_scene
+from synth.drawing.scene.shapes import Scene
+
+__all__ = ["COLOURINGS", "KINDS", "Look", "draw"]
+
+
+_SMALL = 200.0
+"""Points of width and height below which a chain has smaller joints, without numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What a picture shows.
+
+    Attributes
+    ----------
+    colour : str
+        What the colours of creases tell, one of `COLOURINGS`.
+    numbers : bool
+        Whether links and joints have their numbers.
+    graph : bool
+        Whether the SC graph lies over a crease pattern.
+    box : (width, height)
+        Points there are at most.
+    caption : str or None
+        A line that goes first below the picture; None: there is no line at all.
+    """
+
+    colour: str = "letters"
+    numbers: bool = True
+    graph: bool = False
+    box: tuple[float, float] = (COLUMN, COLUMN)
+    caption: str | None = ""
+
+
+def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
+    """Return a picture of a mechanism.
+
+    Parameters
+    ----------
+    thing : SCGraph, SCDGraph, Sheet, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString or networkx
+    graph kind : {"pattern", "folded", "chain", "graph", "model"}, optional
+        A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
+        the centres, vertices and rods. Without it what suits the thing: a sheet is a pattern or folded, as it
+        lies; a graph whose centres nobody gave is a chain.
+    **look
+        Fields of `Look`: ``colour``, ``numbers``, ``graph``, ``box``, ``caption``.
+
+    Returns
+    -------
+    Scene
+        A notebook shows it; `synth.drawing.save_scene` writes it.
+
+    Raises
+    ------
+    InvariantError
+        If the kind or the colouring is not known.
+    UnsolvableError
+        If the thing cannot be drawn so.
+
+    Examples
+    --------
+    >>> from graphs.files.formats import read
+    >>> [layer.name for layer in draw(read("k1:Cr")).layers]
+    ['links', 'joints', 'labels', 'caption']
+    """
+    kind = _suiting(thing) if kind is None else kind
+    if kind not in KINDS:
+        raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
+    how = Look(**look)
+    if isinstance(thing, ChainString):
+        return strip_scene(thing, box=how.box, caption=how.caption)
+    return KINDS[kind](thing, how)
+
+
+def _suiting(thing: object) -> str:
+    """Return the kind of picture that suits a thing."""
+    if isinstance(thing, Sheet):
+        if thing.coordinates is None:
+            return "graph"
+        return "pattern" if lies_flat(thing) else "folded"
+    if isinstance(thing, PolyhedronModel):
+        return "model"
+    if isinstance(thing, SCDGraph):
+        return "graph"
+    assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
+    return "chain" if assumed else "graph"
+
+
+def _pattern(thing: Any, look: Look) -> Scene:
+    return crease_scene(
+        _sheet(thing),
+        colour=look.colour,
+        numbers=look.numbers,
+        graph=look.graph,
+        box=look.box,
+        caption=look.caption,
+    )
+
+
+def _folded(thing: Any, look: Look) -> Scene:
+    return folded_scene(_sheet(thing), numbers=look.numbers, box=look.box, caption=look.caption)
+
+
+def _chain(thing: Any, look: Look) -> Scene:
+    how = ChainLook(look.numbers, look.numbers)
+    if min(look.box) < _SMALL:
+        how = ChainLook(look.numbers, False, size=5.0, dot=1.6)
+    return chain_scene(_graph_of(thing), look=how, box=look.box, caption=look.caption)
+
+
+def _sc_graph(thing: Any, look: Look) -> Scene:
+    scene_of = thing if isinstance(thing, SCDGraph) else _graph_of(thing)
+    return sc_scene(scene_of, box=look.box, caption=look.caption)
+
+
+def _graph_of(thing: Any) -> Any:
+    if isinstance(thing, ConicalLinkage):
+        return thing.chain
+    return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
+
+
+def _model(thing: Any, look: Look) -> Scene:
+    if not isinstance(thing, PolyhedronModel):
+        from graphs.convert.table import to_polyhedron
+
+        thing = to_polyhedron(thing)
+    return model_scene(thing, box=look.box, caption=look.caption)
+
+
+def _sheet(thing: object) -> Sheet:
+    if not isinstance(thing, Sheet):
+        raise UnsolvableError(f"only a crease pattern or a folded sheet can be drawn so, and this is {thing!r}")
+    return thing
+
+
+KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
+    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model}
+)
+"""Name of a kind of picture to what makes it."""

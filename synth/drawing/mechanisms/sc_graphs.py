@@ -1,0 +1,243 @@
+"""SC and SCD graphs in the notation of the thesis: links as discs, joints as lines, in each loop its sign.
+
+A finite centre is a circled dot, one at infinity a lying eight; loops without a centre are empty. Loops that
+share their centre have signs of one colour and number. Open edges of an SCD graph are stubs. Source: Wiener 2016,
+3.3 and 3.4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import pairwise
+from math import atan2, cos, hypot, inf, pi, sin
+
+import numpy as np
+
+from graphs.errors import UnsolvableError
+from graphs.identity.drawings import drawing_of
+from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.rotation import trace_faces
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
+from synth.drawing.layout.mechanisms import Layout, layout_of
+from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
+from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
+from synth.drawing.mechanisms.signs import SIGN, centre_sign
+from synth.drawing.scene.palette import NORMAL, SMALL, STRONG, colour_of_class
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape, text_width
+
+__all__ = ["class_numbers", "sc_scene"]
+
+_UNIT = 58.0
+_LINK = 6.6
+_STUB = 10.0
+_LOOSE_LOOPS = 12
+"""Loops that are not faces and are listed below; more are counted."""
+
+
+def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = "") -> Scene:
+    """Return a picture of an SC or SCD graph.
+
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+        An SCD graph is drawn by its rotations, with its open edges; the outer face is outside.
+    box : (width, height), optional
+        Points there are at most.
+    caption : str, optional
+        Goes before the lines that say what is seen; None: no lines at all.
+
+    Examples
+    --------
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> [layer.name for layer in sc_scene(four_bar).layers]
+    ['joints', 'links', 'centres', 'labels', 'caption']
+    """
+    rotation, outer = _kept_drawing(sc)
+    layout = layout_of(sc.nodes, sc.joints, as_bodies=False, rotation=rotation, outer=outer)
+    places = [*layout.links.values(), *layout.joints.values()]
+    frame = framed(places, _UNIT, box, margin=_STUB + 2 * _LINK)
+    numbers = class_numbers(sc)
+    ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
+    links = {link: frame.at(place) for link, place in layout.links.items()}
+    radius = min(_LINK, 0.042 * min(box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
+    signs, loose = _signs(sc, layout, frame, numbers)
+    stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
+    labels = _labels(ways, links, radius, signs, numbers)
+    layers = [
+        Layer("joints", (*stubs, *_joints(ways))),
+        Layer("links", tuple(_links(sc, links, radius))),
+        Layer("centres", tuple(shape for shapes in signs.values() for shape in shapes[2])),
+        Layer("labels", tuple(labels)),
+    ]
+    return page_of(frame, layers, captions_of(caption, *_said(sc, layout, loose)))
+
+
+def class_numbers(sc: SCGraph) -> dict[int, int]:
+    """Return the number of the centre class of each loop: independent loops first, then closing ones.
+
+    Examples
+    --------
+    >>> class_numbers(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    {0: 0}
+    """
+    return {loop: number for number, one in enumerate(sc.centre_classes()) for loop in one.loops}
+
+
+def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None, tuple[JointId, ...]]:
+    """Return the rotations and the outer face of the drawing whose faces the loops are, if there is one."""
+    try:
+        rotation, (joint, link) = drawing_of(sc)
+    except UnsolvableError:
+        return None, ()
+    bare = {name: tuple(side for side in sides if side is not None) for name, sides in rotation.items()}
+    faces, left_of = trace_faces(sc.joints, bare)
+    return bare, faces[left_of[joint, link]].joints
+
+
+def _least_distance(places: Sequence[Point]) -> float:
+    """Return how near two places come to each other; of one place, without end."""
+    if len(places) < 2:
+        return inf
+    found = np.asarray(places)
+    apart = np.sqrt(((found[:, None] - found[None]) ** 2).sum(axis=-1))
+    np.fill_diagonal(apart, inf)
+    return float(apart.min())
+
+
+_Sign = tuple[Point, int, list[Shape]]
+
+
+def _signs(
+    sc: SCGraph, layout: Layout, frame: Frame, numbers: Mapping[int, int]
+) -> tuple[dict[int, _Sign], list[Loop]]:
+    """Return the sign of each loop that is a face; and the loops with a centre that are none."""
+    places = {frozenset(face.joints): frame.at(face.at) for face in layout.faces}
+    middles = frame.row([*layout.joints.values(), *layout.links.values()])
+    signs: dict[int, _Sign] = {}
+    loose: list[Loop] = []
+    for index, loop in enumerate((*sc.loops, *sc.closing)):
+        at = places.get(frozenset(loop.joints))
+        if not loop.has_centre:
+            continue
+        if at is None or index >= len(sc.loops):
+            loose.append(loop)
+            continue
+        nearest = min(hypot(at[0] - x, at[1] - y) for x, y in middles)
+        size = max(1.2, min(SIGN, 0.1 * frame.scale, 0.4 * nearest))
+        signs[index] = (at, numbers[index], centre_sign(at, loop.centre, colour_of_class(numbers[index]), size))
+    return signs, loose
+
+
+def _joints(ways: Mapping[JointId, Sequence[Point]]) -> list[Shape]:
+    found: list[Shape] = []
+    for joint, row in ways.items():
+        found.append(Line(_bent(row), "ink", 1.2 * NORMAL, data=(("joint", str(joint)),)))
+    return found
+
+
+def _bent(row: Sequence[Point]) -> list[Point]:
+    """Return a curve through three points, where a joint has a place of its own; else the straight line."""
+    if len(row) < 3:
+        return list(row)
+    (ax, ay), (mx, my), (bx, by) = row
+    cx, cy = 2 * mx - (ax + bx) / 2, 2 * my - (ay + by) / 2
+    return [
+        (
+            (1 - t) ** 2 * ax + 2 * t * (1 - t) * cx + t * t * bx,
+            (1 - t) ** 2 * ay + 2 * t * (1 - t) * cy + t * t * by,
+        )
+        for t in (i / 16 for i in range(17))
+    ]
+
+
+def _links(sc: SCGraph, links: Mapping[LinkId, Point], radius: float) -> list[Shape]:
+    found: list[Shape] = []
+    for link, at in links.items():
+        data = (("link", str(link)),)
+        found.append(Disc(at, radius, "ground" if link == sc.ground else "body", "ink", NORMAL, data))
+        size = min(SMALL, 1.9 * radius / max(1.0, text_width(str(link)[:5], 1.0)))
+        if size > 2.5:
+            found.append(Label(at, str(link), size, bold=True, halo=False, widest=5, data=data))
+    return found
+
+
+def _labels(
+    ways: Mapping[JointId, Sequence[Point]],
+    links: Mapping[LinkId, Point],
+    radius: float,
+    signs: Mapping[int, _Sign],
+    numbers: Mapping[int, int],
+) -> list[Label]:
+    """Return the numbers of classes beside their signs, if there are several, and of joints."""
+    lines = [piece for row in ways.values() for piece in pairwise(row)]
+    discs = [(x, y, radius + 0.5) for x, y in links.values()]
+    discs += [(at[0], at[1], SIGN + 0.5) for at, _, _ in signs.values()]
+    wishes = []
+    if len(set(numbers.values())) > 1:
+        for at, number, _ in signs.values():
+            label = Label((0, 0), str(number + 1), 0.9 * SMALL, colour_of_class(number))
+            wishes.append((label, beside(at, SIGN + 4.5, 8, 0.0)))
+    for joint, row in ways.items():
+        middle = row[1] if len(row) == 3 else ((row[0][0] + row[1][0]) / 2, (row[0][1] + row[1][1]) / 2)
+        label = Label((0, 0), str(joint), 0.8 * SMALL, "grey", widest=8, data=(("joint", str(joint)),))
+        wishes.append((label, beside(middle, 4.5)))
+    return placed(wishes, Obstacles(discs, lines))
+
+
+def _stubs(
+    scd: SCDGraph, ways: Mapping[JointId, Sequence[Point]], links: Mapping[LinkId, Point], radius: float
+) -> list[Shape]:
+    """Return a short line for each open edge, between the joints that it lies between."""
+    found: list[Shape] = []
+    for link, sides in scd.rotation.items():
+        x, y = links[link]
+        for angle in _open_angles(sides, partial(_direction, ways, (x, y))):
+            ends = [
+                (x + far * cos(angle), y - far * sin(angle)) for far in (radius, radius + _STUB * radius / _LINK)
+            ]
+            found.append(Line(ends, "grey", STRONG, data=(("link", str(link)),)))
+    return found
+
+
+def _direction(ways: Mapping[JointId, Sequence[Point]], link: Point, joint: JointId) -> float:
+    """Return the angle, counter-clockwise as it is seen, at which a joint leaves a link."""
+    row = ways[joint]
+    far = row[1] if row[0] == link else row[-2]
+    return atan2(link[1] - far[1], far[0] - link[0])
+
+
+def _open_angles(sides: Sequence[JointId | None], angle_of: Callable[[JointId], float]) -> list[float]:
+    """Return the angles of the open edges, evenly between those of the joints before and after."""
+    size = len(sides)
+    known = [i for i, side in enumerate(sides) if side is not None]
+    if not known:
+        return [2 * pi * i / size for i in range(size)]
+    found = []
+    for place, i in enumerate(known):
+        after = known[(place + 1) % len(known)]
+        gap = (after - i) % size or size
+        start = angle_of(sides[i])
+        wide = (angle_of(sides[after]) - start) % (2 * pi) or 2 * pi
+        found += [start + wide * k / gap for k in range(1, gap)]
+    return found
+
+
+def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop]) -> list[str]:
+    """Return lines that say what is seen, and which loops are not."""
+    classes = sc.centre_classes()
+    said = f"{len(sc)} links, {len(sc.joints)} joints, {len(classes)} centre{'s' * (len(classes) != 1)}"
+    if sc.spatial_loops:
+        said += f", {sc.spatial_loops} spatial loop{'s' * (sc.spatial_loops != 1)}"
+    lines = [said + ("" if layout.plane else "; not planar: lines cross")]
+    numbers = class_numbers(sc)
+    every = [*sc.loops, *sc.closing]
+    for loop in loose[:_LOOSE_LOOPS]:
+        where = "at infinity" if loop.centre is Centre.INFINITE else "finite"
+        joints = " ".join(str(joint)[:12] for joint in loop.joints)
+        lines.append(f"not a face inside: centre {numbers[every.index(loop)] + 1} ({where}) of joints {joints}")
+    if len(loose) > _LOOSE_LOOPS:
+        lines.append(f"and {len(loose) - _LOOSE_LOOPS} more loops that are no faces")
+    return lines

@@ -1,0 +1,69 @@
+"""Scenes written to files, whole or not at all: SVG, PNG or PDF, by the extension."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from graphs.files.atomic import Beside
+from synth.drawing.figure import check_picture
+from synth.drawing.scene.shapes import Scene
+
+__all__ = ["save_scene", "scene_bytes"]
+
+
+def save_scene(scene: Scene, path: str | Path, *, paper: str = "light", force: bool = False) -> None:
+    """Write a scene; equal scenes give equal files.
+
+    Parameters
+    ----------
+    scene : Scene
+    path : str or Path
+        Ends in .svg, .png or .pdf.
+    paper : {"light", "dark"}, optional
+    force : bool, optional
+        Replace a file that is there.
+
+    Raises
+    ------
+    FileError
+        If the extension is another, or the file cannot be written, or is there already.
+    UnsolvableError
+        If what writes PNG (matplotlib) or PDF (reportlab) is not installed.
+
+    Examples
+    --------
+    >>> save_scene(Scene(9, 9, ()), "a.bmp")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
+    """
+    check_picture(path, force=force)
+    place = Path(path)
+    data = scene_bytes(scene, place.suffix.lower().lstrip("."), paper=paper)
+    beside = Beside(place, force=force)
+    try:
+        beside.write(data)
+        beside.commit()
+    finally:
+        beside.discard()
+
+
+def scene_bytes(scene: Scene, kind: str, *, paper: str = "light") -> bytes:
+    """Return a scene as a file: ``"svg"``, ``"png"`` or ``"pdf"``.
+
+    Examples
+    --------
+    >>> scene_bytes(Scene(9, 9, ()), "svg")[:4]
+    b'<svg'
+    """
+    if kind == "png":
+        from synth.drawing.scene.raster import png_bytes
+
+        return png_bytes(scene, paper=paper)
+    if kind == "pdf":
+        from synth.drawing.scene.pdf import pdf_bytes
+
+        return pdf_bytes(scene, paper=paper)
+    from synth.drawing.scene.svg import svg_text
+
+    return svg_text(scene, paper=paper).encode("utf-8")

@@ -1,0 +1,182 @@
+"""Pictures of every kind of mechanism: what is in them, and that nothing readable cannot be drawn."""
+
+import os
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from commands import run
+
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError
+from graphs.files.formats import read, read_all
+from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
+from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
+from synth.drawing.mechanisms.space import drawn_order
+from synth.drawing.scene.shapes import Disc, Line
+from synth.drawing.scene.svg import svg_text
+
+DATA = Path(__file__).resolve().parents[4] / "data"
+FILES = [*sorted(DATA.rglob("*.fold")), *sorted(DATA.rglob("*.json"))]
+
+
+def drawn(mechanism, *kinds, **look):
+    """A picture as an element, after it was found to be XML."""
+    return ElementTree.fromstring(svg_text(draw(mechanism, *kinds, **look)))
+
+
+def values(root, key):
+    return {element.get(key) for element in root.iter()} - {None}
+
+
+def mechanisms_of(files):
+    for file in files:
+        try:
+            yield from read_all(file)
+        except SynthedraError:
+            continue
+
+
+def test_every_tenth_file_is_drawn():
+    assert sum(drawn(entry.mechanism) is not None for entry in mechanisms_of(FILES[::10])) > 5
+
+
+@pytest.mark.slow
+def test_every_file_is_drawn():
+    """All that reads, but a sheet with an edge of four faces, which is no mechanism."""
+    more = Path(os.environ.get("SYNTHEDRA_FOLD", DATA / "none"))
+    refused = []
+    for entry in mechanisms_of([*FILES, *sorted(more.glob("*.*"))]):
+        try:
+            drawn(entry.mechanism)
+        except InvariantError as error:
+            refused.append(str(error))
+    assert all("belongs to 4 faces" in reason for reason in refused)
+
+
+def test_numbers_of_messages_are_found_in_a_crease_pattern():
+    sheet = read(DATA / "patterns" / "bird-base.fold")
+    from graphs.convert.duality import mechanism_of_sheet
+
+    sc = mechanism_of_sheet(sheet).sc
+    root = drawn(sheet)
+    assert values(root, "data-joint") == set(map(str, sc.joints))
+    assert values(root, "data-link") == set(map(str, sc.nodes))
+    texts = {element.text for element in root.iter() if element.tag.endswith("text")}
+    assert set(map(str, [*sc.joints, *sc.nodes])) <= texts
+
+
+def test_letters_differ_in_colour_and_dash():
+    """Mountains, valleys, what is unassigned, and borders, in this order; a reader without colours tells them apart."""
+    places = ((0, 0), (1, 0), (1, 1), (0, 1), (0.4, 0.5))
+    edges = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))
+    sheet = Sheet(5, edges, "BBBBMVUM", ((0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)), places)
+    scene = draw(sheet, numbers=False)
+    lines = {shape.data: shape for shape in scene.shapes() if isinstance(shape, Line)}
+    looks = [
+        (lines[("joint", str(joint)),].colour, bool(lines[("joint", str(joint)),].dash)) for joint in (4, 5, 6)
+    ]
+    assert [colour for colour, _ in looks] == ["mountain", "valley", "unassigned"]
+    assert [dashed for _, dashed in looks] == [False, True, True]
+    assert lines[("joint", "5"),].dash != lines[("joint", "6"),].dash
+
+
+def test_creases_by_centre_class_have_the_colours_of_their_ends():
+    sheet = read(DATA / "patterns" / "bird-base.fold")
+    scene = draw(sheet, colour="centres", graph=True)
+    creases = next(layer for layer in scene.layers if layer.name == "creases")
+    colours = {shape.colour for shape in creases.shapes if shape.data}
+    assert {f"class{i}" for i in range(5)} <= colours
+    assert any(layer.name == "graph" for layer in scene.layers)
+
+
+def test_panels_that_move_as_one():
+    """A vertex of three creases holds its panels together; a flap beside it moves."""
+    corners = ((0, 0), (2, 0), (-1, 2), (-1, -2), (3, 3))
+    sheet = Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 4, 2)), corners)
+    scene = draw(sheet, colour="verdict", numbers=False)
+    panels, creases = (
+        next(layer.shapes for layer in scene.layers if layer.name == name) for name in ("panels", "creases")
+    )
+    assert [panel.fill for panel in panels] == ["class0", "class0", "class0", "body"]
+    looks = {(shape.colour, bool(shape.dash)) for shape in creases if shape.data}
+    assert looks == {("grey", True), ("class1", False)}
+
+
+def test_signs_of_centres():
+    """A circled dot, a lying eight, nothing."""
+    joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    of = {centre: draw(SCGraph(4, joints, [Loop((0, 1, 2, 3), centre)])) for centre in Centre}
+    signs = {
+        centre: next(layer for layer in scene.layers if layer.name == "centres").shapes
+        for centre, scene in of.items()
+    }
+    assert [type(shape) for shape in signs[Centre.FINITE]] == [Disc, Disc]
+    assert [type(shape) for shape in signs[Centre.INFINITE]] == [Line, Line]
+    assert signs[Centre.NONE] == ()
+
+
+def test_open_edges_are_stubs():
+    scd = read(DATA / "wiener" / "fortune-teller.json")
+    joints = next(layer for layer in draw(scd).layers if layer.name == "joints").shapes
+    stubs = [shape for shape in joints if dict(shape.data).get("link") is not None]
+    assert len(stubs) == scd.counts.open_edges > 0
+
+
+def test_loops_that_are_no_faces_are_listed():
+    said = " ".join(label.text for label in draw(read(DATA / "wiener" / "concentric-loops.json")).labels())
+    assert "not a face inside: centre" in said
+
+
+def test_what_is_in_front_is_drawn_last():
+    """Three strips, each over the next: two that overlap are in order wherever that can be."""
+    places = np.array(
+        [[0, 0], [4, 0], [4, 1], [0, 1], [1, -1], [2, -1], [2, 3], [1, 3], [9, 9], [10, 9], [10, 10], [9, 10]]
+    )
+    near = np.array([1.0] * 4 + [2.0] * 4 + [-5.0] * 4)
+    faces = [(4, 5, 6, 7), (0, 1, 2, 3), (8, 9, 10, 11)]
+    order = drawn_order(places.astype(float), near, faces)
+    assert order.index(1) < order.index(0)
+
+
+def test_a_slanted_panel_in_front_though_its_middle_is_behind():
+    """Depth is compared where panels overlap, not at their middles."""
+    places = np.array([[0, 0], [10, 0], [10, 1], [0, 1], [0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    near = np.array([5, -20, -20, 5, 1, 1, 1, 1], dtype=float)
+    assert drawn_order(places, near, [(0, 1, 2, 3), (4, 5, 6, 7)]) == [1, 0]
+
+
+@pytest.mark.parametrize("kind", ["pattern", "folded"])
+def test_only_sheets_are_patterns(kind):
+    with pytest.raises(UnsolvableError, match="only a crease pattern"):
+        draw(read("k1:Cr"), kind)
+
+
+def test_kinds_and_colourings_that_are_none():
+    with pytest.raises(InvariantError, match="kind 'x' is not known; expected pattern, folded"):
+        draw(read("k1:Cr"), "x")
+    with pytest.raises(InvariantError, match="colouring 'x' is not known; expected letters"):
+        draw(read(DATA / "patterns" / "bird-base.fold"), colour="x")
+
+
+def test_the_command_knows_all_kinds(tmp_path):
+    from synth.cli.things import draw as command
+
+    assert tuple(KINDS) == command._KINDS
+    assert COLOURINGS == command._COLOURS
+
+
+@pytest.mark.parametrize("kind", ["svg", "png", "pdf"])
+def test_the_command_writes_equal_files(tmp_path, kind):
+    pytest.importorskip({"svg": "xml", "png": "matplotlib", "pdf": "reportlab"}[kind])
+    for name in "ab":
+        run("draw", "k1:Cr", "-o", tmp_path / f"{name}.{kind}", "--paper", "dark")
+    assert (tmp_path / f"a.{kind}").read_bytes() == (tmp_path / f"b.{kind}").read_bytes()
+    result = run("draw", "k1:Cr", "-o", tmp_path / f"a.{kind}", code=2)
+    assert "exists already" in result.stderr
+
+
+def test_a_notebook_shows_a_picture():
+    assert draw(read("k1:Cr"))._repr_svg_().startswith("<svg")
