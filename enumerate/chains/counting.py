@@ -50,7 +50,12 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
     """
     total = 0
     for c in range(len(codes)):
-        total += count_of_graph(codes[c], n, links, most, EVERY, no_prefix())
+        adjacency = decode(codes[c], n)
+        _, automorphisms = canonical_labels(adjacency, n)
+        ends, first = slots(adjacency, n)
+        sets, needs = rigid_sets(adjacency, n)
+        moved = permutations(ends, first, automorphisms)
+        total += count_orbits(ends, first, moved, sets, needs, links - n, most)
     return total
 
 
