@@ -1,9 +1,10 @@
 """Counting chains without listing them, by orbits and by Burnside's lemma, compiled.
 
 Both walk the contracted graphs. *Orbits*: of the placements on a graph, those are counted that no automorphism
-makes larger. *Burnside*: the number of orbits is the mean, over the automorphisms, of the number of placements
-that an automorphism leaves as they are; these are the placements on the cycles of joints, so no placement is ever
-compared with another. Theory: docs/theory/chains.md.
+makes larger (`enumerate.contracted.orbits`). *Burnside*: the number of orbits is the mean, over the automorphisms,
+of the number of placements that an automorphism leaves as they are; these are the placements on the cycles of
+joints, so no placement is ever compared with another (`enumerate.contracted.left_in_place`). Theory:
+docs/theory/chains.md.
 """
 
 from __future__ import annotations
@@ -21,10 +22,13 @@ from enumerate.contracted.binary_links import (
     rigid_sets,
     slots,
 )
+from enumerate.contracted.classes import order_of_classes
 from enumerate.contracted.graphs import decode
+from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycles_of
+from enumerate.contracted.orbits import count_orbits
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
-from graphs.arrays import Bytes, Ints, Words
+from graphs.arrays import Bytes, Ints
 
 __all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
 
@@ -46,7 +50,12 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
     """
     total = 0
     for c in range(len(codes)):
-        total += count_of_graph(codes[c], n, links, most, EVERY, no_prefix())
+        adjacency = decode(codes[c], n)
+        _, automorphisms = canonical_labels(adjacency, n)
+        ends, first = slots(adjacency, n)
+        sets, needs = rigid_sets(adjacency, n)
+        moved = permutations(ends, first, automorphisms)
+        total += count_orbits(ends, first, moved, sets, needs, links - n, most)
     return total
 
 
@@ -88,6 +97,8 @@ def count_in(
     wanted : Wanted
     """
     total, links = 0, wanted.links
+    if wanted.only == EVERY and len(prefix) == 0:
+        return count_orbits(ends, first, moved, sets, needs, links - n, wanted.most)
     nothing, nowhere = np.zeros((0, len(ends)), np.uint8), no_prefix()
     cost = np.ones(len(ends), np.int64)
     for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
@@ -103,40 +114,20 @@ def count_fixed(
     moved: Bytes, ends: Bytes, first: Ints, sets: Ints, needs: Ints, n: int, links: int, most: int
 ) -> int:
     """Return the number of placements that a permutation of the joints leaves as they are."""
-    total = 0
-    for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
-        room, weight = conditions(ends, sets, needs, bound)
-        cost, start, share, _ = _cycles(moved, first, weight)
-        same = np.arange(len(cost)).astype(np.uint8).reshape(1, -1)
-        nothing, nowhere = np.zeros((0, len(cost)), np.uint8), no_prefix()
-        units = Units(bound, links - n - bound, most)
-        total += place(room, share, cost, start, units, same, no_prefix(), nothing, nowhere)
-    return total
+    order = order_of_classes(ends, first, moved.reshape(1, -1), sets)
+    cycles = cycles_of(moved, np.arange(n).astype(np.uint8), ends, first, order, sets)
+    return _in_place(cycles, needs, links - n, most)[0]
 
 
 @compiled
-def _cycles(moved: Bytes, first: Ints, weight: Words) -> tuple[Ints, Ints, Words, Ints]:
-    """Return the cycles of a permutation of joints as slots: cost, first of the group, weight, a joint of each."""
-    m, words = weight.shape
-    cost = np.zeros(m, np.int64)
-    start = np.zeros(m, np.int64)
-    total = np.zeros((m, words), np.uint64)
-    joint = np.zeros(m, np.int64)
-    slot = np.full(m, -1, np.int64)
-    k = 0
-    for e in range(m):
-        if slot[e] >= 0:
-            continue
-        joint[k] = e
-        start[k] = k if first[e] == e else slot[first[e]]
-        f = e
-        while slot[f] < 0:
-            slot[f] = k
-            cost[k] += 1
-            total[k] += weight[f]
-            f = moved[f]
-        k += 1
-    return cost[:k], start[:k], total[:k], joint[:k]
+def _in_place(cycles: Cycles, needs: Ints, units: int, most: int) -> tuple[int, int]:
+    """Return the number of placements of so many binary links on cycles of joints, and of links that stay."""
+    total = still = 0
+    for bound in range(max(needs[-1], 0), min(units, 2 * cycles.cost.sum()) + 1):
+        placements, links = count_left_in_place(cycles, needs, bound, units - bound, most)
+        total += placements
+        still += links
+    return total, still
 
 
 @compiled
@@ -157,44 +148,15 @@ def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: b
         ends, first = slots(adjacency, n)
         sets, needs = rigid_sets(adjacency, n)
         moved = permutations(ends, first, automorphisms)
-        fixed, simple = 0, True
-        for e in range(len(ends)):
-            simple &= first[e] == e
-        for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
-            room, weight = conditions(ends, sets, needs, bound)
-            units = Units(bound, links - n - bound, most)
-            for a in range(len(moved)):
-                cost, start, share, joint = _cycles(moved[a], first, weight)
-                nothing, nowhere = np.zeros((0, len(cost)), np.uint8), no_prefix()
-                count = place(room, share, cost, start, units, moved[:1], no_prefix(), nothing, nowhere)
-                if not inversions:
-                    fixed += count
-                elif a == 0 and simple:
-                    fixed += count * links
-                elif count:
-                    x, swaps = np.zeros((count, len(cost)), np.uint8), np.zeros(count, np.int64)
-                    place(room, share, cost, start, units, moved[:1], no_prefix(), x, swaps)
-                    for i in range(count):
-                        fixed += _fixed_links(x[i], joint, start, ends, first, moved[a], automorphisms[a])
+        order = order_of_classes(ends, first, moved[:1], sets)
+        fixed = 0
+        for a in range(len(moved)):
+            cycles = cycles_of(moved[a], automorphisms[a], ends, first, order, sets)
+            placements, still = _in_place(cycles, needs, links - n, most)
+            fixed += placements
+            if inversions:
+                fixed += still - placements
+                for v in range(n):
+                    fixed += placements * (automorphisms[a, v] == v)
         total += fixed // len(moved)
     return total
-
-
-@compiled
-def _fixed_links(
-    x: Bytes, joint: Ints, start: Ints, ends: Bytes, first: Ints, moved: Bytes, automorphism: Bytes
-) -> int:
-    """Return how many links an automorphism leaves in place, in the mean over the orders of parallel strings.
-
-    Of equal parallel strings that are permuted among themselves, one stays in the mean; of a string that is turned
-    round, the link in the middle.
-    """
-    fixed = 0
-    for v in range(len(automorphism)):
-        fixed += automorphism[v] == v
-    for k in range(len(joint)):
-        e = joint[k]
-        if moved[first[e]] != first[e] or (start[k] != k and x[k] == x[k - 1]):
-            continue
-        fixed += x[k] if automorphism[ends[e, 0]] == ends[e, 0] else x[k] % 2
-    return fixed

@@ -203,9 +203,14 @@ class CountJob(Counting):
     method: str = "orbits"
 
     @property
+    def columns(self) -> dict[str, type]:
+        """A number, and the number of links of the contracted graphs that it belongs to."""
+        return {"count": int, "contracted_links": int}
+
+    @property
     def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "chains", "method": self.method, **self.query.key}
+        """What the job is, in JSON values, and how large its units are."""
+        return {"count": "chains", "method": self.method, "graphs_of_a_unit": _GRAPHS, **self.query.key}
 
     def units(self) -> Sequence[Unit]:
         """Units of some hundreds of contracted graphs each."""
@@ -219,7 +224,7 @@ class CountJob(Counting):
         """Return the number of chains of a unit."""
         query, low = self.query, self.query.longest_string.least
         total = self._number(payload, query.most)
-        return [(total - self._number(payload, low - 1) if low > 0 else total,)]
+        return [(total - self._number(payload, low - 1) if low > 0 else total, payload.n)]
 
     def _number(self, payload: _Graphs, most: int) -> int:
         if self.method == "burnside":

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from enumerate.runner.running import rows_of as rows_of
     from enumerate.runner.running import run as run
     from enumerate.runner.running import total_of as total_of
-    from enumerate.runner.sinks import CountSink as CountSink
     from enumerate.runner.sinks import RowSink as RowSink
     from enumerate.runner.sinks import SortedSink as SortedSink
     from enumerate.runner.sinks import sink_for as sink_for
     from enumerate.runner.store import SqliteSink as SqliteSink
     from enumerate.runner.store import read_meta as read_meta
     from enumerate.runner.store import read_rows as read_rows
+    from enumerate.runner.totals import CountSink as CountSink
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -32,7 +32,8 @@ else:
             "job": "Counting Job Progress Row Sink Unit",
             "limits": "Limits",
             "running": "Interrupted rows_of run total_of",
-            "sinks": "CountSink RowSink SortedSink sink_for",
+            "sinks": "RowSink SortedSink sink_for",
             "store": "SqliteSink read_meta read_rows",
+            "totals": "CountSink",
         },
     )

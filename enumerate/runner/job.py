@@ -52,11 +52,11 @@ class Job(Protocol):
 
 
 class Counting:
-    """What jobs that count have in common: their rows are numbers to be added."""
+    """What jobs that count have in common: the first value of each row is a number to be added."""
 
     @property
     def columns(self) -> dict[str, type]:
-        """One number."""
+        """The number; a job may have more columns, which say what it is a part of."""
         return {"count": int}
 
 

@@ -23,7 +23,7 @@ from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["SINKS", "CountSink", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
+__all__ = ["SINKS", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
 
 
 class _MemorySink:
@@ -55,17 +55,6 @@ class RowSink(_MemorySink):
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Call the function."""
         self._function(self._columns, rows)
-
-
-class CountSink(_MemorySink):
-    """A sink that adds up the first value of every row."""
-
-    def __init__(self) -> None:
-        self.total = 0
-
-    def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Add."""
-        self.total += sum(row[0] for row in rows)
 
 
 class _Sorted:

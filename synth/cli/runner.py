@@ -58,12 +58,18 @@ class RunOptions:
         quiet: bool,
         as_json: bool,
         force: bool = False,
+        *,
+        counting: bool = False,
     ) -> None:
         if resume and force:
             raise click.UsageError("--resume goes on with a store, --force begins anew: give one of them")
         if resume and output is None:
             raise click.UsageError("--resume needs the store to go on with: -o FILE.sqlite")
-        if output is not None and as_json:
+        if output is not None and counting and not output.lower().endswith(".sqlite"):
+            raise click.UsageError(
+                "--count keeps what it has counted in a store: name a .sqlite file, or leave out -o"
+            )
+        if output is not None and as_json and not counting:
             raise click.UsageError("give -o or --json, not both")
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
         self.force = force
@@ -71,10 +77,10 @@ class RunOptions:
         self.scheduler = scheduler
 
     @classmethod
-    def taken_from(cls, options: dict[str, Any]) -> RunOptions:
-        """Take the runner's own out of the options of a subcommand."""
+    def taken_from(cls, options: dict[str, Any], *, counting: bool = False) -> RunOptions:
+        """Take the runner's own out of the options of a subcommand, which only counts or also lists."""
         names = ("output", "workers", "scheduler", "resume", "quiet", "as_json", "force")
-        return cls(*(options.pop(name) for name in names))
+        return cls(*(options.pop(name) for name in names), counting=counting)
 
 
 def cores() -> int:
@@ -97,7 +103,7 @@ def runner_options(function: F) -> F:
             "-o",
             "--output",
             metavar="FILE",
-            help="Write .jsonl, .sqlite, .parquet, a folder of mechanisms, or .g6 (chains only).",
+            help="Write .jsonl, .sqlite, .parquet, a folder of mechanisms, .g6 (chains only); --count: .sqlite.",
         ),
     ):
         function = option(function)
@@ -105,15 +111,21 @@ def runner_options(function: F) -> F:
 
 
 def run_count(job: Job, options: RunOptions) -> None:
-    """Run a job that counts, and print the number."""
-    from enumerate.runner.sinks import CountSink
+    """Run a job that counts, and print the number; what is counted is kept where the options say."""
+    from enumerate.runner.store import SqliteSink
+    from enumerate.runner.totals import CountSink
 
+    meter = _Meter.of(options, counting=True)
+    store = None
     if options.output is not None:
-        raise click.UsageError("--count stores nothing; leave out -o, or --count")
-    sink = CountSink()
-    _run(job, sink, options, _Meter.of(options))
+        store = SqliteSink(
+            options.output, resume=options.resume, force=options.force, tell=meter.tell, looking=meter.look
+        )
+    sink = CountSink(store)
+    _run(job, sink, options, meter)
     if options.as_json:
-        print_json({"count": sink.total})
+        parts = sink.listed()
+        print_json({"count": sink.total, **({"parts": parts} if parts else {})})
     else:
         click.echo(sink.total)
 
@@ -166,14 +178,15 @@ def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter) -> Progress:
 class _Meter:
     """Progress on a terminal, about once a second, on one line."""
 
-    def __init__(self, silent: bool) -> None:
+    def __init__(self, silent: bool, *, counting: bool = False) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
+        self._counting = counting
         self._looked: tuple[float, float] | None = None  # when it began to look through a store, and the part then
 
     @classmethod
-    def of(cls, options: RunOptions) -> _Meter:
+    def of(cls, options: RunOptions, *, counting: bool = False) -> _Meter:
         """Return one that shows nothing where nobody would see it, or wants to."""
-        return cls(options.quiet or not sys.stderr.isatty())
+        return cls(options.quiet or not sys.stderr.isatty(), counting=counting)
 
     def look(self, part: float) -> None:
         """Show how much of a store has been looked through, and how long the rest takes."""
@@ -193,8 +206,10 @@ class _Meter:
         if not self._is_time():
             return
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
-        left = _time(progress.seconds_left)
-        self._write(f"{part:4.0%}  {progress.rows:,} rows, {progress.rate:,.0f} a second, {left} left")
+        done = f"{progress.rows:,} rows, {progress.rate:,.0f} a second"
+        if self._counting:
+            done = f"{progress.done:,} of {progress.units:,} units counted"
+        self._write(f"{part:4.0%}  {done}, {_time(progress.seconds_left)} left")
 
     def _is_time(self) -> bool:
         if self._silent or monotonic() < self._next:

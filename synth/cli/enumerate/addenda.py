@@ -36,7 +36,7 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
       synth enumerate addenda --of data/wiener/watt.json
       synth enumerate addenda --of data/wiener/watt.json --delta-dof 1 -o addenda
     """
-    options = RunOptions.taken_from(rest)
+    options = RunOptions.taken_from(rest, counting=only_count)
     from enumerate.addenda import AddendumCountJob, AddendumJob
     from graphs.convert.table import graph_of
     from graphs.files.formats import read

@@ -62,8 +62,9 @@ def chains(
       synth enumerate chains --links 10 --dof 1 --planar --symmetry 2.. -o symmetric.jsonl
       synth enumerate chains --links 16 --dof 1 -o chains.sqlite
       synth enumerate chains --links 16 --dof 1 -o chains.sqlite --resume
+      synth enumerate chains --links 18 --dof 1 --count -o counted.sqlite --resume
     """
-    options = RunOptions.taken_from(rest)
+    options = RunOptions.taken_from(rest, counting=only_count)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
     from enumerate.chains.jobs import ChainJob, count_job

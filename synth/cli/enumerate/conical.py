@@ -91,7 +91,7 @@ def conical(
     """
     from graphs.files.atomic import check_new_folder
 
-    options = RunOptions.taken_from(rest)
+    options = RunOptions.taken_from(rest, counting=only_count)
     _check_usage(options, only_count, method, sort, pictures)
     if pictures is not None:
         check_new_folder(Path(pictures))

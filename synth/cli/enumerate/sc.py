@@ -59,7 +59,7 @@ def sc(
       synth enumerate sc --links 9 --dof 1 --spatial 1 -o hybrids
       synth enumerate sc --links 12 --dof 1 -o sc.sqlite
     """
-    options = RunOptions.taken_from(rest)
+    options = RunOptions.taken_from(rest, counting=only_count)
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings say how --count counts; add --count")
     from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE

@@ -58,7 +58,7 @@ def scd(
       synth enumerate scd --of data/wiener/watt.json --max-degree 4 --all-explicit
       synth enumerate scd --links 10 --dof 1 --max-degree 4 -o scd.sqlite
     """
-    options = RunOptions.taken_from(rest)
+    options = RunOptions.taken_from(rest, counting=only_count)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
     from enumerate.runner.limits import ANY_NUMBER

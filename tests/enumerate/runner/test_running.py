@@ -13,8 +13,9 @@ from toy_job import Squares
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import Interrupted, run
-from enumerate.runner.sinks import CountSink, RowSink, SortedSink
+from enumerate.runner.sinks import RowSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
+from enumerate.runner.totals import CountSink
 from graphs.errors import StoreError
 
 

@@ -4,7 +4,8 @@ from scd_oracle import code, scd_codes
 
 from enumerate.runner.columns import row_as_dict
 from enumerate.runner.running import run
-from enumerate.runner.sinks import CountSink, RowSink
+from enumerate.runner.sinks import RowSink
+from enumerate.runner.totals import CountSink
 from enumerate.sc.graphs import sc_rows
 from enumerate.scd.choices import number_of_placements
 from enumerate.scd.graphs import (

@@ -55,7 +55,12 @@ def test_enumerate_chains(tmp_path):
     assert rows[0].keys() == {"code", "links", "joints", "dof", "loops", "assortment", "longest_string", "symmetry",
                               "inversions", "planar", "fractionated"}  # fmt: skip
     assert run(*base, "--count").stdout == run(*base, "--count", "--method", "burnside").stdout == "16\n"
-    assert json.loads(run(*base, "--count", "--json").stdout) == {"count": 16}
+    parts = [
+        {"contracted_links": 4, "count": 9},
+        {"contracted_links": 3, "count": 5},
+        {"contracted_links": 2, "count": 2},
+    ]
+    assert json.loads(run(*base, "--count", "--json").stdout) == {"count": 16, "parts": parts}
     assert run(*base, "--count", "--inversions").stdout == "71\n"
     assert run(*base, "--count", "--assortment", "4,4").stdout == "9\n"
     filters = ("--symmetry", "4..", "--longest-string", "..2", "--planar")
@@ -109,7 +114,7 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         ("--links 8 --dof 1 --method orbits", "add --count"),
         ("--links 8 --dof 1 --resume", "--resume needs the store to go on with"),
         ("--links 8 --dof 1 --json -o x.g6", "give -o or --json, not both"),
-        ("--links 8 --dof 1 --count -o x.g6", "--count stores nothing"),
+        ("--links 8 --dof 1 --count -o x.g6", "--count keeps what it has counted in a store: name a .sqlite file"),
         ("--links 8 --dof 1 -o chains.xyz", "expected one of .g6 .jsonl .parquet .sqlite, or a folder"),
         ("--links 8 --dof 1 -o no/such/chains.g6", "cannot be written: No such file or directory"),
         ("--links 8 --dof 1 -o /proc/chains.g6", "cannot be written"),

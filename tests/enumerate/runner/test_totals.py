@@ -1,0 +1,139 @@
+"""Counts that are kept while they grow: runs that are stopped or killed, and go on."""
+
+import json
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+from commands import run as command_line
+from runs import contents, enumerating, kill, units_in, wait_for
+
+from enumerate.chains.jobs import count_job
+from enumerate.chains.query import ChainQuery
+from enumerate.runner.running import Interrupted, run
+from enumerate.runner.store import SqliteSink, read_meta, read_rows
+from enumerate.runner.totals import CountSink
+from graphs.errors import StoreError
+
+TWELVE = ("enumerate", "chains", "--links", 12, "--dof", 1, "--count")
+PARTS = {8: 410, 7: 1873, 6: 2845, 5: 1413, 4: 293, 3: 20, 2: 2}
+
+_KILLED = """
+import os, signal, sys
+from enumerate.chains.jobs import count_job
+from enumerate.chains.query import ChainQuery
+from enumerate.runner.running import run
+from enumerate.runner.store import SqliteSink
+from enumerate.runner.totals import CountSink
+
+def report(progress):
+    if progress.done == int(sys.argv[2]):
+        os.kill(os.getpid(), signal.SIGKILL)
+
+run(count_job(ChainQuery(12, 1), "burnside"), CountSink(SqliteSink(sys.argv[1], resume=True)), report=report)
+"""
+"""A process that counts, and is killed when the store has so many units."""
+
+
+def test_a_count_that_is_killed_goes_on(tmp_path):
+    job, store = count_job(ChainQuery(12, 1), "burnside"), tmp_path / "counts.sqlite"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    script = [sys.executable, "-c", _KILLED, str(store), "4"]
+    assert subprocess.run(script, env=environment, check=False).returncode == -signal.SIGKILL
+    assert units_in(store) == 4 < len(job.units())
+    assert read_meta(store)["complete"] is False
+    told = []
+    sink = CountSink(SqliteSink(store, resume=True))
+    run(job, sink, report=lambda progress: told.append(progress.done))
+    assert told == list(range(5, len(job.units()) + 1))  # no unit again
+    assert sink.total == 6856
+    assert {part["contracted_links"]: part["count"] for part in sink.listed()} == PARTS
+    assert len(list(read_rows(store))) == len(job.units())
+
+
+def test_the_command_goes_on_and_prints_the_number(tmp_path):
+    store, whole = tmp_path / "counts.sqlite", tmp_path / "whole.sqlite"
+    assert command_line(*TWELVE, "-o", whole).stdout == "6856\n"
+
+    def press(progress):
+        if progress.done == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(Interrupted):
+        run(count_job(ChainQuery(12, 1), "orbits"), CountSink(SqliteSink(store)), report=press)
+    assert units_in(store) == 3
+    document = json.loads(command_line(*TWELVE, "--json", "-o", store, "--resume").stdout)
+    assert document["count"] == 6856
+    assert {part["contracted_links"]: part["count"] for part in document["parts"]} == PARTS
+    assert contents(store) == contents(whole)
+    assert command_line(*TWELVE, "-o", store, "--resume").stdout == "6856\n"  # complete: read, not counted
+    assert "exists already" in command_line(*TWELVE, "-o", store, code=2).stderr
+
+
+@pytest.mark.parametrize("other", [("--method", "burnside"), ("--inversions",)])
+def test_a_store_of_another_count_is_refused(tmp_path, other):
+    store = tmp_path / "counts.sqlite"
+    run(count_job(ChainQuery(8, 1), "orbits"), CountSink(SqliteSink(store)))
+    words = ("enumerate", "chains", "--links", 8, "--dof", 1, "--count", *other, "-o", store, "--resume")
+    assert "holds another run" in command_line(*words, code=2).stderr
+    assert sum(count for count, _ in read_rows(store)) == 16
+
+
+def test_a_number_that_was_altered_is_counted_again(tmp_path):
+    store = tmp_path / "counts.sqlite"
+    job = count_job(ChainQuery(10, 1), "orbits")
+    run(job, CountSink(SqliteSink(store)))
+    with closing(sqlite3.connect(store)) as connection, connection:
+        connection.execute("UPDATE type SET count = count + 1 WHERE rowid = 2")
+    with pytest.raises(StoreError, match="is damaged at unit 1"):
+        list(read_rows(store))
+    told = []
+    sink = CountSink(SqliteSink(store, resume=True, tell=told.append))
+    run(job, sink)
+    assert sink.total == 230
+    assert [line.partition("was damaged")[1] for line in told] == ["was damaged"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("sc", "--links", 8, "--dof", 1),
+        ("scd", "--links", 6, "--dof", 1, "--max-degree", 4),
+        ("conical", "--chain", "watt", "--ground", "0", "--slots", 8),
+    ],
+    ids=lambda words: words[0],
+)
+def test_every_count_can_be_kept(tmp_path, words):
+    store = tmp_path / "counts.sqlite"
+    printed = command_line("enumerate", *words, "--count").stdout
+    assert int(printed) > 0
+    for _ in range(2):
+        assert command_line("enumerate", *words, "--count", "-o", store, "--resume").stdout == printed
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for worker processes in /proc")
+@pytest.mark.parametrize("method", ["orbits", "burnside"])
+@pytest.mark.parametrize(("links", "longest", "number"), [(16, 0.2, 19_819_281), (18, 5.0, 1_535_380_884)])
+def test_a_count_that_is_killed_ten_times_is_the_same(tmp_path, links, longest, number, method):
+    store = tmp_path / "counts.sqlite"
+    words = enumerating("chains", "--links", links, "--dof", 1, "--count", "--method", method, "--workers", 2)
+    words += ["-o", str(store), "--resume"]
+    dice = random.Random(links)
+    for _ in range(10):
+        before = units_in(store)
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL)
+        wait_for(lambda held=before, going=process: units_in(store) > held or going.poll() is not None)
+        kill(process, dice, longest)
+    assert not read_meta(store)["complete"]
+    done = subprocess.run(words, stdout=subprocess.PIPE, text=True, check=True)
+    assert done.stdout == f"{number}\n"
+    numbers = [unit for (unit, *_) in contents(store)[0]]
+    assert numbers == list(range(len(numbers)))
+    assert read_meta(store)["complete"] is True
