@@ -1,5 +1,4 @@
-"""Pictures: crease patterns, chains, SC graphs, models; loop sums, linkages on cones, orientations on the
-sphere, panels in space.
+"""Pictures: crease patterns, chains, graphs, models; loop sums, linkages on cones, orientations; folded panels.
 
 Scenes are in `synth.drawing.scene`, places of links and joints in `synth.drawing.layout`, pictures of mechanisms
 in `synth.drawing.mechanisms`.

@@ -2,7 +2,8 @@
 
 `linkage_of` makes the linkage at a pose of anything that has coordinates, `move` drives its joints,
 `circuit_through` goes round past dead points, `move_on_cone` says what conical linkages do all along,
-`write_folding` writes the frames of a crease pattern. What it stands on is in `synth.folding`. Theory: docs/theory/moving.md.
+`write_folding` writes the frames of a crease pattern. What it stands on is in `synth.folding`.
+Theory: docs/theory/moving.md.
 """
 
 from __future__ import annotations
