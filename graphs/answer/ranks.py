@@ -93,7 +93,7 @@ def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph, exact: int) -> s
         place = f"among joints {joints}" + (f" (and {len(regions) - 1} more places)" if len(regions) > 1 else "")
         text += f": {diagnosis.idle} closure equation(s) idle, {place}"
     if diagnosis.immobile:
-        text += f"; {len(diagnosis.immobile)} joint(s) of a general member cannot move"
+        text += f"; {len(diagnosis.immobile)} joint(s) stiff in general"
     return text
 
 

@@ -11,22 +11,31 @@ import scipy.linalg
 from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from synth.folding.branches import Branch, Branches
+from synth.folding.branches import Branch, Branches, Search
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, rates_near
 from synth.folding.singular.quadrics import quadrics_of
 from synth.folding.singular.sampling import rates_towards, same_part
 
-__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "MOST_SECONDS", "Wanted", "beginning"]
+__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "search_for"]
 
 MOST_JOINTS = 600
 """Of larger linkages the branches are not looked for: matrices are dense."""
 
-MOST_BRANCHES, MOST_SECONDS = 128, 20.0
+MOST_BRANCHES, MOST_SECONDS = 128, 120.0
 """So many are looked for at most, and for so long: there may be twice as many for each row of panels more."""
 
+_FOLLOWED = 2500
+"""Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
+how fast a machine is."""
+
 _STILL = 1e-9
+
+
+def search_for(joints: int, towards: Floats | None) -> Search:
+    """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
+    return Search(MOST_BRANCHES, MOST_SECONDS, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +135,7 @@ def _agreement(branch: Branch, marks: Floats) -> int:
 def _towards(branch: Branch, marks: Floats) -> Floats:
     """Return rates near to what is marked, on the part of the space that the branch is."""
     rates = rates_towards(branch.space, marks)
-    if same_part(branch.space, rates, branch.rates):
+    if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates
     return -branch.rates if branch.rates @ marks < 0.0 else branch.rates
 

@@ -48,6 +48,8 @@ class Search:
         After so long it ends too, and what was found by then is told.
     zero : float
         Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    follow : int, optional
+        So many branches are followed; of others it is told that they may begin.
     towards : float[J], optional
         Signs of rates: if the search ends before it is through, the branch near to these comes first.
     """
@@ -55,6 +57,7 @@ class Search:
     most: int = 4096
     seconds: float = inf
     zero: float = ZERO
+    follow: int | None = None
     towards: Floats | None = None
 
 
@@ -236,11 +239,13 @@ class _Looking:
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; the first is followed in any case."""
-        for number, space in enumerate(spaces):
+        begun = 0
+        for space in spaces:
             parts, whole = general_rates(space, self.search.most, self.search.towards, self._late)
             self.complete = self.complete and whole
-            for part, rates in enumerate(parts):
-                late = number + part > 0 and self._late()
+            for rates in parts:
+                late = begun > 0 and (self._late() or begun == self.search.follow)
+                begun += not late
                 self.complete = self.complete and not late
                 yield self._branch(space, rates, proved, late)
 

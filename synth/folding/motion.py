@@ -20,13 +20,13 @@ from graphs.ids import JointId
 from graphs.mechanism.precision import Precision, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
-from synth.folding.beginning import MOST_SECONDS, Wanted, beginning
+from synth.folding.beginning import Wanted, beginning
 from synth.folding.branches import Branch, Branches
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.collisions import Panels, Poses, first_collision
 from synth.folding.following.event import PathEvent
 from synth.folding.linkage import PosedLinkage
-from synth.folding.mending.mended import EXACT, Mended
+from synth.folding.mending.repair import EXACT, Mended
 from synth.folding.newton import corrected
 from synth.folding.path import DrivenPath, PathOptions, driven_path
 from synth.folding.placement import vertex_places
@@ -223,7 +223,7 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
-    pattern = prepared(sheet, seconds=MOST_SECONDS)
+    pattern = prepared(sheet)
     sheet, mechanism, linkage = pattern.sheet, pattern.mechanism, pattern.linkage
     closure, found = pattern.closure, pattern.branches
     joints = tuple(linkage.graph.joints)

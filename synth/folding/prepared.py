@@ -14,20 +14,18 @@ from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS
-from synth.folding.branches import Branches, Search, branches_of
+from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, search_for
+from synth.folding.branches import Branches, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
-from synth.folding.mending.mended import EXACT, Mended, flattened, mended, nearly
 from synth.folding.mending.places import VertexPlaces
+from synth.folding.mending.repair import EXACT, Mended, flattened, mended, nearly
 from synth.folding.newton import CLOSED
 from synth.folding.opened import opened
 from synth.folding.second_order import rate_spaces, rates_near
 from synth.folding.singular.quadrics import quadrics_of
 
 __all__ = ["Prepared", "prepared"]
-
-_SECONDS = 6.0
 
 _ALL_WAYS = 120
 """Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
@@ -74,7 +72,7 @@ def marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
     return np.where(np.abs(linkage.angles) > _FOLDED, np.sign(linkage.angles), 0.0)
 
 
-def prepared(sheet: Sheet, *, hinge_flat: bool = False, seconds: float = _SECONDS) -> Prepared:
+def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
     """Make a crease pattern ready to move.
 
     Parameters
@@ -83,8 +81,6 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False, seconds: float = _SECOND
         With coordinates.
     hinge_flat : bool, optional
         Make hinges of flat (F) edges too.
-    seconds : float, optional
-        So long the branches are looked for.
 
     Raises
     ------
@@ -122,7 +118,7 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False, seconds: float = _SECOND
     branches = None
     if len(linkage.graph.joints) <= MOST_JOINTS:
         marks = marks_of(apart, linkage)
-        search = Search(MOST_BRANCHES, seconds, towards=marks if marks.any() else None)
+        search = search_for(len(marks), marks if marks.any() else np.ones(len(marks)))
         branches = branches_of(linkage, closure, search)
     return Prepared(apart, mechanism, linkage, closure, branches, tuple(repairs))
 

@@ -19,8 +19,8 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.printing import Block, html_of, text_of
 from synth.conformed.linkages import OnCone
-from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, MOST_SECONDS, Wanted, beginning
-from synth.folding.branches import Branch, Branches, Search, branches_of
+from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
+from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.newton import CLOSED
@@ -177,8 +177,7 @@ def move(
         raise UnsolvableError("nothing moves: there are no joints")
     _check_closed(closure, linkage)
     places, goals = _asked(joints, drive or {})
-    search = Search(MOST_BRANCHES, MOST_SECONDS)
-    found = branches_of(linkage, closure, search) if len(joints) <= MOST_JOINTS else None
+    found = branches_of(linkage, closure, search_for(len(joints), None)) if len(joints) <= MOST_JOINTS else None
     turns = goals - linkage.angles[places]
     marks = np.ones(len(joints))
     number, rates = beginning(closure, linkage, found, Wanted(branch, marks, places, turns, ""))

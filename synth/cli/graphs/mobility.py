@@ -15,7 +15,7 @@ from synth.cli.output import about, console, entries, plain, print_json, table
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from synth.folding.verdict.mobility import JudgedMobility
+    from synth.folding.verdict.judged import JudgedMobility
 
 __all__ = ["mobility"]
 
@@ -40,6 +40,7 @@ _LONGEST_PATH = 4096
 @click.option("--no-pose", is_flag=True, help="Leave out the freedoms at the coordinates.")
 @click.option(
     "--motion/--no-motion",
+    "look_for_motion",
     default=None,
     help="Look for finite motions from the coordinates (by default, of what is not too large).",
 )
@@ -51,7 +52,7 @@ def mobility(
     pose: int | None,
     no_pose: bool,
     no_geometry: bool,
-    motion: bool | None,
+    look_for_motion: bool | None,
 ) -> None:
     """Say how a mechanism moves, with how many degrees of freedom, and how that is known.
 
@@ -70,7 +71,7 @@ def mobility(
       synth mobility data/patterns/bird-base.fold
     """
     from graphs.errors import FileError
-    from synth.folding.verdict.mobility import mobility as asked
+    from synth.folding.verdict.judged import mobility as asked
 
     if no_pose and pose is not None:
         raise click.UsageError("--pose names a pose that --no-pose leaves out")
@@ -87,7 +88,7 @@ def mobility(
                         hinge_flat=hinge_flat,
                         pose=lies,
                         geometry=not no_geometry,
-                        motion=motion,
+                        motion=look_for_motion,
                     )
                     answers.append((entry.label, answer))
             except FileError as error:

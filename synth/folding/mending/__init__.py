@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
-    from synth.folding.mending.mended import Mended as Mended
-    from synth.folding.mending.mended import flattened as flattened
-    from synth.folding.mending.mended import mended as mended
+    from synth.folding.mending.repair import Mended as Mended
+    from synth.folding.mending.repair import flattened as flattened
+    from synth.folding.mending.repair import mended as mended
 else:
-    __getattr__, __dir__, __all__ = offered(__name__, {"mended": "Mended flattened mended"})
+    __getattr__, __dir__, __all__ = offered(__name__, {"repair": "Mended flattened mended"})

@@ -145,7 +145,7 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
 def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
     start = space.basis.T @ wanted
-    if not start.any():
+    if np.linalg.norm(start) <= _AGREES * np.linalg.norm(wanted):
         return np.zeros_like(wanted)
     x = _on_equations(local_forms(space.basis, space.left), np.asarray(start))
     return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
-    from synth.folding.verdict.mobility import JudgedMobility as JudgedMobility
-    from synth.folding.verdict.mobility import mobility as mobility
+    from synth.folding.verdict.judged import JudgedMobility as JudgedMobility
+    from synth.folding.verdict.judged import mobility as mobility
     from synth.folding.verdict.of_motion import verdict_of_motion as verdict_of_motion
     from synth.folding.verdict.verdict import Verdict as Verdict
     from synth.folding.verdict.verdict import Way as Way
@@ -22,7 +22,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "mobility": "JudgedMobility mobility",
+            "judged": "JudgedMobility mobility",
             "of_motion": "verdict_of_motion",
             "verdict": "Verdict Way",
         },
