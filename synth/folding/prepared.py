@@ -12,14 +12,13 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
-from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, search_for
 from synth.folding.branches import Branches, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.repair import EXACT, Mended, flattened, mended, nearly
+from synth.folding.mending.repair import EXACT, Mended, flattened, mended, nearly, precision_of
 from synth.folding.newton import CLOSED
 from synth.folding.opened import opened
 from synth.folding.second_order import rate_spaces, rates_near
@@ -125,7 +124,8 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
 
 def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> Mended | None:
     """Return the sheet with its vertices moved, if it moves in fewer ways as it is written than it nearly does."""
-    precision = precision_of_sheet(sheet)
+    places = VertexPlaces(sheet, mechanism, linkage)
+    precision = precision_of(places, sheet)
     if precision.size <= EXACT:
         return None
     wanted = marks_of(sheet, linkage)
@@ -138,11 +138,9 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
             return _ways(linkage) >= nearly_all
         return rates_near(ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), wanted) is not None
 
-    places = VertexPlaces(sheet, mechanism, linkage)
-    bent, _ = places.off_lines(places.given)
-    if np.abs(bent).max(initial=0.0) <= EXACT and moves(linkage):
+    if places.bent <= EXACT and moves(linkage):
         return None
-    return mended(sheet, mechanism, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
+    return mended(sheet, places, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
 
 
 def _ways(linkage: PosedLinkage, zero: float | None = None) -> tuple[int, ...]:

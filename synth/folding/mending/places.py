@@ -63,6 +63,11 @@ class VertexPlaces:
         self._panels = [] if len(self.along) == 2 else [panel for panel in sheet.faces if len(panel) > 3]
         self.unknowns = len(self.given) * len(self.along)
 
+    @property
+    def bent(self) -> float:
+        """How far vertices on creases of several pieces are off their lines, at most."""
+        return float(np.abs(self.off_lines(self.given)[0]).max(initial=0.0))
+
     def moved(self, by: Floats) -> Floats:
         """Return the vertices, moved by unknowns float[unknowns]: float[V, 3]."""
         return np.asarray(self.given + by.reshape(len(self.given), -1) @ self.along)

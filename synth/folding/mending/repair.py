@@ -14,7 +14,6 @@ from itertools import islice
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.duality import SheetMechanism
 from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from synth.folding.closure import ClosureEquations
@@ -25,7 +24,7 @@ from synth.folding.mending.places import VertexPlaces
 from synth.folding.second_order import rate_spaces, rates_near
 from synth.folding.singular.quadrics import quadrics_of
 
-__all__ = ["EXACT", "Mended", "flattened", "mended", "nearly"]
+__all__ = ["EXACT", "Mended", "flattened", "mended", "nearly", "precision_of"]
 
 EXACT = 1e-12
 """Coordinates that are precise to this part of the extent are taken at their word."""
@@ -87,6 +86,14 @@ def flattened(sheet: Sheet) -> Mended | None:
     return Mended(_placed(sheet, flat), off, precision, "they lie in one plane")
 
 
+def precision_of(places: VertexPlaces, sheet: Sheet) -> Precision:
+    """Return how precise coordinates are: if by their digits they are exact, as creases of several pieces show."""
+    precision = precision_of_sheet(sheet)
+    if precision.size <= EXACT < places.bent:
+        return Precision(places.bent, "creases of several pieces")
+    return precision
+
+
 def nearly(precision: Precision) -> float:
     """Return what part of the largest a singular value or eigenvalue is zero below, by rounded coordinates."""
     return min(_COARSEST, _BLURRED * precision.size)
@@ -94,7 +101,7 @@ def nearly(precision: Precision) -> float:
 
 def mended(
     sheet: Sheet,
-    mechanism: SheetMechanism,
+    places: VertexPlaces,
     linkage: PosedLinkage,
     wanted: Floats,
     moves: Callable[[Sheet], bool],
@@ -106,10 +113,10 @@ def mended(
     ----------
     sheet : Sheet
         With coordinates, closed at its pose.
-    mechanism : SheetMechanism
+    places : VertexPlaces
         Of the sheet.
     linkage : PosedLinkage
-        Of both.
+        Of the sheet too.
     wanted : float[J]
         Rates, or signs of them, that are to be a motion above others.
     moves : callable
@@ -122,12 +129,10 @@ def mended(
     Mended or None
         None if no rates nearly agree, or vertices had to be moved too far.
     """
-    precision = precision_of_sheet(sheet)
+    precision = precision_of(places, sheet)
     if precision.size <= EXACT:
         return None
-    places = VertexPlaces(sheet, mechanism, linkage)
-    bent = np.abs(places.off_lines(places.given)[0]).max(initial=0.0)
-    farthest = max(_FARTHEST * precision.size, float(bent))  # pieces of one crease were taken to be in line
+    farthest = max(_FARTHEST * precision.size, places.bent)  # pieces of one crease were taken to be in line
     meant = MeantAngles(places, precision.size)
     for angles in (meant, MeantAngles(places, 0.0)) if len(meant) else (meant,):
         fitting = Fitting(places, angles, linkage.angles)
