@@ -7,30 +7,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import networkx as nx
 import numpy as np
 from scipy.optimize import linprog
 
 from graphs.arrays import Floats
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.precision import Precision
-from graphs.rank.pose import pose_mobility_of_axes
+from graphs.ids import JointId
+from graphs.mechanism.precision import precision_of_sheet
 from synth.folding.branches import Branch, Certainty
 from synth.folding.linkage import PosedLinkage
-from synth.folding.path import PathOptions, driven_path
-from synth.folding.placement import moved
+from synth.folding.mending.repair import EXACT
 from synth.folding.prepared import Prepared
-from synth.folding.second_order import rates_near
-from synth.folding.singular.quadrics import quadrics_of
-from synth.folding.singular.sampling import FOLLOWED, rates_towards
-from synth.folding.verdict.verdict import Verdict, Way
-from synth.folding.verdict.words import Told, flaps_of, text_of_motion
+from synth.folding.singular.sampling import rates_towards
+from synth.folding.verdict.of_large import verdict_of_large
+from synth.folding.verdict.verdict import Verdict, Way, clusters_of
+from synth.folding.verdict.words import Told, text_of_motion
 
 __all__ = ["verdict_of_motion"]
 
 _STILL = 1e-9
 _FLAT = 1e-9
-_CLOSED = Precision(1e-11, "closed loops")
 
 
 def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
@@ -55,7 +50,7 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
     if not linkage.graph.joints:
         return Verdict(0, "motion", "proved", "Nothing to fold: there are no creases between panels.")
     if pattern.branches is None:
-        return _of_large(pattern, generic)
+        return verdict_of_large(pattern, generic)
     found = pattern.branches
     ways = tuple(_way(linkage, branch) for branch in found.branches)
     known = found.complete and all(way.freedoms is not None for way in ways)
@@ -69,6 +64,7 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
         complete=found.complete,
         generic=generic,
         stiff=still,
+        doubt=_doubt(pattern),
     )
     freedoms, certainty = _answer(ways, chosen, found.exhaustive)
     text = text_of_motion(told, freedoms, certainty)
@@ -80,7 +76,7 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
         ways,
         found.exhaustive,
         still,
-        _clusters(linkage, still),
+        clusters_of(linkage.graph, still),
         _places(pattern, still),
     )
 
@@ -92,10 +88,18 @@ def _way(linkage: PosedLinkage, branch: Branch) -> Way:
     return Way(branch.signs, branch.freedoms, branch.certainty, tuple(still))
 
 
+def _doubt(pattern: Prepared) -> str:
+    """Return what rounded coordinates leave open where nothing moves."""
+    precision = precision_of_sheet(pattern.sheet)
+    if precision.size <= EXACT:
+        return ""
+    return f"; its coordinates are precise to {precision.size:.0e} ({precision.source}), and exact ones may move"
+
+
 def _answer(ways: Sequence[Way], chosen: int | None, exhaustive: bool) -> tuple[int | None, Certainty]:
     """Return the freedoms that are told, and how they are known."""
     if not ways:
-        return 0, "proved" if exhaustive else "not known"
+        return (0, "proved") if exhaustive else (None, "not known")
     if chosen is not None:
         return ways[chosen].freedoms, ways[chosen].certainty
     known = [way for way in ways if way.freedoms is not None]
@@ -141,15 +145,6 @@ def _common(linkage: PosedLinkage, ways: Sequence[Way]) -> tuple[JointId, ...]:
     return tuple(joint for joint in linkage.graph.joints if joint in still)
 
 
-def _clusters(linkage: PosedLinkage, still: Sequence[JointId]) -> tuple[tuple[LinkId, ...], ...]:
-    """Return links that stiff joints make one."""
-    together = nx.Graph()
-    together.add_edges_from(linkage.graph.joints[joint] for joint in still)
-    order = {link: place for place, link in enumerate(linkage.graph)}
-    found = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
-    return tuple(sorted(found, key=lambda links: order[links[0]]))
-
-
 def _places(
     pattern: Prepared, joints: Sequence[JointId]
 ) -> dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]]:
@@ -161,40 +156,3 @@ def _places(
 
 def _is_flat(linkage: PosedLinkage) -> bool:
     return bool(np.abs(linkage.angles).max(initial=0.0) <= _FLAT)
-
-
-def _of_large(pattern: Prepared, generic: int | None) -> Verdict:
-    """Follow one motion of a linkage that is too large for all its branches to be looked for."""
-    linkage, closure = pattern.linkage, pattern.closure
-    wanted = pattern.marks if pattern.marks.any() else np.ones(len(linkage.angles))
-    rates = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted)
-    flat = _is_flat(linkage)
-    if rates is None or len(flaps_of(linkage.graph)) == len(linkage.graph.joints):
-        text = text_of_motion(Told(linkage, (), flat, None, False, generic, ()), None, "not known")
-        return Verdict(None, "motion", "not known", text)
-    rates = rates / np.abs(rates).max()
-    driver = int(np.abs(rates).argmax())
-    goal = linkage.angles[driver] + FOLLOWED * np.sign(rates[driver])
-    path = driven_path(closure, linkage.angles, [driver], goal, options=PathOptions(rates, straight=True))
-    if path.stopped:
-        text = text_of_motion(Told(linkage, (), flat, None, False, generic, ()), None, "not known")
-        return Verdict(None, "motion", "not known", text)
-    end = path.angles[-1]
-    there = moved(linkage, end)
-    axes = {
-        joint: (tuple(point), tuple(direction))
-        for joint, point, direction in zip(linkage.graph.joints, there.points, there.directions, strict=True)
-    }
-    pose = pose_mobility_of_axes(linkage.graph, axes, _CLOSED)
-    signs = "".join("0" if abs(rate) <= 1e-7 else "+-"[int(rate < 0)] for rate in rates)
-    still = tuple(
-        joint
-        for joint, rate, change in zip(linkage.graph.joints, rates, end - linkage.angles, strict=True)
-        if abs(rate) <= _STILL and abs(change) <= _STILL
-    )
-    certainty: Certainty = "not known" if pose.dof is None else "numerical"
-    way = Way(signs, pose.dof, certainty, still)
-    stiff = still if pose.dof == 1 and not flat else ()
-    told = Told(linkage, (way,), flat, None, False, generic, stiff)
-    text = text_of_motion(told, pose.dof, certainty)
-    return Verdict(pose.dof, "motion", certainty, text, (way,), False, stiff, _clusters(linkage, stiff))

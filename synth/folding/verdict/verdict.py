@@ -5,13 +5,17 @@ Theory: docs/theory/verdict.md.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+import networkx as nx
+
 from graphs.ids import JointId, LinkId
+from graphs.mechanism.sc import SCGraph
 from synth.folding.branches import Certainty
 
-__all__ = ["Basis", "Verdict", "Way"]
+__all__ = ["Basis", "Verdict", "Way", "clusters_of"]
 
 Basis = Literal["motion", "pose", "generic", "count"]
 
@@ -99,3 +103,18 @@ class Verdict:
 
     def __str__(self) -> str:
         return self.text
+
+
+def clusters_of(graph: SCGraph, still: Sequence[JointId]) -> tuple[tuple[LinkId, ...], ...]:
+    """Return links that stiff joints make one, in the order of the graph.
+
+    Examples
+    --------
+    >>> clusters_of(SCGraph(4, [(0, 1), (1, 2), (2, 3)]), [0, 1])
+    ((0, 1, 2),)
+    """
+    together = nx.Graph()
+    together.add_edges_from(graph.joints[joint] for joint in still)
+    order = {link: place for place, link in enumerate(graph)}
+    found = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
+    return tuple(sorted(found, key=lambda links: order[links[0]]))

@@ -41,6 +41,8 @@ class Told:
     generic : int or None
         The mobility of the type.
     stiff : tuple of joint ids
+    doubt : str
+        What is to be said beside "rigid": coordinates may be rounded. Empty if they are not.
     """
 
     linkage: PosedLinkage
@@ -50,6 +52,7 @@ class Told:
     complete: bool
     generic: int | None
     stiff: Sequence[JointId]
+    doubt: str = ""
 
 
 def flaps_of(graph: SCGraph) -> list[JointId]:
@@ -68,10 +71,9 @@ def text_of_motion(told: Told, freedoms: int | None, certainty: Certainty) -> st
     """Return the sentence about a crease pattern."""
     flaps = flaps_of(told.linkage.graph)
     if freedoms is None:
-        return f"No motion found, and none excluded{_generally(told, freedoms)}."
+        return f"No motion found, and none excluded{told.doubt}."
     if not freedoms:
-        rigid = "Rigid: nothing moves" if certainty == "proved" else "No motion found; not proved rigid"
-        return f"{rigid}{_generally(told, freedoms)}."
+        return f"Rigid as it is written: nothing moves{told.doubt}." if told.doubt else "Rigid: nothing moves."
     if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.linkage.graph.joints) - len(flaps):
         hang = "freedom is the flap" if len(flaps) == 1 else "freedoms are the flaps"
         if told.stiff:

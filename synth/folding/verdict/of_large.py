@@ -1,0 +1,111 @@
+"""The verdict on a crease pattern that is too large for all its branches to be looked for: one motion, followed.
+
+Theory: docs/theory/verdict.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphs.arrays import Floats
+from synth.folding.branches import Certainty
+from synth.folding.closure import ClosureEquations
+from synth.folding.newton import TangentSpace
+from synth.folding.path import PathOptions, driven_path
+from synth.folding.prepared import Prepared
+from synth.folding.second_order import rates_near
+from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.sampling import FOLLOWED
+from synth.folding.verdict.verdict import Verdict, Way, clusters_of
+from synth.folding.verdict.words import Told, flaps_of, text_of_motion
+
+__all__ = ["freedoms_by_projection", "verdict_of_large"]
+
+_FLAT = _STILL = 1e-9
+_BLOCK, _MOST = 8, 512
+_FREE = 1e-4
+"""Projected random rates have singular values above this part of the largest, or none: it is far from both."""
+
+
+def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
+    """Follow one motion, along the marks, and say how many freedoms it has at its end.
+
+    Parameters
+    ----------
+    pattern : Prepared
+    generic : int, optional
+        The mobility of its type, with which the sentence compares.
+    """
+    linkage, closure = pattern.linkage, pattern.closure
+    flat = bool(np.abs(linkage.angles).max(initial=0.0) <= _FLAT)
+    joints = list(linkage.graph.joints)
+    if len(flaps_of(linkage.graph)) == len(joints):
+        ways: tuple[Way, ...] = (Way("+" * len(joints), len(joints), "proved", ()),)
+        text = text_of_motion(Told(linkage, ways, flat, None, True, generic, ()), len(joints), "proved")
+        return Verdict(len(joints), "pose", "proved", text, ways, True)
+    wanted = pattern.marks if pattern.marks.any() else np.ones(len(joints))
+    rates = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted)
+    end = None if rates is None else _followed(closure, linkage.angles, rates)
+    if rates is None or end is None:
+        text = text_of_motion(Told(linkage, (), flat, None, False, generic, ()), None, "not known")
+        return Verdict(None, "motion", "not known", text)
+    freedoms = freedoms_by_projection(closure, end)
+    known: Certainty = "not known" if freedoms is None else "numerical"
+    still = tuple(
+        joint
+        for joint, rate, change in zip(joints, rates, end - linkage.angles, strict=True)
+        if abs(rate) <= _STILL and abs(change) <= _STILL
+    )
+    signs = "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in rates)
+    way = Way(signs, freedoms, known, still)
+    stiff = still if freedoms == 1 and not flat else ()
+    text = text_of_motion(
+        Told(linkage, (way,), flat, _as_marked(pattern.marks, rates), False, generic, stiff), freedoms, known
+    )
+    return Verdict(freedoms, "motion", known, text, (way,), False, stiff, clusters_of(linkage.graph, stiff))
+
+
+def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return how many rates a pose has, by random ones projected onto them; None where they are too many.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    angles : float[J]
+        A closed pose, radians.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.folding.linkage import linkage_of_axes
+    >>> ring = SCGraph(8, [(link, (link + 1) % 8) for link in range(8)])
+    >>> axes = {j: (np.cos([j, j + 2.0, 2.0 * j]), np.sin([3.0 * j, j, j + 1.0])) for j in range(8)}
+    >>> linkage = linkage_of_axes(ring, axes)
+    >>> freedoms_by_projection(ClosureEquations(linkage), linkage.angles)
+    2
+    """
+    space = TangentSpace(closure.at(angles)[1])
+    chance = np.random.default_rng(len(angles))
+    found: list[Floats] = []
+    while len(found) < min(_MOST, len(angles)):
+        found += [space.projected(chance.normal(size=len(angles))) for _ in range(_BLOCK)]
+        sizes = np.linalg.svd(np.array(found), compute_uv=False)
+        rank = int((sizes > _FREE * np.sqrt(len(angles))).sum())
+        if rank < len(found):
+            return rank
+    return None
+
+
+def _followed(closure: ClosureEquations, start: Floats, rates: Floats) -> Floats | None:
+    """Return the joint angles some degrees along a motion, or None where it stops before."""
+    rates = rates / np.abs(rates).max()
+    driver = int(np.abs(rates).argmax())
+    goal = start[driver] + FOLLOWED * np.sign(rates[driver])
+    path = driven_path(closure, start, [driver], goal, options=PathOptions(rates, straight=True))
+    return None if path.stopped else path.angles[-1]
+
+
+def _as_marked(marks: Floats, rates: Floats) -> bool | None:
+    """Tell whether all marked joints turn as they are marked, or all against it; None where nothing is marked."""
+    turned = (marks * rates)[marks != 0.0]
+    return bool((turned > _STILL).all() or (turned < -_STILL).all()) if len(turned) else None
