@@ -55,7 +55,6 @@ if TYPE_CHECKING:
     from graphs.reduce.ride_alongs import reduce as reduce
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.folding.motion import fold as fold
-    from synth.folding.verdict.judged import mobility as mobility
     from synth.guidance.fourbars import four_bars as four_bars
     from synth.guidance.order import analyse_order as analyse_order
     from synth.guidance.orientations import Orientations as Orientations
@@ -64,6 +63,7 @@ if TYPE_CHECKING:
     from synth.surfaces.cone import map_to_cones as map_to_cones
     from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
     from synth.surfaces.linkages import map_linkage as map_linkage
+    from synth.verdict.judged import mobility as mobility
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -87,7 +87,7 @@ else:
             "graphs.reduce.ride_alongs": "reduce",
             "synth.drawing.mechanisms.pictures": "draw",
             "synth.folding.motion": "fold",
-            "synth.folding.verdict.judged": "mobility",
+            "synth.verdict.judged": "mobility",
             "synth.guidance.fourbars": "four_bars",
             "synth.guidance.order": "analyse_order",
             "synth.guidance.orientations": "Orientations",

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from synth.drawing.figure import check_picture as check_picture
     from synth.drawing.figure import new_figure as new_figure
     from synth.drawing.figure import save_figure as save_figure
+    from synth.drawing.foldings import write_folding as write_folding
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.drawing.panels import draw_poses as draw_poses
     from synth.drawing.panels import save_moving_poses as save_moving_poses
@@ -30,6 +31,7 @@ else:
         {
             "conformed": "draw_conformed",
             "figure": "check_picture new_figure save_figure",
+            "foldings": "write_folding",
             "panels": "draw_poses save_moving_poses",
             "synth.drawing.mechanisms.pictures": "draw",
             "synth.drawing.scene.shapes": "Scene",

@@ -1,9 +1,8 @@
 """Linkages of any kind moved: solids hinged at edges, polyhedron models, conical linkages, guided four-bars.
 
 `linkage_of` makes the linkage at a pose of anything that has coordinates, `move` drives its joints,
-`circuit_through` goes round past dead points, `move_on_cone` says what conical linkages do all along,
-`write_folding` writes the frames of a crease pattern. What it stands on is in `synth.folding`.
-Theory: docs/theory/moving.md.
+`circuit_through` goes round past dead points, `move_on_cone` says what conical linkages do all along. What it
+stands on is in `synth.folding`. Theory: docs/theory/moving.md.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from synth.moving.motion import Motion as Motion
     from synth.moving.motion import move as move
     from synth.moving.rods import linkage_of_rods as linkage_of_rods
-    from synth.moving.written import write_folding as write_folding
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -32,6 +30,5 @@ else:
             "linkages": "linkage_of linkage_on_cone",
             "motion": "Motion move",
             "rods": "linkage_of_rods",
-            "written": "write_folding",
         },
     )

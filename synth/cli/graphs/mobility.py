@@ -15,7 +15,7 @@ from synth.cli.output import about, console, entries, plain, print_json, table
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from synth.folding.verdict.judged import JudgedMobility
+    from synth.verdict.judged import JudgedMobility
 
 __all__ = ["mobility"]
 
@@ -71,7 +71,7 @@ def mobility(
       synth mobility data/patterns/bird-base.fold
     """
     from graphs.errors import FileError
-    from synth.folding.verdict.judged import mobility as asked
+    from synth.verdict.judged import mobility as asked
 
     if no_pose and pose is not None:
         raise click.UsageError("--pose names a pose that --no-pose leaves out")

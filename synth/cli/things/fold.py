@@ -65,9 +65,9 @@ def fold(
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.edit.named import joint_named
     from graphs.files.formats import read
+    from synth.drawing.foldings import check_output, write_folding
     from synth.folding.motion import fold as folded
     from synth.moving.linkages import sheet_of
-    from synth.moving.written import check_output, write_folding
 
     if whole and drive:
         raise click.UsageError("--all folds without --drive: leave one of them out")

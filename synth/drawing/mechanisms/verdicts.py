@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
 from synth.folding.prepared import prepared
-from synth.folding.verdict.of_motion import verdict_of_motion
+from synth.verdict.of_motion import verdict_of_motion
 
 __all__ = ["Stillness", "stillness_of"]
 

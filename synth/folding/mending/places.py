@@ -55,7 +55,8 @@ class VertexPlaces:
         self.given: Floats = (corners - linkage.middle) / linkage.extent
         self.loops = linkage.loops
         self._linkage = replace(linkage, loops=tuple(_with_all_equations(loop) for loop in linkage.loops))
-        self.ends: Ints = np.array([mechanism.hinges[joint] for joint in linkage.graph.joints])  # type: ignore[index]
+        ends = [mechanism.hinges[joint] for joint in linkage.graph.joints]  # type: ignore[index]
+        self.ends: Ints = np.array(ends, dtype=np.int64).reshape(-1, 2)
         ways = ((self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]]) * linkage.directions).sum(axis=1)
         self._ways: Floats = np.sign(ways)
         self.along = _plane_of(self.given)

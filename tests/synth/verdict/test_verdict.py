@@ -12,7 +12,7 @@ from creased import fan, miura
 import synth
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
-from synth.folding.verdict.judged import mobility
+from synth.verdict.judged import mobility
 
 KEYS = {
     "freedoms",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from graphs.answer.report import MobilityAnswer
 from synth.folding.branches import Certainty
-from synth.folding.verdict.verdict import Verdict
+from synth.verdict.verdict import Verdict
 
 __all__ = ["verdict_of_type"]
 

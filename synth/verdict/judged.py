@@ -15,14 +15,18 @@ from graphs.answer.mechanisms import mobility as counted
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError
+from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
 from synth.folding.prepared import prepared
-from synth.folding.verdict.of_motion import verdict_of_motion
-from synth.folding.verdict.of_type import verdict_of_type
-from synth.folding.verdict.verdict import Verdict
+from synth.moving.linkages import linkage_of
+from synth.verdict.of_motion import verdict_of_linkage, verdict_of_motion
+from synth.verdict.of_type import verdict_of_type
+from synth.verdict.verdict import Verdict
 
 __all__ = ["MOST_PANELS", "JudgedMobility", "mobility"]
+
+_EXACTLY = Precision(0.0, "exact")
 
 MOST_PANELS = 1200
 """The motion of larger sheets is looked for on request only."""
@@ -107,9 +111,11 @@ def mobility(
     (1, 2)
     """
     answer = counted(mechanism, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry)
-    if not isinstance(mechanism, Sheet) or pose is False or motion is False:
+    if pose is False or motion is False:
         left_out = "its motion was left out" if motion is False and answer.pose is not None else ""
         return JudgedMobility.judged(answer, verdict_of_type(answer, left_out))
+    if not isinstance(mechanism, Sheet):
+        return JudgedMobility.judged(answer, _of_other(mechanism, answer, demanded=bool(motion)))
     drawn = lying(mechanism, pose)
     if drawn.coordinates is None and not motion:
         return JudgedMobility.judged(answer, verdict_of_type(answer))
@@ -124,3 +130,17 @@ def mobility(
         return JudgedMobility.judged(answer, verdict_of_type(answer, f"its motion was not looked for: {error}"))
     verdict = verdict_of_motion(pattern, answer.mobility)
     return JudgedMobility.judged(answer, verdict, tuple(map(str, pattern.repairs)))
+
+
+def _of_other(mechanism: Mechanism | nx.Graph, answer: MobilityAnswer, *, demanded: bool) -> Verdict:
+    """Return the verdict on what is no crease pattern: solids, rods, a linkage on its cone, or a type."""
+    if answer.pose is None and not demanded:
+        return verdict_of_type(answer)
+    try:
+        linkage = linkage_of(mechanism)
+        precision = _EXACTLY if answer.pose is None else answer.pose.precision
+        return verdict_of_linkage(linkage, precision, answer.mobility)
+    except SynthedraError as error:
+        if demanded:
+            raise
+        return verdict_of_type(answer, f"its motion was not looked for: {error}")

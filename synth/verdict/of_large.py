@@ -16,8 +16,8 @@ from synth.folding.prepared import Prepared
 from synth.folding.second_order import rates_near
 from synth.folding.singular.quadrics import quadrics_of
 from synth.folding.singular.sampling import FOLLOWED
-from synth.folding.verdict.verdict import Verdict, Way, clusters_of
-from synth.folding.verdict.words import Told, flaps_of, text_of_motion
+from synth.verdict.verdict import Verdict, Way, clusters_of
+from synth.verdict.words import Posed, Told, flaps_of, text_of_motion
 
 __all__ = ["freedoms_by_projection", "verdict_of_large"]
 
@@ -38,16 +38,17 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
     """
     linkage, closure = pattern.linkage, pattern.closure
     flat = bool(np.abs(linkage.angles).max(initial=0.0) <= _FLAT)
+    posed = Posed(linkage, "Folds", flat, "")
     joints = list(linkage.graph.joints)
     if len(flaps_of(linkage.graph)) == len(joints):
         ways: tuple[Way, ...] = (Way("+" * len(joints), len(joints), "proved", ()),)
-        text = text_of_motion(Told(linkage, ways, flat, None, True, generic, ()), len(joints), "proved")
+        text = text_of_motion(Told(posed, ways, None, True, generic, ()), len(joints), "proved")
         return Verdict(len(joints), "pose", "proved", text, ways, True)
     wanted = pattern.marks if pattern.marks.any() else np.ones(len(joints))
     rates = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted)
     end = None if rates is None else _followed(closure, linkage.angles, rates)
     if rates is None or end is None:
-        text = text_of_motion(Told(linkage, (), flat, None, False, generic, ()), None, "not known")
+        text = text_of_motion(Told(posed, (), None, False, generic, ()), None, "not known")
         return Verdict(None, "motion", "not known", text)
     freedoms = freedoms_by_projection(closure, end)
     known: Certainty = "not known" if freedoms is None else "numerical"
@@ -60,7 +61,7 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
     way = Way(signs, freedoms, known, still)
     stiff = still if freedoms == 1 and not flat else ()
     text = text_of_motion(
-        Told(linkage, (way,), flat, _as_marked(pattern.marks, rates), False, generic, stiff), freedoms, known
+        Told(posed, (way,), _as_marked(pattern.marks, rates), False, generic, stiff), freedoms, known
     )
     return Verdict(freedoms, "motion", known, text, (way,), False, stiff, clusters_of(linkage.graph, stiff))
 

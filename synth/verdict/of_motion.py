@@ -1,4 +1,4 @@
-"""The verdict on a crease pattern with coordinates: its ways to move, followed or proved.
+"""The verdict on a linkage at a pose, crease patterns above all: its ways to move, followed or proved.
 
 Theory: docs/theory/verdict.md.
 """
@@ -6,23 +6,26 @@ Theory: docs/theory/verdict.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import linprog
 
 from graphs.arrays import Floats
+from graphs.errors import UnsolvableError
 from graphs.ids import JointId
-from graphs.mechanism.precision import precision_of_sheet
-from synth.folding.branches import Branch, Certainty
+from graphs.mechanism.precision import Precision, precision_of_sheet
+from synth.folding.beginning import MOST_JOINTS, search_for
+from synth.folding.branches import Branch, Branches, Certainty, branches_of
 from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.repair import EXACT
 from synth.folding.prepared import Prepared
 from synth.folding.singular.sampling import rates_towards
-from synth.folding.verdict.of_large import verdict_of_large
-from synth.folding.verdict.verdict import Verdict, Way, clusters_of
-from synth.folding.verdict.words import Told, text_of_motion
+from synth.verdict.of_large import verdict_of_large
+from synth.verdict.verdict import Verdict, Way, clusters_of
+from synth.verdict.words import Posed, Told, text_of_motion
 
-__all__ = ["verdict_of_motion"]
+__all__ = ["verdict_of_linkage", "verdict_of_motion"]
 
 _STILL = 1e-9
 _FLAT = 1e-9
@@ -46,26 +49,45 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
     >>> print(verdict_of_motion(prepared(Sheet(5, (), "", faces, corners)), 1))
     Folds with 1 freedom from flat, in 2 ways.
     """
-    linkage = pattern.linkage
-    if not linkage.graph.joints:
+    if not pattern.linkage.graph.joints:
         return Verdict(0, "motion", "proved", "Nothing to fold: there are no creases between panels.")
     if pattern.branches is None:
         return verdict_of_large(pattern, generic)
-    found = pattern.branches
+    posed = Posed(pattern.linkage, "Folds", _is_flat(pattern.linkage), _doubt(precision_of_sheet(pattern.sheet)))
+    verdict = _verdict(posed, pattern.branches, pattern.marks, generic)
+    return replace(verdict, places=_places(pattern, verdict.stiff_joints))
+
+
+def verdict_of_linkage(linkage: PosedLinkage, precision: Precision, generic: int | None = None) -> Verdict:
+    """Say how a linkage moves from its pose, of solids or rods or on a cone.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    precision : Precision
+        Of its coordinates.
+    generic : int, optional
+        The mobility of its type, with which the sentence compares.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has too many joints.
+    """
+    joints = len(linkage.graph.joints)
+    if joints > MOST_JOINTS:
+        raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
+    found = branches_of(linkage, None, search_for(joints, None))
+    return _verdict(Posed(linkage, "Moves", False, _doubt(precision)), found, np.zeros(joints), generic)
+
+
+def _verdict(posed: Posed, found: Branches, marks: Floats, generic: int | None) -> Verdict:
+    linkage = posed.linkage
     ways = tuple(_way(linkage, branch) for branch in found.branches)
     known = found.complete and all(way.freedoms is not None for way in ways)
     still = _common(linkage, ways) if known else ()
-    chosen, agree = _chosen(found.branches, pattern.marks, _is_flat(linkage))
-    told = Told(
-        linkage,
-        ways,
-        flat=_is_flat(linkage),
-        marked=agree,
-        complete=found.complete,
-        generic=generic,
-        stiff=still,
-        doubt=_doubt(pattern),
-    )
+    chosen, agree = _chosen(found.branches, marks if posed.flat else np.zeros_like(marks))
+    told = Told(posed, ways, agree, found.complete, generic, still)
     freedoms, certainty = _answer(ways, chosen, found.exhaustive)
     text = text_of_motion(told, freedoms, certainty)
     return Verdict(
@@ -77,7 +99,6 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
         found.exhaustive,
         still,
         clusters_of(linkage.graph, still),
-        _places(pattern, still),
     )
 
 
@@ -88,9 +109,8 @@ def _way(linkage: PosedLinkage, branch: Branch) -> Way:
     return Way(branch.signs, branch.freedoms, branch.certainty, tuple(still))
 
 
-def _doubt(pattern: Prepared) -> str:
+def _doubt(precision: Precision) -> str:
     """Return what rounded coordinates leave open where nothing moves."""
-    precision = precision_of_sheet(pattern.sheet)
     if precision.size <= EXACT:
         return ""
     return f"; its coordinates are precise to {precision.size:.0e} ({precision.source}), and exact ones may move"
@@ -109,9 +129,9 @@ def _answer(ways: Sequence[Way], chosen: int | None, exhaustive: bool) -> tuple[
     return best.freedoms, best.certainty
 
 
-def _chosen(branches: Sequence[Branch], marks: Floats, flat: bool) -> tuple[int | None, bool | None]:
+def _chosen(branches: Sequence[Branch], marks: Floats) -> tuple[int | None, bool | None]:
     """Return the branch that marks choose, of several that have them all the freest; and whether one has."""
-    if not flat or not marks.any() or not branches:
+    if not marks.any() or not branches:
         return None, None
     agree = [number for number, branch in enumerate(branches) if _has(branch, marks)]
     if not agree:

@@ -13,9 +13,9 @@ from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.folding.branches import Certainty
 from synth.folding.linkage import PosedLinkage
-from synth.folding.verdict.verdict import Way
+from synth.verdict.verdict import Way
 
-__all__ = ["Told", "flaps_of", "listed", "text_of_motion"]
+__all__ = ["Posed", "Told", "flaps_of", "listed", "text_of_motion"]
 
 _MOST = 12
 _HOW = {
@@ -26,14 +26,34 @@ _HOW = {
 
 
 @dataclass(frozen=True, slots=True)
+class Posed:
+    """What moves.
+
+    Attributes
+    ----------
+    linkage : PosedLinkage
+    verb : str
+        What it does: panels fold, solids move.
+    flat : bool
+        Whether it is a flat sheet.
+    doubt : str
+        What is to be said beside "rigid": coordinates may be rounded. Empty if they are not.
+    """
+
+    linkage: PosedLinkage
+    verb: str
+    flat: bool
+    doubt: str
+
+
+@dataclass(frozen=True, slots=True)
 class Told:
     """What a sentence about motion is made of.
 
     Attributes
     ----------
-    linkage : PosedLinkage
+    posed : Posed
     ways : tuple of Way
-    flat : bool
     marked : bool or None
         Whether a way has all mountains and valleys as they are marked; None where nothing is.
     complete : bool
@@ -41,18 +61,14 @@ class Told:
     generic : int or None
         The mobility of the type.
     stiff : tuple of joint ids
-    doubt : str
-        What is to be said beside "rigid": coordinates may be rounded. Empty if they are not.
     """
 
-    linkage: PosedLinkage
+    posed: Posed
     ways: Sequence[Way]
-    flat: bool
     marked: bool | None
     complete: bool
     generic: int | None
     stiff: Sequence[JointId]
-    doubt: str = ""
 
 
 def flaps_of(graph: SCGraph) -> list[JointId]:
@@ -69,18 +85,22 @@ def flaps_of(graph: SCGraph) -> list[JointId]:
 
 def text_of_motion(told: Told, freedoms: int | None, certainty: Certainty) -> str:
     """Return the sentence about a crease pattern."""
-    flaps = flaps_of(told.linkage.graph)
+    flaps = flaps_of(told.posed.linkage.graph)
     if freedoms is None:
-        return f"No motion found, and none excluded{told.doubt}."
+        return f"No motion found, and none excluded{told.posed.doubt}."
     if not freedoms:
-        return f"Rigid as it is written: nothing moves{told.doubt}." if told.doubt else "Rigid: nothing moves."
-    if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.linkage.graph.joints) - len(flaps):
+        return (
+            f"Rigid as it is written: nothing moves{told.posed.doubt}."
+            if told.posed.doubt
+            else "Rigid: nothing moves."
+        )
+    if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.posed.linkage.graph.joints) - len(flaps):
         hang = "freedom is the flap" if len(flaps) == 1 else "freedoms are the flaps"
         if told.stiff:
             stiff = f"joints {listed(told.stiff)} cannot move"
             return f"Rigid but for flaps: {stiff}; {len(flaps)} {hang} {listed(flaps)}."
-    start = "flat" if told.flat else "its pose"
-    parts = [f"Folds with {freedoms} {_freedom(freedoms)} from {start}{_ways(told)}"]
+    start = "flat" if told.posed.flat else "its pose"
+    parts = [f"{told.posed.verb} with {freedoms} {_freedom(freedoms)} from {start}{_ways(told)}"]
     if told.stiff:
         parts.append(f"joint{'s' * (len(told.stiff) > 1)} {listed(told.stiff)} cannot move")
     if certainty != "proved":
