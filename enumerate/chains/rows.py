@@ -1,7 +1,7 @@
 """Rows of chains: ids and attributes of the chains of contracted graphs.
 
-What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled, but
-for the canonical labels, which are bliss's.
+What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled. bliss
+itself is asked for the canonical numbers of the few chains that `enumerate.kernel.bliss_order` leaves.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from enumerate.contracted.listing import (
     placements_of,
     symmetries_of,
 )
+from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Bytes, Ints
@@ -105,7 +106,7 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         return []
     ends, first, moved, automorphisms = frame_of(chains.code, chains.n)
     joints = joints_of_all(ends, chains.n, chains.x)
-    codes, labels = chain_ids(query.links, joints)
+    codes, labels = chain_ids(query.links, joints, chains.order)
     if bare:
         return [(code,) for code in codes]
     orbits = chains.inversions(query.links)
@@ -133,13 +134,15 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
     return found
 
 
-def chain_ids(links: int, joints: Ints) -> tuple[list[str], Ints]:
+def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tuple[list[str], Ints]:
     """Return the ids of simple chains of N links, and the canonical numbers of their links.
 
     Parameters
     ----------
     links : int
     joints : int64[r, J, 2]
+    automorphisms : int64[r], optional
+        How many each chain has, where that is known: without, chains with symmetries take longer.
 
     Returns
     -------
@@ -148,7 +151,13 @@ def chain_ids(links: int, joints: Ints) -> tuple[list[str], Ints]:
     """
     if not len(joints):
         return [], np.zeros((0, links), np.int64)
-    labels = np.array([canonical_order(links, pairs) for pairs in joints.tolist()], np.int64)
+    if links <= MOST_NODES:
+        known = np.ones(len(joints), np.int64) if automorphisms is None else automorphisms
+        labels, left = bliss_orders(links, joints, known)
+    else:
+        labels, left = np.empty((len(joints), links), np.int64), np.arange(len(joints))
+    for row in left.tolist():
+        labels[row] = canonical_order(links, joints[row].tolist())
     text = graph6_rows(joints, labels).tobytes().decode("ascii")
     width = len(text) // len(labels)
     return [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)], labels
