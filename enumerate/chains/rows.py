@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import repeat
 
 import networkx as nx
 import numpy as np
@@ -108,19 +109,15 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
     joints = joints_of_all(ends, chains.n, chains.x)
     codes, labels = chain_ids(query.links, joints, chains.order)
     if bare:
-        return [(code,) for code in codes]
+        return list(zip(codes, strict=True))
     orbits = chains.inversions(query.links)
     degrees = Counter(decode(chains.code, chains.n).sum(axis=1).tolist())
     assortment = assortment_of({**degrees, 2: query.links - chains.n})
     planar = is_planar(decode(chains.code, chains.n))
-    counts = (orbits == np.arange(query.links)).sum(axis=1).tolist()
-    common = query.links, query.joints, query.dof, query.loops, assortment
-    rows: list[Row] = [
-        (code, *common, longest, symmetry, inversions, planar, False)
-        for code, longest, symmetry, inversions in zip(
-            codes, chains.x.max(axis=1).tolist(), chains.order.tolist(), counts, strict=True
-        )
-    ]
+    counts = (orbits == np.arange(query.links)).sum(axis=1)
+    common = map(repeat, (query.links, query.joints, query.dof, query.loops, assortment))
+    own = (values.tolist() for values in (chains.x.max(axis=1), chains.order, counts))
+    rows: list[Row] = list(zip(codes, *common, *own, repeat(planar), repeat(False), strict=False))
     if not (query.inversions or query.inputs):
         return rows
     found: list[Row] = []
