@@ -1,7 +1,7 @@
 """Rows of chains: ids and attributes of the chains of contracted graphs.
 
-What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled, but
-for the canonical labels, which are bliss's.
+What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled. bliss
+itself is asked for the canonical numbers of the few chains that `enumerate.kernel.bliss_order` leaves.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import repeat
 
 import networkx as nx
 import numpy as np
@@ -25,6 +26,7 @@ from enumerate.contracted.listing import (
     placements_of,
     symmetries_of,
 )
+from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Bytes, Ints
@@ -105,21 +107,17 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         return []
     ends, first, moved, automorphisms = frame_of(chains.code, chains.n)
     joints = joints_of_all(ends, chains.n, chains.x)
-    codes, labels = chain_ids(query.links, joints)
+    codes, labels = chain_ids(query.links, joints, chains.order)
     if bare:
-        return [(code,) for code in codes]
+        return list(zip(codes, strict=True))
     orbits = chains.inversions(query.links)
     degrees = Counter(decode(chains.code, chains.n).sum(axis=1).tolist())
     assortment = assortment_of({**degrees, 2: query.links - chains.n})
     planar = is_planar(decode(chains.code, chains.n))
-    counts = (orbits == np.arange(query.links)).sum(axis=1).tolist()
-    common = query.links, query.joints, query.dof, query.loops, assortment
-    rows: list[Row] = [
-        (code, *common, longest, symmetry, inversions, planar, False)
-        for code, longest, symmetry, inversions in zip(
-            codes, chains.x.max(axis=1).tolist(), chains.order.tolist(), counts, strict=True
-        )
-    ]
+    counts = (orbits == np.arange(query.links)).sum(axis=1)
+    common = map(repeat, (query.links, query.joints, query.dof, query.loops, assortment))
+    own = (values.tolist() for values in (chains.x.max(axis=1), chains.order, counts))
+    rows: list[Row] = list(zip(codes, *common, *own, repeat(planar), repeat(False), strict=False))
     if not (query.inversions or query.inputs):
         return rows
     found: list[Row] = []
@@ -133,13 +131,15 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
     return found
 
 
-def chain_ids(links: int, joints: Ints) -> tuple[list[str], Ints]:
+def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tuple[list[str], Ints]:
     """Return the ids of simple chains of N links, and the canonical numbers of their links.
 
     Parameters
     ----------
     links : int
     joints : int64[r, J, 2]
+    automorphisms : int64[r], optional
+        How many each chain has, where that is known: without, chains with symmetries take longer.
 
     Returns
     -------
@@ -148,7 +148,13 @@ def chain_ids(links: int, joints: Ints) -> tuple[list[str], Ints]:
     """
     if not len(joints):
         return [], np.zeros((0, links), np.int64)
-    labels = np.array([canonical_order(links, pairs) for pairs in joints.tolist()], np.int64)
+    if links <= MOST_NODES:
+        known = np.ones(len(joints), np.int64) if automorphisms is None else automorphisms
+        labels, left = bliss_orders(links, joints, known)
+    else:
+        labels, left = np.empty((len(joints), links), np.int64), np.arange(len(joints))
+    for row in left.tolist():
+        labels[row] = canonical_order(links, joints[row].tolist())
     text = graph6_rows(joints, labels).tobytes().decode("ascii")
     width = len(text) // len(labels)
     return [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)], labels

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import sqlite3
 import warnings
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
@@ -159,7 +159,7 @@ class SqliteSink:
 
     def _told(self, rows: list[Row]) -> list[Row]:
         """Return rows with lists as JSON text."""
-        return [_replaced(row, self._lists) for row in rows] if self._lists else rows
+        return list(_replaced(rows, self._lists)) if self._lists else rows
 
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
@@ -236,15 +236,16 @@ def read_rows(path: str | Path) -> Iterator[Row]:
             rows = units.rows(number)
             if rows is None:
                 raise StoreError(f"{path}: is damaged at unit {number}; the same run with --resume mends it")
-            yield from (_replaced(row, lists) for row in rows) if lists else rows
+            yield from _replaced(rows, lists) if lists else rows
 
 
-def _replaced(row: Row, functions: Sequence[tuple[int, Callable[[Any], Any]]]) -> Row:
-    """Return a row with some of its values, named by their places, replaced by those of functions."""
-    values = list(row)
-    for place, function in functions:
-        values[place] = function(values[place])
-    return tuple(values)
+def _replaced(rows: Sequence[Row], functions: Sequence[tuple[int, Callable[[Any], Any]]]) -> Iterator[Row]:
+    """Return rows with the values of some columns, named by their places, replaced by those of functions."""
+    columns: list[Iterable[Any]] = list(zip(*rows, strict=True))
+    if columns:
+        for place, function in functions:
+            columns[place] = map(function, columns[place])
+    return zip(*columns, strict=True)
 
 
 def _warn(line: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import threading
@@ -111,6 +112,7 @@ class LocalWorkers:
 
 def _become_worker(parent: int, shared: Any) -> None:
     """Leave Ctrl-C to the parent, and do not outlive it; tell the user what only one process should."""
+    gc.freeze()  # what was inherited stays, and is not looked through while rows are made
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(signal, "SIGHUP"):  # a terminal tells all processes that it closes
