@@ -4,7 +4,6 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from creased import fan, miura
 
 from graphs.files.formats import read
 from synth.folding.branches import branches_of
@@ -13,6 +12,8 @@ from synth.folding.linkage import linkage_of_sheet
 from synth.folding.newton import corrected
 from synth.folding.second_order import rates_near
 from synth.folding.singular.quadrics import quadrics_of
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
 
 
 def branches(sheet):

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from creased import bennett, fan, miura
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
@@ -13,6 +12,9 @@ from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
 from synth.folding.newton import TangentSpace, corrected
 from synth.folding.path import driven_path
 from synth.folding.singular.sampling import freedoms_at
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
+from synth.patterns.rings.bennett import bennett
 
 RING = [(k, (k + 1) % 6) for k in range(6)]
 
@@ -55,8 +57,8 @@ def test_a_loop_with_a_centre_closes_where_six_equations_do(rng):
 @pytest.mark.parametrize("twists", [(0.7, 1.2), (0.4, 2.0)])
 def test_bennetts_linkage_keeps_its_law(twists):
     """tan(first / 2) tan(second / 2) is constant, though six equations stand against four joints."""
-    graph, axes = bennett(twists, 1.0)
-    linkage = linkage_of_axes(graph, axes)
+    solids = bennett(1.0, *twists)
+    linkage = linkage_of_axes(solids.chain, solids.axes)
     closure = ClosureEquations(linkage)
     assert freedoms_at(linkage, closure, linkage.angles) == 1
     path = driven_path(closure, linkage.angles, [0], np.linspace(0.0, 2.0, 9)[1:])
@@ -95,8 +97,8 @@ def test_what_has_no_axis_is_refused():
 
 def test_a_correction_factorises_once(monkeypatch):
     """Steps with the first matrix leave little enough."""
-    graph, axes = bennett((0.7, 1.2), 1.0)
-    closure = ClosureEquations(linkage_of_axes(graph, axes))
+    solids = bennett(1.0, 0.7, 1.2)
+    closure = ClosureEquations(linkage_of_axes(solids.chain, solids.axes))
     made, begin = [], TangentSpace.__init__
     monkeypatch.setattr(
         TangentSpace, "__init__", lambda space, matrix: (made.append(space), begin(space, matrix))[1]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import run
-from creased import fan, is_zigzag, miura
+from creased import is_zigzag
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
@@ -22,6 +22,8 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
 from synth.folding.motion import fold
 from synth.folding.path import PathOptions, driven_path
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
 
 ROOT = Path(__file__).resolve().parents[3]
 VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")

@@ -6,8 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from creased import fan, miura
-from folding_patterns import box_pop_up, frog_base, kresling, map_sheet, pleated_hypar, triangulated, tube
+from folding_patterns import frog_base, pleated_hypar, triangulated
 from scipy.optimize import least_squares
 
 from graphs.convert.duality import mechanism_of_sheet
@@ -22,6 +21,10 @@ from synth.folding.placement import moved
 from synth.folding.second_order import largest_only, rates_at, spaces_within
 from synth.folding.singular.quadrics import all_quadrics, local_forms
 from synth.folding.singular.sampling import followed, general_rates, same_part
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import map_sheet, miura
+from synth.patterns.creases.tubes import kresling, miura_tube
+from synth.patterns.goods.pop_ups import box_pop_up
 
 
 def linkage(sheet):
@@ -206,7 +209,7 @@ def test_vertices_pop_up_or_down_each(rng):
 @pytest.mark.parametrize("columns", [1, 3])
 def test_tubes_of_miura_strips_have_one_freedom(columns):
     """A closed strip has more equations than joints, and moves all the same."""
-    found = branches_of(linkage(tube(columns)))
+    found = branches_of(linkage(miura_tube(columns, 1.1, 0.6)))
     assert freedoms(found) == [1]
     assert found.branches[0].still == ()
     assert found.branches[0].error < 1e-12

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from creased import fan, miura
-from folding_patterns import box_pop_up, kresling, pleated_hypar, spoked_cube
+from folding_patterns import pleated_hypar, spoked_cube
 
 from synth.folding.branches import branches_of
 from synth.folding.closure import ClosureEquations
@@ -12,6 +11,10 @@ from synth.folding.second_order import rates_at, spaces_within
 from synth.folding.singular.definite import definite_weights
 from synth.folding.singular.quadrics import Quadric, all_quadrics, local_forms, quadrics_of, shared_quadrics
 from synth.folding.singular.rigidity import rigidity_of
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases.tubes import kresling
+from synth.patterns.goods.pop_ups import box_pop_up
 
 
 def disturbed(axes, rng):

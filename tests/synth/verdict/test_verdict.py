@@ -7,11 +7,12 @@ import networkx as nx
 import numpy as np
 import pytest
 from commands import run
-from creased import fan, miura
 
 import synth
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
 from synth.verdict.judged import mobility
 
 KEYS = {

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from commands import run
-from creased import miura
 
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
 from synth.folding.following.collisions import Panels
 from synth.folding.motion import fold
+from synth.patterns.creases.tessellations import miura
 
 TRIANGLES = [(0, 1, 2), (3, 4, 5)]
 

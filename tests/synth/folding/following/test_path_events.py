@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from creased import fan, is_zigzag, miura
+from creased import is_zigzag
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.loops.loop import Loop
@@ -13,6 +13,8 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes
 from synth.folding.motion import fold
 from synth.folding.path import driven_path
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
 
 
 def planar(links, joints, loops, places):

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from creased import fan, miura
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
@@ -18,6 +17,8 @@ from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import flattened
 from synth.folding.motion import fold
 from synth.folding.prepared import prepared
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import miura
 
 
 def disturbed(sheet, noise, seed=0):

@@ -1,0 +1,1 @@
+"""Crease patterns by their parameters: tessellations, triangulated ones, twists, bases, tubes."""

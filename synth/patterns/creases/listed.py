@@ -1,0 +1,138 @@
+"""The generators of crease patterns. Theory: docs/theory/generators.md."""
+
+from __future__ import annotations
+
+from math import isclose, pi
+
+from synth.patterns.creases import bases, tessellations, triangulated, tubes, twists
+from synth.patterns.generator import Generator, Values, angle, count, length
+
+__all__ = ["GENERATORS"]
+
+_MESH = (count("rows", 3, 2, 12, "of panels"), count("columns", 3, 2, 12, "of panels"))
+_TILES = (count("rows", 2, 1, 8, "of units"), count("columns", 2, 1, 8, "of units"))
+_SECTOR = angle("sector", 60, 20, 85, "acute angle of the panels")
+_SIDES = (
+    length("straight", 1.0, 0.1, 10, "side of a panel along the straight lines"),
+    length("zigzag", 1.0, 0.1, 10, "side of a panel along the zigzags"),
+)
+_TRIANGLES = "all panels are triangles: border vertices less three"
+
+
+def _of_storey(values: Values) -> int:
+    """Return the freedoms of a storey.
+
+    Round a panel the triangles' angles follow from each other; turned by half a side they do so both ways
+    alike, and an even number of them alternates between two.
+    """
+    sides = int(values["sides"])
+    if not values["ends"]:
+        return 2 * sides - 6
+    half_a_side = isclose(values["turn"], pi / sides, abs_tol=1e-9)
+    return int(values["ends"] == 1 and sides % 2 == 0 and half_a_side)
+
+
+GENERATORS = (
+    Generator(
+        "miura", "Miura sheet", tessellations.miura, (*_MESH, _SECTOR, *_SIDES), lambda _: 1,
+        "on the way that is marked; the straight lines fold alone on another", "Miura 1985", True,
+    ),
+    Generator(
+        "miura-tube", "Tube of two Miura strips", tubes.miura_tube,
+        (
+            count("columns", 3, 1, 20, "panels along the tube"),
+            _SECTOR,
+            angle("tilt", 35, 5, 80, "between a panel and the plane of symmetry"),
+            *_SIDES,
+        ),
+        lambda _: 1, "the strips are mirror images of each other", "Tachi and Miura 2012",
+    ),
+    Generator(
+        "yoshimura", "Yoshimura's pattern", triangulated.yoshimura,
+        (
+            count("rows", 3, 1, 10, "of triangles"),
+            count("columns", 2, 1, 10, "pairs of triangles in a row"),
+            length("width", 1.0, 0.1, 10, "of a triangle"),
+            length("height", 0.6, 0.1, 10, "of a triangle"),
+        ),
+        lambda v: int(2 * (v["rows"] + v["columns"])) - 3, _TRIANGLES, "Yoshimura 1955", True,
+    ),
+    Generator(
+        "waterbomb", "Waterbomb tessellation", triangulated.waterbomb, _TILES,
+        lambda v: int(4 * (v["rows"] + v["columns"])) - 5, _TRIANGLES, "Chen, Feng, Ma, Peng, You 2016", True,
+    ),
+    Generator(
+        "resch", "Resch's triangles", triangulated.resch,
+        (count("rows", 1, 1, 5, "of large triangles"), count("columns", 1, 1, 5, "of large triangles")),
+        lambda v: triangulated.freedoms_of_triangles(triangulated.resch(int(v["rows"]), int(v["columns"]))),
+        _TRIANGLES, "Resch 1968; Tachi 2013", True,
+    ),
+    Generator(
+        "square-twist", "Square twist", twists.square_twist,
+        (
+            angle("twist", 22.5, 5, 40, "of the middle square"),
+            length("radius", 0.35, 0.1, 0.5, "of the middle square's corners; the sheet has sides of 2"),
+        ),
+        lambda _: 1, "two vertices in either mode, as it is marked; not with all four alike",
+        "Evans, Lang, Magleby, Howell 2015", True,
+    ),
+    Generator(
+        "hexagon-twist", "Hexagon twist", twists.hexagon_twist,
+        (
+            count("other", 2, 1, 2, "vertices in the other mode; the twist follows"),
+            length("radius", 0.35, 0.1, 0.5, "of the middle hexagon's corners; the sheet's sides are at 1"),
+        ),
+        lambda _: 1, "the six multipliers make 1: sin(twist) = 1/4 for two vertices in the other mode",
+        "Evans, Lang, Magleby, Howell 2015", True,
+    ),
+    Generator(
+        "huffman-grid", "Huffman's grid", tessellations.huffman_grid,
+        (
+            *_MESH,
+            angle("first", 75, 70, 88, "angle of the quadrilateral"),
+            angle("second", 60, 56, 68, "angle beside it"),
+            length("side", 1.0, 0.8, 1.2, "at the first angle; the side between both is 1"),
+        ),
+        lambda _: 1, "all vertices fold alike", "Huffman 1976; Kokotsakis 1933; Stachel 2010", True,
+    ),
+    Generator(
+        "kresling", "Storey of Kresling's pattern", tubes.kresling,
+        (
+            count("sides", 6, 4, 24, "of the polygons"),
+            count("ends", 0, 0, 2, "polygons that are panels"),
+            angle("turn", 20, 5, 60, "of the upper polygon against the lower"),
+            length("height", 0.8, 0.2, 3, "in radii of the polygons"),
+        ),
+        _of_storey,
+        "open ends: 2 sides - 6; a polygon that is a panel: none, but 1 if the other is open, sides are even "
+        "and turn is half a side", "Kresling 1996",
+    ),
+    Generator(
+        "map", "Map", tessellations.map_sheet,
+        (
+            *_MESH,
+            length("width", 1.3, 0.1, 10, "of a panel"),
+            length("height", 1.0, 0.1, 10, "of a panel"),
+        ),
+        lambda v: int(v["columns"]) - 1, "across its columns, as it is marked; across its rows, rows - 1",
+        "vertices of four creases in two lines", True,
+    ),
+    Generator(
+        "chickenwire", "Chicken wire", tessellations.chickenwire,
+        (*_MESH, _SECTOR, length("straight", 2.0, 1.1, 10, "middle line of a panel; its legs are 1")),
+        lambda _: 1, "on the way that is marked; the straight lines fold alone on another",
+        "Evans, Lang, Magleby, Howell 2015", True,
+    ),
+    Generator(
+        "waterbomb-base", "Waterbomb base", bases.waterbomb_base, (), lambda _: 3, "six creases at a vertex",
+        "a spherical loop of six", True,
+    ),
+    Generator(
+        "preliminary-base", "Preliminary base", bases.preliminary_base, (), lambda _: 5,
+        "eight creases at a vertex", "a spherical loop of eight", True,
+    ),
+    Generator(
+        "bird-base", "Bird base", bases.bird_base, (), lambda _: 5,
+        "on each of its 16 ways; the tips are at 2 - sqrt(2) of half the side", "tradition", True,
+    ),
+)  # fmt: skip

@@ -1,0 +1,128 @@
+"""What a generator made, with what is known of it. Theory: docs/theory/generators.md."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import degrees
+from typing import Any
+
+from graphs.answer.mechanisms import mobility
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+from graphs.printing import Block, html_of, text_of
+from synth.patterns.catalogue import GENERATORS
+from synth.patterns.folded import folded
+from synth.patterns.generator import FOLD, Generator
+
+__all__ = ["Generated", "generate"]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Generated:
+    """A mechanism of a generator.
+
+    It prints as ``synth generate`` does.
+
+    Attributes
+    ----------
+    generator : Generator
+    values : mapping of str to float
+        Of all parameters; radians.
+    fold : float or None
+        How far it is folded, radians; None as it is made.
+    mechanism : Sheet or HingedSolids
+    freedoms : int
+        Of finite motion, as the source says.
+    count : int or None
+        Mobility by count of a general member of its type.
+    """
+
+    generator: Generator
+    values: Mapping[str, float]
+    fold: float | None
+    mechanism: Sheet | HingedSolids
+    freedoms: int
+    count: int | None
+
+    @property
+    def overconstraint(self) -> int | None:
+        """Freedoms beyond the count, h."""
+        return None if self.count is None else self.freedoms - self.count
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        units = {parameter.name: parameter.unit for parameter in self.generator.parameters}
+        return {
+            "name": self.generator.name,
+            "parameters": {
+                name: degrees(value) if units[name] == "angle" else value for name, value in self.values.items()
+            },
+            "fold_deg": None if self.fold is None else degrees(self.fold),
+            "freedoms": self.freedoms,
+            "count": self.count,
+            "h": self.overconstraint,
+            "conditions": self.generator.conditions,
+            "source": self.generator.source,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        with_values = ", ".join(
+            f"{one.name} {one.told(self.values[one.name])}" for one in self.generator.parameters
+        )
+        lines: list[Block] = [f"{self.generator.title}: {with_values}" if with_values else self.generator.title]
+        if self.fold is not None:
+            lines.append(f"folded to {degrees(self.fold):g} degrees")
+        count = "not known" if self.count is None else f"{self.count}, h = {self.overconstraint}"
+        lines.append(f"freedoms of finite motion {self.freedoms}, by its source; count of its type M = {count}")
+        return [*lines, f"conditions: {self.generator.conditions}", f"source: {self.generator.source}"]
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<Generated: {self.generator.name}, {self.mechanism!r}>"
+
+
+def generate(name: str, *, fold: float | None = None, **parameters: float) -> Generated:
+    """Make a known pattern or linkage by its parameters.
+
+    Parameters
+    ----------
+    name : str
+        One of `synth.patterns.GENERATORS`.
+    fold : float, optional
+        Fold angle of the crease that moves most, radians, of what is made flat; by default it stays flat.
+    **parameters
+        Those of the generator; lengths in any unit, angles in radians.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such generator or parameter, or a value is out of range.
+    UnsolvableError
+        If it cannot be folded, or not so far.
+
+    Examples
+    --------
+    >>> made = generate("miura", rows=3, columns=3)
+    >>> made.mechanism, made.freedoms, made.count, made.overconstraint
+    (<Sheet: 9 faces, 12 creases, 16 vertices, flat>, 1, 0, 1)
+    """
+    if name not in GENERATORS:
+        raise InvariantError("generator", f"{shown(name)} is no generator", ", ".join(GENERATORS))
+    generator = GENERATORS[name]
+    values = generator.values(parameters)
+    mechanism = generator.make(**values)
+    if fold is not None:
+        if not generator.foldable or not isinstance(mechanism, Sheet):
+            raise UnsolvableError(f"{name} is not made flat, and is not folded: its parameters say its pose")
+        fold = FOLD.checked(fold)
+        mechanism = folded(mechanism, fold)
+    counted = mobility(mechanism, exact=False, pose=False).mobility
+    return Generated(generator, values, fold, mechanism, generator.freedoms(values), counted)

@@ -1,0 +1,139 @@
+"""A generator: a function that makes a mechanism, its parameters with ranges, what its source says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import degrees, isfinite, radians
+from typing import Literal
+
+from graphs.errors import InvariantError, shown
+from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+
+__all__ = ["FOLD", "Generator", "Parameter", "Unit", "Values", "angle", "count", "length"]
+
+Unit = Literal["count", "length", "angle"]
+"""Counts are whole; lengths have any unit, the same for all of a mechanism; angles are radians."""
+
+Values = Mapping[str, float]
+_ROUNDING = 1e-9
+"""By so much an angle may pass the end of its range: degrees are rounded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One parameter of a generator.
+
+    Attributes
+    ----------
+    name : str
+    unit : {"count", "length", "angle"}
+    default, least, most : float
+        Both ends belong to the range; radians.
+    meaning : str
+    """
+
+    name: str
+    unit: Unit
+    default: float
+    least: float
+    most: float
+    meaning: str
+
+    def checked(self, value: float) -> float:
+        """Return a value that is in range; counts as whole numbers.
+
+        Raises
+        ------
+        InvariantError
+            If it is out of range, or a count is not whole.
+
+        Examples
+        --------
+        >>> count("rows", 3, 1, 9, "of panels").checked(12)
+        Traceback (most recent call last):
+        ...
+        graphs.errors.InvariantError: rows = 12; expected a whole number from 1 to 9 [parameter]
+        """
+        whole = self.unit != "count" or value == int(value) if isfinite(value) else False
+        if not whole or not self.least - _ROUNDING <= value <= self.most + _ROUNDING:
+            raise InvariantError("parameter", f"{self.name} = {self.told(value)}", self.range)
+        return int(value) if self.unit == "count" else float(value)
+
+    @property
+    def range(self) -> str:
+        """The range in words; angles in degrees."""
+        kind = "a whole number" if self.unit == "count" else "a number" if self.unit == "length" else "an angle"
+        return f"{kind} from {self.told(self.least)} to {self.told(self.most)}"
+
+    def told(self, value: float) -> str:
+        """Return a value as it is printed, with its unit."""
+        if self.unit == "angle":
+            return f"{degrees(value):.6g} degrees"
+        return f"{value:.6g}"
+
+
+def count(name: str, default: int, least: int, most: int, meaning: str) -> Parameter:
+    """Return a parameter that is a whole number."""
+    return Parameter(name, "count", default, least, most, meaning)
+
+
+def length(name: str, default: float, least: float, most: float, meaning: str) -> Parameter:
+    """Return a parameter that is a length."""
+    return Parameter(name, "length", default, least, most, meaning)
+
+
+def angle(name: str, default: float, least: float, most: float, meaning: str) -> Parameter:
+    """Return a parameter that is an angle, by its default and range in degrees."""
+    return Parameter(name, "angle", radians(default), radians(least), radians(most), meaning)
+
+
+@dataclass(frozen=True, slots=True)
+class Generator:
+    """How one kind of mechanism is made, and what is known of it.
+
+    Attributes
+    ----------
+    name : str
+        By which it is asked for.
+    title : str
+    make : callable
+        Takes the parameters by name; gives a sheet, or solids hinged at edges.
+    parameters : tuple of Parameter
+    freedoms : callable
+        Takes the values of the parameters; gives the freedoms of finite motion, as the source says.
+    conditions : str
+        When these are the freedoms: the way that is meant, what the proportions must obey.
+    source : str
+    foldable : bool
+        Whether it is flat, and can be had folded to an angle.
+    """
+
+    name: str
+    title: str
+    make: Callable[..., Sheet | HingedSolids]
+    parameters: tuple[Parameter, ...]
+    freedoms: Callable[[Values], int]
+    conditions: str
+    source: str
+    foldable: bool = False
+
+    def values(self, given: Values) -> dict[str, float]:
+        """Return all parameters, defaults where none are given, each in its range.
+
+        Raises
+        ------
+        InvariantError
+            If a parameter is not known or out of range.
+        """
+        known = {parameter.name for parameter in self.parameters}
+        for name in given:
+            if name not in known:
+                told = f"{self.name} has no parameter {shown(name)}"
+                raise InvariantError("parameter", told, ", ".join(sorted(known)) or "none: it has no parameters")
+        return {one.name: one.checked(given.get(one.name, one.default)) for one in self.parameters}
+
+
+FOLD = Parameter("fold", "angle", 0.0, radians(0.5), radians(170.0), "of the crease that moves most")
+"""How far what is foldable is folded."""

@@ -1,0 +1,1 @@
+"""What is made of card, by its parameters: pop-ups and cartons."""

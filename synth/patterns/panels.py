@@ -1,0 +1,93 @@
+"""Sheets made of panels: corners at one place are one vertex, sides are listed with their letters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+
+from graphs.mechanism.sheet import Sheet, sides_of_face
+
+__all__ = ["Corners", "Place", "rounded", "sheet_of_faces", "sheet_of_panels"]
+
+Place = tuple[float, ...]
+Corners = Sequence[Place]
+
+_SAME = 12
+"""Corners are one vertex if they agree to so many decimals."""
+_NONE: Mapping[frozenset[int], str] = MappingProxyType({})
+
+
+def sheet_of_panels(
+    panels: Sequence[Corners], title: str = "", letters: Mapping[frozenset[int], str] = {}
+) -> Sheet:
+    """Return the sheet of panels given by the places of their corners; corners at one place are one vertex.
+
+    Parameters
+    ----------
+    panels : sequence of sequences of (x, y) or (x, y, z)
+    title : str, optional
+    letters : mapping of a pair of vertices to an assignment, optional
+        Vertices are numbered as they come; creases that have none are unassigned.
+
+    Examples
+    --------
+    >>> sheet_of_panels([[(0, 0), (1, 0), (1, 1)], [(0, 0), (1, 1), (0, 1)]]).assignments
+    'BBUBB'
+    """
+    number: dict[Place, int] = {}
+    places: list[Place] = []
+    faces = []
+    for panel in panels:
+        face = []
+        for place in panel:
+            near = tuple(round(x, _SAME) + 0.0 for x in place)
+            if near not in number:
+                number[near] = len(number)
+                places.append(tuple(place))
+            face.append(number[near])
+        faces.append(tuple(face))
+    return sheet_of_faces(places, faces, title, letters)
+
+
+def sheet_of_faces(
+    places: Sequence[Place],
+    faces: Sequence[tuple[int, ...]],
+    title: str = "",
+    letters: Mapping[frozenset[int], str] = _NONE,
+) -> Sheet:
+    """Return a sheet with every side of its faces listed; sides of two faces are creases.
+
+    Parameters
+    ----------
+    places : sequence of (x, y) or (x, y, z)
+    faces : sequence of vertex cycles
+    title : str, optional
+    letters : mapping of a pair of vertices to an assignment, optional
+        Creases that have none are unassigned.
+
+    Examples
+    --------
+    >>> places = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> sheet_of_faces(places, [(0, 1, 2), (0, 2, 3)], letters={frozenset((0, 2)): "V"}).assignments
+    'BBVBB'
+    """
+    sides: dict[frozenset[int], int] = {}
+    for face in faces:
+        for side in sides_of_face(face):
+            sides[frozenset(side)] = sides.get(frozenset(side), 0) + 1
+    edges = tuple((min(side), max(side)) for side in sides)
+    marks = "".join(letters.get(side, "U") if number > 1 else "B" for side, number in sides.items())
+    return Sheet(len(places), edges, marks, tuple(faces), tuple(map(tuple, places)), title)
+
+
+def rounded(sheet: Sheet, digits: int) -> Sheet:
+    """Return a sheet with so many decimals of its coordinates.
+
+    Examples
+    --------
+    >>> rounded(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1 / 3, 0), (0, 1))), 2).coordinates
+    ((0.0, 0.0), (0.33, 0.0), (0.0, 1.0))
+    """
+    assert sheet.coordinates is not None
+    return replace(sheet, coordinates=tuple(tuple(round(x, digits) + 0.0 for x in p) for p in sheet.coordinates))
