@@ -40,6 +40,8 @@ class Look:
     ----------
     colour : str
         What the colours of creases tell, one of `COLOURINGS`.
+    branch : int, str or None
+        With ``colour="branch"``, which one: its number or its signs; None: the one that suits the letters.
     numbers : bool
         Whether links and joints have their numbers.
     graph : bool
@@ -51,6 +53,7 @@ class Look:
     """
 
     colour: str = "letters"
+    branch: int | str | None = None
     numbers: bool = True
     graph: bool = False
     box: tuple[float, float] = (COLUMN, COLUMN)
@@ -62,13 +65,13 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
 
     Parameters
     ----------
-    thing : SCGraph, SCDGraph, Sheet, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString or networkx
-    graph kind : {"pattern", "folded", "chain", "graph", "model"}, optional
+    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString, networkx graph
+    kind : {"pattern", "folded", "chain", "graph", "model"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
         the centres, vertices and rods. Without it what suits the thing: a sheet is a pattern or folded, as it
         lies; a graph whose centres nobody gave is a chain.
     **look
-        Fields of `Look`: ``colour``, ``numbers``, ``graph``, ``box``, ``caption``.
+        Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
     Returns
     -------
@@ -80,7 +83,7 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
     InvariantError
         If the kind or the colouring is not known.
     UnsolvableError
-        If the thing cannot be drawn so.
+        If the thing cannot be drawn so, or is to be drawn otherwise than as a pattern and in colours of one.
 
     Examples
     --------
@@ -92,6 +95,10 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
     if kind not in KINDS:
         raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
     how = Look(**look)
+    if kind != "pattern" and (how.colour != "letters" or how.branch is not None or how.graph):
+        raise UnsolvableError(
+            f"colourings, branches and the graph over it are of a pattern; this is drawn as {kind}"
+        )
     if isinstance(thing, ChainString):
         return strip_scene(thing, box=how.box, caption=how.caption)
     return KINDS[kind](thing, how)
@@ -115,6 +122,7 @@ def _pattern(thing: Any, look: Look) -> Scene:
     return crease_scene(
         _sheet(thing),
         colour=look.colour,
+        branch=look.branch,
         numbers=look.numbers,
         graph=look.graph,
         box=look.box,
