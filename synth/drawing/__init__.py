@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from synth.drawing.figure import new_figure as new_figure
     from synth.drawing.figure import save_figure as save_figure
     from synth.drawing.mechanisms.pictures import draw as draw
-    from synth.drawing.panels import draw_poses as draw_poses
-    from synth.drawing.panels import save_moving_poses as save_moving_poses
+    from synth.drawing.mechanisms.poses import save_moving_poses as save_moving_poses
+    from synth.drawing.mechanisms.poses import strip_of_poses as strip_of_poses
     from synth.drawing.scene.shapes import Scene as Scene
     from synth.drawing.scene.svg import svg_text as svg_text
     from synth.drawing.scene.writing import save_scene as save_scene
@@ -30,8 +30,8 @@ else:
         {
             "conformed": "draw_conformed",
             "figure": "check_picture new_figure save_figure",
-            "panels": "draw_poses save_moving_poses",
             "synth.drawing.mechanisms.pictures": "draw",
+            "synth.drawing.mechanisms.poses": "save_moving_poses strip_of_poses",
             "synth.drawing.scene.shapes": "Scene",
             "synth.drawing.scene.svg": "svg_text",
             "synth.drawing.scene.writing": "save_scene",

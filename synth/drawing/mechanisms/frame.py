@@ -16,7 +16,7 @@ COLUMN = 340.0
 """The width of a picture at most, points: it fits a page with margins, and a half of it is a column."""
 _MARGIN = 16.0
 _LINE = 1.5 * SMALL
-_LETTERS, _LONGEST = 80, 320
+_LETTERS, _LONGEST = 84, 336
 """Letters of a line below a picture, which is as wide as a picture at most; letters of a text of several lines."""
 
 

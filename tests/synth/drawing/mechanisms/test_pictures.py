@@ -15,7 +15,7 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
-from synth.drawing.mechanisms.space import drawn_order
+from synth.drawing.mechanisms.view import drawn_order
 from synth.drawing.scene.shapes import Disc, Line
 from synth.drawing.scene.svg import svg_text
 
