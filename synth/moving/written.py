@@ -8,9 +8,9 @@ from graphs.errors import FileError
 from graphs.files.atomic import check_place, write_text
 from graphs.files.patterns.fold_poses import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
-from synth.drawing.mechanisms.poses import save_moving_poses, strip_of_poses
 from synth.drawing.scene.raster import check_matplotlib
 from synth.drawing.scene.writing import save_scene
+from synth.drawing.space.poses import save_moving_poses, strip_of_poses
 from synth.folding.motion import Folding
 
 __all__ = ["check_output", "write_folding"]

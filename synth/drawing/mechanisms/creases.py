@@ -18,11 +18,11 @@ from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.motions import Doing, Motions, motions_by_verdict, motions_on_branch
 from synth.drawing.mechanisms.sc_graphs import class_numbers
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
+from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
 

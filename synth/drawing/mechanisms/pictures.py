@@ -19,10 +19,10 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
-from synth.drawing.mechanisms.frame import COLUMN
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene
 from synth.drawing.mechanisms.strips import strip_scene
+from synth.drawing.scene.frame import COLUMN
 from synth.drawing.scene.shapes import Scene
 
 __all__ = ["COLOURINGS", "KINDS", "Look", "draw"]

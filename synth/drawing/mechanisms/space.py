@@ -16,12 +16,12 @@ from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.layout.mechanisms import layout_of
-from synth.drawing.mechanisms.frame import COLUMN, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.mechanisms.panels import panel_shapes, panels_of
-from synth.drawing.mechanisms.view import view_from_above
+from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of
 from synth.drawing.scene.palette import NORMAL, SMALL, STRONG
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.space.panels import panel_shapes, panels_of
+from synth.drawing.space.view import view_from_above
 
 __all__ = ["folded_scene", "model_scene", "points_in_space"]
 

@@ -15,9 +15,9 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
-from synth.drawing.mechanisms.view import drawn_order
 from synth.drawing.scene.shapes import Disc, Line
 from synth.drawing.scene.svg import svg_text
+from synth.drawing.space.view import drawn_order
 
 DATA = Path(__file__).resolve().parents[4] / "data"
 FILES = [*sorted(DATA.rglob("*.fold")), *sorted(DATA.rglob("*.json"))]

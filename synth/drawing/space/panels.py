@@ -12,9 +12,9 @@ from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
-from synth.drawing.mechanisms.view import View, drawn_order
 from synth.drawing.scene.palette import FINE, NORMAL
 from synth.drawing.scene.shapes import Line, Point, Polygon, Shape
+from synth.drawing.space.view import View, drawn_order
 
 __all__ = ["Panels", "front_up", "panel_shapes", "panels_of", "same_side_up"]
 
@@ -102,7 +102,7 @@ def front_up(panels: Panels, points: Floats, view: View) -> Panels:
 
     Examples
     --------
-    >>> from synth.drawing.mechanisms.view import view_of_motion
+    >>> from synth.drawing.space.view import view_of_motion
     >>> corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.0]])
     >>> panels = panels_of(Sheet(3, (), "", ((0, 2, 1),)))
     >>> front_up(panels, corners, view_of_motion(corners)).faces

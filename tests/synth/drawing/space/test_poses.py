@@ -10,9 +10,9 @@ from PIL import Image
 from graphs.errors import FileError
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.mechanisms.panels import same_side_up
-from synth.drawing.mechanisms.poses import pose_scenes, save_moving_poses, strip_of_poses
 from synth.drawing.scene.shapes import Polygon
+from synth.drawing.space.panels import same_side_up
+from synth.drawing.space.poses import pose_scenes, save_moving_poses, strip_of_poses
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
 ABOVE = SQUARE + np.array([0, 0, 0.2])

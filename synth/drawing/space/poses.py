@@ -13,13 +13,13 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.files.atomic import Beside
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.mechanisms.frame import Frame, framed, page_of
-from synth.drawing.mechanisms.panels import front_up, panel_shapes, panels_of
-from synth.drawing.mechanisms.view import view_of_motion
+from synth.drawing.scene.frame import Frame, framed, page_of
 from synth.drawing.scene.moving import moved
 from synth.drawing.scene.palette import SMALL
 from synth.drawing.scene.raster import pixels
 from synth.drawing.scene.shapes import Label, Layer, Scene
+from synth.drawing.space.panels import front_up, panel_shapes, panels_of
+from synth.drawing.space.view import view_of_motion
 
 __all__ = ["pose_scenes", "save_moving_poses", "strip_of_poses"]
 
