@@ -22,6 +22,8 @@ __all__ = ["check_matplotlib", "pixels", "png_bytes"]
 
 _INCH = 72
 _HALO = 0.3
+_PACKED = 3
+"""Of nine: files a tenth larger in a third of the time."""
 _MIDDLE = 0.36
 """Of the height of letters: from the line they stand on to the middle of figures and capitals."""
 
@@ -66,7 +68,7 @@ def png_bytes(scene: Scene, *, paper: str = "light", dots: float = 200) -> bytes
     from PIL import Image
 
     stream = BytesIO()
-    Image.fromarray(found).save(stream, "PNG", dpi=(dots, dots))
+    Image.fromarray(found).save(stream, "PNG", dpi=(dots, dots), compress_level=_PACKED)
     return stream.getvalue()
 
 

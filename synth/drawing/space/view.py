@@ -9,7 +9,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 
-__all__ = ["View", "drawn_order", "view_from_above", "view_of_motion"]
+__all__ = ["View", "drawn_order", "view_from", "view_from_above", "view_of_motion"]
 
 _EYE = np.array([0.40, 0.62, 0.68])
 """Where the eye is, along the axes in which the thing is long, less long, and short."""
@@ -41,7 +41,19 @@ class View:
         return np.asarray(points @ self.towards)
 
 
-def _view(towards: Floats, upright: Floats) -> View:
+def view_from(towards: Floats, upright: Floats) -> View:
+    """Return the view from a direction, another one being upwards.
+
+    Parameters
+    ----------
+    towards, upright : float[3]
+        Of any length, not parallel.
+
+    Examples
+    --------
+    >>> view_from(np.array([0, 0, 1.0]), np.array([0, 2.0, 0])).right.tolist()
+    [1.0, 0.0, 0.0]
+    """
     towards = towards / np.linalg.norm(towards)
     up = upright - (upright @ towards) * towards
     up = up / np.linalg.norm(up)
@@ -61,7 +73,7 @@ def view_from_above(points: Floats) -> View:
     (3, 2)
     """
     axes, flat = _axes(points)
-    return _view(axes[2], axes[1]) if flat else _view(axes.T @ _EYE, axes[2])
+    return view_from(axes[2], axes[1]) if flat else view_from(axes.T @ _EYE, axes[2])
 
 
 def _axes(points: Floats) -> tuple[Floats, bool]:
@@ -95,7 +107,7 @@ def view_of_motion(points: Floats) -> View:
     ahead = np.eye(3)[int(np.abs(upright).argmin())]
     ahead = ahead - (ahead @ upright) * upright
     ahead = ahead / np.linalg.norm(ahead)
-    return _view(_ASLANT @ np.stack([ahead, np.cross(upright, ahead), upright]), upright)
+    return view_from(_ASLANT @ np.stack([ahead, np.cross(upright, ahead), upright]), upright)
 
 
 def drawn_order(places: Floats, near: Floats, faces: Sequence[Sequence[int]]) -> list[int]:
