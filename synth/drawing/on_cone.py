@@ -62,9 +62,9 @@ def cone_layer(chain: ConformedChain, t: Floats, laid: LinksInLayers, cone_angle
         row = page.row(np.concatenate([edges[0], edges[1][::-1]]))
         shapes.append(Polygon(row, colour_of_link(number), "paper", FINE, data=mark))
     for joint, axis in zip(chain.joints, joint_axes(t, cone_angle), strict=True):
-        mark = (("joint", str(joint)),)
-        shapes.append(Line(page.row(np.stack([np.zeros(3), 1.1 * axis])), "ink", NORMAL, data=mark))
-        shapes.append(Label(page.row(1.2 * axis[None])[0], str(joint), SMALL, widest=8, data=mark))
+        of = (("joint", str(joint)),)
+        shapes.append(Line(page.row(np.stack([np.zeros(3), 1.1 * axis])), "ink", NORMAL, data=of))
+        shapes.append(Label(page.row(1.2 * axis[None])[0], str(joint), SMALL, widest=8, data=of))
     title = f"cone of λ = {degrees(cone_angle):.4g}°, seen from the apex's side"
     shapes.append(Label((side / 2, SMALL), title, SMALL, "grey"))
     return Layer("cone", tuple(shapes))

@@ -11,7 +11,7 @@ import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, graph_of, to_sc
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -66,10 +66,10 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
     Parameters
     ----------
     thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString, networkx graph
-    kind : {"pattern", "folded", "chain", "graph", "model"}, optional
+    kind : {"pattern", "folded", "chain", "graph", "model", "cone"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
-        the centres, vertices and rods. Without it what suits the thing: a sheet is a pattern or folded, as it
-        lies; a graph whose centres nobody gave is a chain.
+        the centres, vertices and rods, a linkage on its circle and cone. Without it what suits the thing: a sheet
+        is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
     **look
         Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
@@ -146,6 +146,27 @@ def _sc_graph(thing: Any, look: Look) -> Scene:
     return sc_scene(scene_of, box=look.box, caption=look.caption)
 
 
+def _cone(thing: Any, look: Look) -> Scene:
+    """Return a linkage on the first of its cones, or say that it has none."""
+    if not isinstance(thing, ConicalLinkage):
+        raise UnsolvableError(
+            f"only a linkage given by its angles round a cone can be drawn so, and this is {thing!r}"
+        )
+    if min(look.box) < _SMALL:
+        raise UnsolvableError("a linkage on its cone needs a picture of its own: of many, chains can be drawn")
+    from synth.conformed.rates import ConformedChain
+    from synth.drawing.conformed import draw_conformed
+    from synth.surfaces.linkages import map_linkage
+
+    cones = map_linkage(thing).cones
+    if not cones:
+        raise UnsolvableError("the linkage closes on no cone; its chain can be drawn (--as chain)")
+    places = [cones[0].places[joint] for joint in thing.chain.joints]
+    chain = ConformedChain.of(thing.chain, thing.chain.ground)
+    title = look.caption or f"first of {numbered(len(cones), 'cone')}"
+    return draw_conformed(chain, places, cones[0].cone_angle, title)
+
+
 def _graph_of(thing: Any) -> Any:
     if isinstance(thing, ConicalLinkage):
         return thing.chain
@@ -167,6 +188,6 @@ def _sheet(thing: object) -> Sheet:
 
 
 KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
-    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model}
+    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model, "cone": _cone}
 )
 """Name of a kind of picture to what makes it."""

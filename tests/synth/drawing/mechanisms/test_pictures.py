@@ -175,6 +175,15 @@ def test_long_captions_are_broken_and_not_cut():
     assert " ".join(lines).startswith(words)
 
 
+def test_a_linkage_round_a_cone_lies_on_it():
+    linkage = read(DATA / "surfaces" / "fig11-stephenson.json")
+    scene = draw(linkage, "cone")
+    assert {"circle", "cone"} <= {layer.name for layer in scene.layers}
+    assert values(drawn(linkage, "cone"), "data-joint") == set(map(str, linkage.chain.joints))
+    with pytest.raises(UnsolvableError, match="only a linkage given by its angles"):
+        draw(read("k1:Cr"), "cone")
+
+
 def test_the_command_knows_all_kinds(tmp_path):
     from synth.cli.things import draw as command
 
