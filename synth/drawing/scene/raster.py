@@ -152,6 +152,7 @@ class _Painter:
     def _pen(self, colour: str | None, width: float) -> Any:
         pen = self.renderer.new_gc()
         pen.set_antialiased(True)
+        pen.set_snap(False)  # letters of straight strokes would be moved to whole pixels
         pen.set_capstyle("round")
         pen.set_joinstyle("round")
         pen.set_linewidth(0 if colour is None else width)  # points, as dashes are
