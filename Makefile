@@ -9,7 +9,7 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow check data clean help
+.PHONY: demo test test-slow check data pictures clean help
 
 help:
 	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
@@ -17,6 +17,7 @@ help:
 	@echo "make test-slow  the slow tests too, at their full sizes"
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
+	@echo "make pictures   make the pictures of README.md and docs/ anew"
 	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
 
 $(STAMP): pyproject.toml
@@ -70,6 +71,9 @@ check: $(STAMP)
 
 data: $(STAMP)
 	$(BIN)/python data/make.py
+
+pictures: $(STAMP)
+	@BIN=$(BIN) sh docs/pictures.sh
 
 clean:
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -17,7 +17,8 @@ from synth.candidates.job import CandidateJob
 from synth.conformed.layers import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
-from synth.drawing.figure import save_figure
+from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.writing import save_scene
 
 __all__ = ["PictureSink", "picture_of_row", "title_of_picture"]
 
@@ -26,19 +27,14 @@ _LAMBDA = np.radians(30.0)
 """Cone angle of the picture (radians) where the candidate has none of its own."""
 
 
-def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Any:
-    """Return a picture of a candidate, a matplotlib figure.
+def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Scene:
+    """Return a picture of a candidate.
 
     Parameters
     ----------
     job : CandidateJob
     row : dict
         Column to value. An order is drawn with joints, and opposites, evenly spaced.
-
-    Raises
-    ------
-    UnsolvableError
-        If matplotlib is not installed.
     """
     linkage = job.linkage(row)
     chain = ConformedChain.of(linkage.chain, linkage.chain.ground)
@@ -103,8 +99,8 @@ class PictureSink:
             self._number += 1
             if self._number > _MOST:
                 raise UnsolvableError(f"more than {_MOST} pictures: ask for fewer candidates")
-            figure = picture_of_row(self._job, row_as_dict(self._job.columns, row))
-            save_figure(figure, self._folder.path / f"{self._number:05d}.png")
+            scene = picture_of_row(self._job, row_as_dict(self._job.columns, row))
+            save_scene(scene, self._folder.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)
 
     def finish(self) -> None:

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from synth.drawing.figure import save_figure as save_figure
     from synth.drawing.foldings import write_folding as write_folding
     from synth.drawing.mechanisms.pictures import draw as draw
-    from synth.drawing.panels import draw_poses as draw_poses
-    from synth.drawing.panels import save_moving_poses as save_moving_poses
     from synth.drawing.scene.shapes import Scene as Scene
     from synth.drawing.scene.svg import svg_text as svg_text
     from synth.drawing.scene.writing import save_scene as save_scene
+    from synth.drawing.space.poses import save_moving_poses as save_moving_poses
+    from synth.drawing.space.poses import strip_of_poses as strip_of_poses
     from synth.drawing.sphere import draw_hoop as draw_hoop
     from synth.drawing.sphere import draw_map as draw_map
     from synth.drawing.sums import draw_loop_sums as draw_loop_sums
@@ -32,8 +32,8 @@ else:
             "conformed": "draw_conformed",
             "figure": "check_picture new_figure save_figure",
             "foldings": "write_folding",
-            "panels": "draw_poses save_moving_poses",
             "synth.drawing.mechanisms.pictures": "draw",
+            "synth.drawing.space.poses": "save_moving_poses strip_of_poses",
             "synth.drawing.scene.shapes": "Scene",
             "synth.drawing.scene.svg": "svg_text",
             "synth.drawing.scene.writing": "save_scene",

@@ -8,13 +8,15 @@ from graphs.errors import FileError
 from graphs.files.atomic import check_place, write_text
 from graphs.files.patterns.fold_poses import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
-from synth.drawing.figure import new_figure, save_figure
-from synth.drawing.panels import draw_poses, save_moving_poses
+from synth.drawing.scene.raster import check_matplotlib
+from synth.drawing.scene.writing import save_scene
+from synth.drawing.space.poses import save_moving_poses, strip_of_poses
 from synth.folding.motion import Folding
 
 __all__ = ["check_output", "write_folding"]
 
-_PICTURES = (".gif", ".png")
+_STRIPS = (".png", ".svg")
+_PIXELS = (".gif", ".png")
 
 
 def check_output(path: str | Path, *, force: bool = False) -> None:
@@ -25,15 +27,15 @@ def check_output(path: str | Path, *, force: bool = False) -> None:
     FileError
         If the extension is not known, or something is there already.
     UnsolvableError
-        If it is of a picture, and matplotlib is not installed.
+        If it is of pixels (.gif, .png), and matplotlib is not installed.
     """
     path = Path(path)
     suffix = path.suffix.lower()
-    if suffix not in (".fold", ".obj", *_PICTURES):
-        known = ".fold, .obj for a series, .gif, or .png for a strip"
+    if suffix not in (".fold", ".obj", ".gif", *_STRIPS):
+        known = ".fold, .obj for a series, .gif, or .png or .svg for a strip"
         raise FileError(path, "", f"files ending in {suffix!r} cannot hold a folding", known)
-    if suffix in _PICTURES:
-        new_figure(1.0, 1.0)
+    if suffix in _PIXELS:
+        check_matplotlib()
     check_place(_of_series(path, 0) if suffix == ".obj" else path, force=force)
 
 
@@ -45,7 +47,7 @@ def write_folding(folding: Folding, path: str | Path, *, force: bool = False) ->
     folding : Folding
     path : str or Path
         ``.fold``: one file, its frames the poses. ``.obj``: a file for each pose, numbered from 000. ``.gif``: a
-        moving picture. ``.png``: a strip of at most twelve poses.
+        moving picture. ``.png``, ``.svg``: a strip of at most twelve poses.
     force : bool, optional
         Replace files that are there.
 
@@ -59,15 +61,15 @@ def write_folding(folding: Folding, path: str | Path, *, force: bool = False) ->
     FileError
         If the extension is not known, or a file cannot be written or is there already.
     UnsolvableError
-        If it is of a picture, and matplotlib is not installed.
+        If it is of pixels (.gif, .png), and matplotlib is not installed.
     """
     path = Path(path)
     check_output(path, force=force)
     if path.suffix.lower() == ".gif":
-        save_moving_poses(folding.sheet.faces, folding.places, path, force=force)
+        save_moving_poses(folding.sheet, folding.places, path, force=force)
         return [path]
-    if path.suffix.lower() == ".png":
-        save_figure(draw_poses(folding.sheet.faces, folding.places), path, force=force)
+    if path.suffix.lower() in _STRIPS:
+        save_scene(strip_of_poses(folding.sheet, folding.places), path, force=force)
         return [path]
     poses = folding.frames()
     if path.suffix.lower() == ".fold":

@@ -105,13 +105,11 @@ def _map_file(
             raise click.UsageError("there is no cone to draw")
         from synth.conformed.rates import ConformedChain
         from synth.drawing.conformed import draw_conformed
-        from synth.drawing.figure import save_figure
+        from synth.drawing.scene.writing import save_scene
 
         first = found.cones[0]
         places = [first.places[joint] for joint in linkage.chain.joints]
-        save_figure(
-            draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output, force=force
-        )
+        save_scene(draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output, force=force)
     if as_json:
         print_json(found.to_json())
     else:
@@ -168,10 +166,10 @@ def behaviour_command(
         if not found:
             raise click.UsageError("there is no cone to draw")
         from synth.drawing.conformed import draw_conformed
-        from synth.drawing.figure import save_figure
+        from synth.drawing.scene.writing import save_scene
 
         first = found[0]
-        save_figure(draw_conformed(first.chain, first.places, first.cone_angle), output, force=force)
+        save_scene(draw_conformed(first.chain, first.places, first.cone_angle), output, force=force)
     if as_json:
         print_json({"linkages": [linkage.to_json() for linkage in found]})
     else:

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 __all__ = ["draw"]
 
-_KINDS = ("pattern", "folded", "chain", "graph", "model")
+_KINDS = ("pattern", "folded", "chain", "graph", "model", "cone")
 _PATIENCE = 2.0
 """Seconds between two words on how far a catalogue has come."""
-_COLOURS = ("letters", "verdict", "centres", "none")
+_COLOURS = ("letters", "verdict", "branch", "centres", "none")
 
 
 @click.command(short_help="Draw a crease pattern, a chain, an SC or SCD graph, a model.")
@@ -37,8 +37,10 @@ _COLOURS = ("letters", "verdict", "centres", "none")
 )
 @click.option(
     "--colour", type=click.Choice(_COLOURS), default="letters", show_default=True,
-    help="What colours of a crease pattern tell: letters of the file, what moves, classes of centres, nothing.",
+    help="What colours of a crease pattern tell: letters of the file, what moves, how it begins to fold on a "
+    "branch, classes of centres, nothing.",
 )  # fmt: skip
+@click.option("--branch", metavar="K", help="With --colour branch: its number, or its signs (see synth fold).")
 @click.option("--graph", is_flag=True, help="Draw the SC graph over a crease pattern.")
 @click.option("--numbers/--no-numbers", default=True, show_default=True, help="Numbers of links and joints.")
 @click.option("--paper", type=click.Choice(["light", "dark"]), default="light", show_default=True)
@@ -53,8 +55,9 @@ def draw(
     """Draw the mechanism of a file, or of an id; or all those of a store, a list or a folder, on pages.
 
     KIND is pattern (a crease pattern in its plane), folded (a folded sheet in space), chain (links as bodies,
-    joints as small circles), graph (an SC or SCD graph, with the signs of the centres) or model (vertices and
-    rods). Numbers are those that messages and JSON use; in SVG, shapes carry them as data-link and data-joint.
+    joints as small circles), graph (an SC or SCD graph, with the signs of the centres), model (vertices and rods)
+    or cone (a linkage round a cone, on the first of its cones). Numbers are those that messages and JSON use; in
+    SVG, shapes carry them as data-link and data-joint.
 
     Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder a catalogue is made, 24 pictures a
     page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
@@ -63,6 +66,7 @@ def draw(
     Examples:
       synth draw data/patterns/bird-base.fold -o bird-base.svg
       synth draw data/patterns/bird-base.fold --graph --colour centres -o bird-base.pdf
+      synth draw data/patterns/bird-base.fold --colour branch --branch 1 -o bird-base.svg
       synth draw data/wiener/fortune-teller.json -o graph.png
       synth draw k1:Cr -o four-bar.svg
       synth draw chains.sqlite -o catalogue.pdf --where symmetry=2.. --where planar=1
@@ -79,6 +83,8 @@ def draw(
     from synth.drawing.mechanisms import pictures
     from synth.drawing.scene.writing import save_scene
 
+    if look["branch"] is not None and look["branch"].isdigit():
+        look["branch"] = int(look["branch"])
     thing = read(file)
     with about(file):
         scene = pictures.draw(thing, kind, **look)

@@ -32,7 +32,7 @@ __all__ = ["fold"]
     "-o",
     "--output",
     metavar="OUT",
-    help="Write the poses: .fold with frames, a series of .obj files, .gif, or .png (a strip).",
+    help="Write the poses: .fold with frames, a series of .obj files, .gif, or .png, .svg (a strip).",
 )
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")

@@ -8,9 +8,9 @@ from math import hypot
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import joint_dot
+from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.scene.palette import NORMAL, SMALL
 from synth.drawing.scene.shapes import Label, Layer, Line, Point, Polygon, Scene, Shape
 

@@ -13,23 +13,24 @@ from dataclasses import dataclass
 from statistics import median
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
+from synth.drawing.mechanisms.motions import Doing, Motions, motions_by_verdict, motions_on_branch
 from synth.drawing.mechanisms.sc_graphs import class_numbers
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
-from synth.drawing.mechanisms.verdicts import Stillness, stillness_of
+from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
 
 __all__ = ["COLOURINGS", "crease_scene", "inside"]
 
-COLOURINGS = ("letters", "verdict", "centres", "none")
-"""What colours tell: letters of the file; what is still, and moves as one; the class of centres; nothing."""
+COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
+"""What colours tell: letters of the file; what is still, and moves as one; how creases begin to fold on a branch;
+the class of centres; nothing."""
 
 _LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
     "M": ("mountain", ()),
@@ -40,6 +41,15 @@ _LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
     "C": ("cut", (1.5, 2.0)),
     "B": ("ink", ()),
 }
+_DOINGS: Mapping[Doing, tuple[str, float, tuple[float, ...]]] = {
+    "moves": ("class1", 1.3, ()),
+    "still": ("grey", NORMAL, (1.0, 2.0)),
+    "unknown": ("unassigned", NORMAL, (6.0, 1.5, 1.0, 1.5)),
+    "mountain": ("mountain", 1.3, ()),
+    "valley": ("valley", 1.3, (4.0, 2.0)),
+    "later": ("unassigned", NORMAL, (6.0, 1.5, 1.0, 1.5)),
+}
+"""Colour, width and dash of what a crease does."""
 _WORDS = {"M": "mountain", "V": "valley", "U": "unassigned", "F": "flat", "J": "join", "C": "cut", "B": "border"}
 _LEAST_LETTERS = 2.2
 """Height of letters, points, below which numbers are left out: nobody reads them."""
@@ -55,7 +65,7 @@ class _Drawn:
     mechanism: SheetMechanism
     frame: Frame
     places: list[Point]
-    verdict: Stillness
+    motions: Motions
 
     def middle(self, edge: Sequence[int]) -> Point:
         (ax, ay), (bx, by) = (self.places[v] for v in edge)
@@ -66,6 +76,7 @@ def crease_scene(
     sheet: Sheet,
     *,
     colour: str = "letters",
+    branch: int | str | None = None,
     numbers: bool = True,
     graph: bool = False,
     box: tuple[float, float] = (COLUMN, COLUMN),
@@ -76,8 +87,10 @@ def crease_scene(
     Parameters
     ----------
     sheet : Sheet
-    colour : {"letters", "verdict", "centres", "none"}, optional
+    colour : {"letters", "verdict", "branch", "centres", "none"}, optional
         What the colours of creases tell; see `COLOURINGS`.
+    branch : int or str, optional
+        With the colouring by branch, which one: its number or signs; by default the one that suits the letters.
     numbers : bool, optional
         Write the numbers of links and joints.
     graph : bool, optional
@@ -92,7 +105,7 @@ def crease_scene(
     UnsolvableError
         If the sheet has no coordinates, or does not lie in a plane.
     InvariantError
-        If the colouring is not known.
+        If the colouring or the branch is not known, or a branch is given with another colouring.
 
     Examples
     --------
@@ -103,25 +116,32 @@ def crease_scene(
     """
     if colour not in COLOURINGS:
         raise InvariantError("colour", f"the colouring {shown(colour)} is not known", ", ".join(COLOURINGS))
+    if branch is not None and colour != "branch":
+        raise InvariantError("branch", f"the colouring {shown(colour)} shows none", "the colouring 'branch'")
     whole = with_all_edges(sheet)
     flat = flat_places(whole, "a picture of a crease pattern")
     extent = max(max(p[i] for p in flat) - min(p[i] for p in flat) for i in (0, 1)) if flat else 1.0
     frame = framed(flat, min(box) / (extent or 1.0), box)
     mechanism = mechanism_of_sheet(sheet)
-    verdict = stillness_of(sheet) if colour == "verdict" else Stillness()
-    drawn = _Drawn(whole, mechanism, frame, frame.row(flat), verdict)
+    drawn = _Drawn(whole, mechanism, frame, frame.row(flat), _motions(sheet, colour, branch))
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
     if graph:
         layers.append(Layer("graph", tuple(_graph(drawn))))
     if numbers:
         layers.append(Layer("labels", tuple(_labels(drawn, graph))))
-    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph)))
+    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph), drawn.motions.said))
+
+
+def _motions(sheet: Sheet, colour: str, branch: int | str | None) -> Motions:
+    if colour == "verdict":
+        return motions_by_verdict(sheet)
+    return motions_on_branch(sheet, branch) if colour == "branch" else Motions()
 
 
 def _panels(drawn: _Drawn) -> list[Shape]:
     link_of = {face: link for link, faces in enumerate(drawn.mechanism.panels) for face in faces}
     cluster_of: dict[LinkId, int] = {}
-    for number, links in enumerate(drawn.verdict.clusters):
+    for number, links in enumerate(drawn.motions.clusters):
         cluster_of.update(dict.fromkeys(links, number))
     found: list[Shape] = []
     for number, face in enumerate(drawn.sheet.faces):
@@ -150,11 +170,9 @@ def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
         elif colour == "letters":
             scaled = tuple(length * max(width, 0.6) for length in dash)
             found.append((0, Line(ends, name, NORMAL * width if letter in "MVU" else FINE, scaled, data)))
-        elif colour == "verdict" and joint is not None:
-            if joint in drawn.verdict.still:
-                found.append((0, Line(ends, "grey", NORMAL * width, (1.0, 2.0), data)))
-            else:
-                found.append((0, Line(ends, "class1", 1.3 * width, (), data)))
+        elif joint in drawn.motions.of:
+            name, thick, dash = _DOINGS[drawn.motions.of[joint]]
+            found.append((0, Line(ends, name, thick * width, dash, data)))
         elif colour != "centres" or joint is None:
             found.append((0, Line(ends, "grey" if joint is not None else "faint", FINE, (), data)))
         else:
@@ -245,7 +263,7 @@ def inside(row: Sequence[Point]) -> Point:
 def _labels(drawn: _Drawn, graph: bool) -> list[Label]:
     """Return the numbers of links, bold, in their panels, and of joints, beside the middles of their creases."""
     lengths = _lengths(drawn)
-    size = min(SMALL, 0.3 * median(lengths)) if lengths else SMALL
+    size = min(SMALL, 0.3 * median(lengths), _fitting(drawn, median(lengths))) if lengths else SMALL
     if size < _LEAST_LETTERS:
         return []
     wishes: list[tuple[Label, list[Point]]] = []
@@ -264,9 +282,17 @@ def _labels(drawn: _Drawn, graph: bool) -> list[Label]:
     return placed(wishes, Obstacles(points, lines))
 
 
+def _fitting(drawn: _Drawn, length: float) -> float:
+    """Return the height of letters at which the numbers of a link and of a joint fit beside each other."""
+    link = max(map(str, range(len(drawn.mechanism.panels))), key=len, default="")
+    joint = max(map(str, drawn.mechanism.hinges), key=len, default="")
+    return 0.8 * length / (text_width(link, 1.0) + text_width(joint, 0.85))
+
+
 def _said(drawn: _Drawn, colour: str, graph: bool) -> str:
     sc = drawn.mechanism.sc
-    said = f"{len(sc)} links, {len(sc.joints)} joints, {len(sc.centre_classes())} centres"
+    counts = ((len(sc), "link"), (len(sc.joints), "joint"), (len(sc.centre_classes()), "centre"))
+    said = ", ".join(numbered(number, word) for number, word in counts)
     if colour == "letters":
         there = [word for letter, word in _WORDS.items() if letter in drawn.sheet.assignments]
         looks = {
@@ -278,9 +304,6 @@ def _said(drawn: _Drawn, colour: str, graph: bool) -> str:
         }
         told = [f"{word} {looks[word]}" for word in there if word in looks]
         said += "; " + ", ".join(told) if told else ""
-    if colour == "verdict":
-        said += f"; {len(drawn.verdict.still)} creases still {drawn.verdict.known}: grey, dotted; others orange"
-        said += "; panels of one colour move as one" if drawn.verdict.still else ""
     if colour == "centres":
         said += "; half-creases in the colour of their centre's class"
     return said + ("; SC graph in black" if graph else "")

@@ -11,7 +11,7 @@ import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, graph_of, to_sc
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -19,10 +19,10 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
-from synth.drawing.mechanisms.frame import COLUMN
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene
 from synth.drawing.mechanisms.strips import strip_scene
+from synth.drawing.scene.frame import COLUMN
 from synth.drawing.scene.shapes import Scene
 
 __all__ = ["COLOURINGS", "KINDS", "Look", "draw"]
@@ -40,6 +40,8 @@ class Look:
     ----------
     colour : str
         What the colours of creases tell, one of `COLOURINGS`.
+    branch : int, str or None
+        With ``colour="branch"``, which one: its number or its signs; None: the one that suits the letters.
     numbers : bool
         Whether links and joints have their numbers.
     graph : bool
@@ -51,6 +53,7 @@ class Look:
     """
 
     colour: str = "letters"
+    branch: int | str | None = None
     numbers: bool = True
     graph: bool = False
     box: tuple[float, float] = (COLUMN, COLUMN)
@@ -62,13 +65,13 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
 
     Parameters
     ----------
-    thing : SCGraph, SCDGraph, Sheet, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString or networkx
-    graph kind : {"pattern", "folded", "chain", "graph", "model"}, optional
+    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString, networkx graph
+    kind : {"pattern", "folded", "chain", "graph", "model", "cone"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
-        the centres, vertices and rods. Without it what suits the thing: a sheet is a pattern or folded, as it
-        lies; a graph whose centres nobody gave is a chain.
+        the centres, vertices and rods, a linkage on its circle and cone. Without it what suits the thing: a sheet
+        is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
     **look
-        Fields of `Look`: ``colour``, ``numbers``, ``graph``, ``box``, ``caption``.
+        Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
     Returns
     -------
@@ -80,7 +83,7 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
     InvariantError
         If the kind or the colouring is not known.
     UnsolvableError
-        If the thing cannot be drawn so.
+        If the thing cannot be drawn so, or is to be drawn otherwise than as a pattern and in colours of one.
 
     Examples
     --------
@@ -92,6 +95,10 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
     if kind not in KINDS:
         raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
     how = Look(**look)
+    if kind != "pattern" and (how.colour != "letters" or how.branch is not None or how.graph):
+        raise UnsolvableError(
+            f"colourings, branches and the graph over it are of a pattern; this is drawn as {kind}"
+        )
     if isinstance(thing, ChainString):
         return strip_scene(thing, box=how.box, caption=how.caption)
     return KINDS[kind](thing, how)
@@ -115,6 +122,7 @@ def _pattern(thing: Any, look: Look) -> Scene:
     return crease_scene(
         _sheet(thing),
         colour=look.colour,
+        branch=look.branch,
         numbers=look.numbers,
         graph=look.graph,
         box=look.box,
@@ -138,6 +146,27 @@ def _sc_graph(thing: Any, look: Look) -> Scene:
     return sc_scene(scene_of, box=look.box, caption=look.caption)
 
 
+def _cone(thing: Any, look: Look) -> Scene:
+    """Return a linkage on the first of its cones, or say that it has none."""
+    if not isinstance(thing, ConicalLinkage):
+        raise UnsolvableError(
+            f"only a linkage given by its angles round a cone can be drawn so, and this is {thing!r}"
+        )
+    if min(look.box) < _SMALL:
+        raise UnsolvableError("a linkage on its cone needs a picture of its own: of many, chains can be drawn")
+    from synth.conformed.rates import ConformedChain
+    from synth.drawing.conformed import draw_conformed
+    from synth.surfaces.linkages import map_linkage
+
+    cones = map_linkage(thing).cones
+    if not cones:
+        raise UnsolvableError("the linkage closes on no cone; its chain can be drawn (--as chain)")
+    places = [cones[0].places[joint] for joint in thing.chain.joints]
+    chain = ConformedChain.of(thing.chain, thing.chain.ground)
+    title = look.caption or f"first of {numbered(len(cones), 'cone')}"
+    return draw_conformed(chain, places, cones[0].cone_angle, title)
+
+
 def _graph_of(thing: Any) -> Any:
     if isinstance(thing, ConicalLinkage):
         return thing.chain
@@ -159,6 +188,6 @@ def _sheet(thing: object) -> Sheet:
 
 
 KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
-    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model}
+    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model, "cone": _cone}
 )
 """Name of a kind of picture to what makes it."""

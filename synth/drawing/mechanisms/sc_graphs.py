@@ -22,9 +22,9 @@ from graphs.mechanism.rotation import trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
+from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.scene.palette import NORMAL, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape, text_width
 

@@ -7,64 +7,25 @@ first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.duality import mechanism_of_sheet
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import Sheet
 from synth.drawing.layout.mechanisms import layout_of
-from synth.drawing.mechanisms.frame import COLUMN, captions_of, framed, page_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
+from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of
+from synth.drawing.scene.palette import NORMAL, SMALL, STRONG
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.space.panels import panel_shapes, panels_of
+from synth.drawing.space.view import view_from_above
 
-__all__ = ["drawn_order", "folded_scene", "model_scene", "seen_from_above"]
+__all__ = ["folded_scene", "model_scene", "points_in_space"]
 
-_EYE = np.array([0.40, 0.62, 0.68])
-"""Where the eye is, along the axes in which the thing is long, less long, and short."""
-_THIN = 1e-9
-_LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink"}
 _MANY = 60
-
-
-@dataclass(frozen=True, slots=True)
-class _Seen:
-    """Places as they are seen: float[n, 2], x to the right and y upwards; and how near they are: float[n]."""
-
-    places: Floats
-    near: Floats
-
-
-def seen_from_above(points: Floats) -> _Seen:
-    """Return points as an eye far away sees them.
-
-    Parameters
-    ----------
-    points : float[n, 3]
-
-    Examples
-    --------
-    >>> seen_from_above(np.eye(3)).places.shape
-    (3, 2)
-    """
-    centred = points - points.mean(axis=0)
-    _, sizes, axes = np.linalg.svd(centred, full_matrices=False)
-    if len(axes) < 3:
-        axes, sizes = np.eye(3), np.ones(3)
-    axes = axes * np.where(axes[np.arange(3), np.abs(axes).argmax(axis=1)] < 0, -1.0, 1.0)[:, None]
-    if np.linalg.det(axes) < 0:
-        axes[1] = -axes[1]
-    flat = sizes[2] < 1e-6 * max(sizes[0], 1e-300)
-    eye = axes.T @ (np.array([0.0, 0.0, 1.0]) if flat else _EYE / np.linalg.norm(_EYE))
-    up = axes[1] if flat else axes[2] - (axes[2] @ eye) * eye
-    up = up / np.linalg.norm(up)
-    right = np.cross(up, eye)
-    return _Seen(centred @ np.column_stack([right, up]), centred @ eye)
 
 
 def folded_scene(
@@ -91,53 +52,25 @@ def folded_scene(
     >>> [layer.name for layer in folded_scene(roof).layers]
     ['panels', 'labels', 'caption']
     """
-    whole = with_all_edges(sheet)
-    if whole.coordinates is None:
+    if sheet.coordinates is None:
         raise UnsolvableError("a sheet without coordinates has no picture in space")
-    points = np.asarray(whole.coordinates, dtype=float)
-    points = np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
-    seen = seen_from_above(points)
-    extent = float(np.ptp(seen.places, axis=0).max()) or 1.0
-    frame = framed(seen.places.tolist(), min(box) / extent, box)
-    page = frame.row(seen.places.tolist())
-    mechanism = mechanism_of_sheet(sheet)
-    link_of = {face: link for link, faces in enumerate(mechanism.panels) for face in faces}
-    joint_of = {frozenset(edge): joint for joint, edges in mechanism.pieces.items() for edge in edges}
-    letters = {frozenset(edge): letter for edge, letter in zip(whole.edges, whole.assignments, strict=True)}
-    shapes: list[Shape] = []
-    visible: dict[int, list[Point]] = {}
-    for face in drawn_order(seen.places, seen.near, whole.faces):
-        row = whole.faces[face]
-        data = (
-            (
-                "link",
-                str(link_of.get(face, "")),
-            ),
-        )
-        light = _light(points[list(row)])
-        shapes.append(Polygon([page[v] for v in row], "ground", None, data=data))
-        shapes.append(Polygon([page[v] for v in row], "paper", None, opacity=light))
-        for a, b in zip(row, (*row[1:], row[0]), strict=True):
-            side = frozenset((a, b))
-            letter = letters.get(side, "B")
-            joint = joint_of.get(side)
-            mark = () if joint is None else (("joint", str(joint)),)
-            width = NORMAL if joint is not None else FINE
-            shapes.append(Line([page[a], page[b]], _LETTERS.get(letter, "grey"), width, data=mark))
-        visible[face] = [page[v] for v in row]
-    labels = _numbers(visible, link_of) if numbers and len(visible) <= _MANY else []
-    said = f"{len(mechanism.sc)} links, {len(mechanism.sc.joints)} joints; in space, seen from above"
+    points = points_in_space(sheet)
+    view, panels = view_from_above(points), panels_of(sheet)
+    seen = view.places(points)
+    extent = float(np.ptp(seen, axis=0).max()) or 1.0
+    frame = framed(seen.tolist(), min(box) / extent, box)
+    shapes, visible = panel_shapes(panels, points, view, frame.row(seen.tolist()))
+    labels = _numbers(visible, panels.link_of) if numbers and len(visible) <= _MANY else []
+    counts = (len(set(panels.link_of.values())), "link"), (len(set(panels.joint_of.values())), "joint")
+    said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, seen from above"
     layers = [Layer("panels", tuple(shapes)), Layer("labels", tuple(labels))]
     return page_of(frame, layers, captions_of(caption, said))
 
 
-def _light(corners: Floats) -> float:
-    """Return how light a panel is: by the angle at which it meets the light, from either side."""
-    normal = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
-    size = float(np.linalg.norm(normal))
-    if size < _THIN:
-        return 0.5
-    return 0.15 + 0.75 * abs(float(normal @ np.array([0.35, -0.45, 0.82]))) / size
+def points_in_space(sheet: Sheet) -> Floats:
+    """Return the places of the vertices, float[n, 3]; z is 0 where the coordinates have none."""
+    points = np.asarray(sheet.coordinates, dtype=float)
+    return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
 
 
 def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, int]) -> list[Label]:
@@ -162,61 +95,6 @@ def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, int]) -> 
     return placed(wishes, Obstacles([], []))
 
 
-def drawn_order(places: Floats, near: Floats, faces: Sequence[Sequence[int]]) -> list[int]:
-    """Return the faces in the order in which they are drawn: what is behind first.
-
-    Parameters
-    ----------
-    places : float[n, 2]
-        The vertices as they are seen.
-    near : float[n]
-        How near each is to the eye.
-    faces : sequence of vertex cycles
-
-    Examples
-    --------
-    Two squares, the second nearer:
-
-    >>> places = np.array([[0, 0], [1, 0], [1, 1], [0, 1]] * 2, dtype=float)
-    >>> drawn_order(places, np.array([5.0] * 4 + [7.0] * 4), [(4, 5, 6, 7), (0, 1, 2, 3)])
-    [1, 0]
-    """
-    from shapely import STRtree
-    from shapely.geometry import Polygon as Area
-
-    areas = [Area(places[list(face)]).buffer(0) for face in faces]
-    behind: dict[int, set[int]] = {i: set() for i in range(len(faces))}
-    least = 1e-6 * float(np.ptp(places, axis=0).max() or 1.0) ** 2
-    for a, b in zip(*STRtree(areas).query(areas, predicate="intersects"), strict=True):
-        if a >= b:
-            continue
-        common = areas[a].intersection(areas[b])
-        if common.area <= least:
-            continue
-        spot = common.representative_point()
-        at = np.array([spot.x, spot.y])
-        heights = [_height(at, places[list(faces[i])], near[list(faces[i])]) for i in (a, b)]
-        if abs(heights[0] - heights[1]) > 1e-9 * max(1.0, abs(heights[0])):
-            front, back = (int(a), int(b)) if heights[0] > heights[1] else (int(b), int(a))
-            behind[front].add(back)
-    order: list[int] = []
-    left = sorted(behind, key=lambda i: (float(near[list(faces[i])].mean()), i))
-    done: set[int] = set()
-    while left:
-        ready = next((i for i in left if behind[i] <= done), left[0])
-        left.remove(ready)
-        done.add(ready)
-        order.append(ready)
-    return order
-
-
-def _height(at: Floats, corners: Floats, near: Floats) -> float:
-    """Return how near a panel is to the eye at a place, by the plane through its corners."""
-    terms = np.column_stack([corners, np.ones(len(corners))])
-    plane = np.linalg.lstsq(terms, near, rcond=None)[0]
-    return float(plane @ np.array([*at, 1.0]))
-
-
 def model_scene(
     model: PolyhedronModel, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = ""
 ) -> Scene:
@@ -233,9 +111,10 @@ def model_scene(
     vertices = list(model.nodes)
     pairs = [*model.edges, *_sides_of_scissors(model)]
     if model.coordinates:
-        seen = seen_from_above(np.array([model.coordinates[v] for v in vertices]))
-        places = dict(zip(vertices, seen.places.tolist(), strict=True))
-        unit = 0.7 * min(box) / (float(np.ptp(seen.places, axis=0).max()) or 1.0)
+        points = np.array([model.coordinates[v] for v in vertices])
+        seen = view_from_above(points).places(points)
+        places = dict(zip(vertices, seen.tolist(), strict=True))
+        unit = 0.7 * min(box) / (float(np.ptp(seen, axis=0).max()) or 1.0)
     else:
         layout = layout_of(vertices, dict(enumerate(pairs)), as_bodies=False)
         places, unit = {vertex: list(place) for vertex, place in layout.links.items()}, 52.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from enumerate.strings.panel_strings import ChainString
-from synth.drawing.mechanisms.frame import COLUMN, captions_of, framed, page_of
+from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of
 from synth.drawing.scene.palette import NORMAL
 from synth.drawing.scene.shapes import Layer, Line, Polygon, Scene, Shape
 

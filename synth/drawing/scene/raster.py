@@ -1,20 +1,47 @@
-"""Scenes as PNG, through matplotlib."""
+"""Scenes as pixels and PNG, by the renderer of matplotlib: paths are given to it as they are, without its figures.
+
+A figure looks after ticks, layouts and events, which a scene has none of; without, a picture takes a tenth of the
+time.
+"""
 
 from __future__ import annotations
 
-from functools import singledispatchmethod
+from functools import lru_cache, singledispatchmethod
 from io import BytesIO
+from math import ceil
 from typing import Any
 
-from graphs.errors import InvariantError, shown
-from synth.drawing.figure import new_figure
-from synth.drawing.scene.palette import colour_of
-from synth.drawing.scene.shapes import Disc, Label, Line, Polygon, Scene, Shape
+import numpy as np
+import numpy.typing as npt
 
-__all__ = ["png_bytes"]
+from graphs.errors import InvariantError, UnsolvableError, shown
+from synth.drawing.scene.palette import colour_of
+from synth.drawing.scene.shapes import Disc, Label, Line, Point, Polygon, Scene, Shape
+
+__all__ = ["check_matplotlib", "pixels", "png_bytes"]
 
 _INCH = 72
 _HALO = 0.3
+_PACKED = 3
+"""Of nine: files a tenth larger in a third of the time."""
+_MIDDLE = 0.36
+"""Of the height of letters: from the line they stand on to the middle of figures and capitals."""
+
+
+def check_matplotlib() -> None:
+    """Refuse where there is no matplotlib, before a picture is computed.
+
+    Raises
+    ------
+    UnsolvableError
+        If it is not installed, or finds no folder that it can write to.
+    """
+    try:
+        import matplotlib.font_manager as _  # noqa: F401
+    except ImportError:
+        raise UnsolvableError("pictures need matplotlib: pip install 'synthedra[draw]'") from None
+    except OSError:  # neither a home nor a temporary folder
+        raise UnsolvableError("matplotlib needs a folder to write to: name one in MPLCONFIGDIR") from None
 
 
 def png_bytes(scene: Scene, *, paper: str = "light", dots: float = 200) -> bytes:
@@ -37,76 +64,129 @@ def png_bytes(scene: Scene, *, paper: str = "light", dots: float = 200) -> bytes
     >>> png_bytes(Scene(72, 36, ()))[:4]
     b'\x89PNG'
     """
-    figure = new_figure(scene.width / _INCH, scene.height / _INCH)
-    figure.set_layout_engine("none")
-    figure.set_facecolor(colour_of("paper", paper))
-    axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(0, scene.width), ylim=(scene.height, 0))
-    axes.axis("off")
-    painter = _Painter(axes, paper)
-    for height, shape in enumerate(scene.shapes()):
-        painter.paint(shape, height)
+    found = pixels(scene, paper=paper, dots=dots)
+    from PIL import Image
+
     stream = BytesIO()
-    figure.savefig(stream, format="png", dpi=dots, facecolor=figure.get_facecolor(), metadata={"Software": None})
+    Image.fromarray(found).save(stream, "PNG", dpi=(dots, dots), compress_level=_PACKED)
     return stream.getvalue()
 
 
-class _Painter:
-    """Shapes as artists of matplotlib, each at its height."""
+def pixels(scene: Scene, *, paper: str = "light", dots: float = 200) -> npt.NDArray[np.uint8]:
+    """Return a scene as pixels: uint8[height, width, 3], red, green and blue.
 
-    def __init__(self, axes: Any, paper: str) -> None:
-        self._axes, self._paper = axes, paper
+    Raises
+    ------
+    UnsolvableError
+        If matplotlib is not installed.
+
+    Examples
+    --------
+    >>> pixels(Scene(72, 36, ()), dots=50).shape
+    (25, 50, 3)
+    """
+    check_matplotlib()
+    from matplotlib.backends.backend_agg import RendererAgg
+
+    unit = dots / _INCH
+    wide, high = ceil(scene.width * unit), ceil(scene.height * unit)
+    renderer = RendererAgg(wide, high, dots)  # type: ignore[no-untyped-call]
+    painter = _Painter(renderer, paper, unit, high)
+    painter.paint(Polygon([(0, 0), (wide, 0), (wide, high), (0, high)], "paper"))
+    for shape in scene.shapes():
+        painter.paint(shape)
+    return np.asarray(painter.renderer.buffer_rgba())[..., :3].copy()
+
+
+class _Painter:
+    """Shapes as paths, each over those before; y of the renderer goes upwards."""
+
+    def __init__(self, renderer: Any, paper: str, unit: float, high: int) -> None:
+        from matplotlib.transforms import Affine2D
+
+        self.renderer = renderer
+        self._paper = paper
+        self._on_page = Affine2D().scale(unit, -unit).translate(0, high)
 
     @singledispatchmethod
-    def paint(self, shape: Shape, height: int) -> None:
+    def paint(self, shape: Shape) -> None:
         raise InvariantError("shape", f"{shown(shape)} is no shape", "Line, Polygon, Disc or Label")
 
     @paint.register
-    def _(self, shape: Line, height: int) -> None:
-        x, y = zip(*shape.points, strict=True)
-        style: Any = (0, [length / shape.width for length in shape.dash]) if shape.dash else "-"
-        self._axes.plot(
-            x, y, color=self._colour(shape.colour), linewidth=shape.width, linestyle=style, zorder=height,
-            solid_capstyle="round", solid_joinstyle="round", clip_on=False,
-        )  # fmt: skip
+    def _(self, shape: Line) -> None:
+        pen = self._pen(shape.colour, shape.width)
+        if shape.dash:
+            pen.set_dashes(0, list(shape.dash))
+        self.renderer.draw_path(pen, _path(shape.points), self._on_page)
 
     @paint.register
-    def _(self, shape: Polygon, height: int) -> None:
-        from matplotlib.patches import Polygon as Patch
-
-        inside, rim = self._colour(shape.fill), self._colour(shape.colour)
-        common: dict[str, Any] = {"closed": True, "joinstyle": "round", "zorder": height, "clip_on": False}
+    def _(self, shape: Polygon) -> None:
+        path = _path([*shape.points, shape.points[0]], closed=True)
         if shape.fill is not None:  # apart, for the outline is never transparent
-            self._axes.add_patch(Patch(shape.points, facecolor=inside, linewidth=0, alpha=shape.opacity, **common))
+            pen = self._pen(None, 0)
+            pen.set_alpha(shape.opacity)
+            self.renderer.draw_path(pen, path, self._on_page, self._rgb(shape.fill, shape.opacity))
         if shape.colour is not None:
-            self._axes.add_patch(Patch(shape.points, fill=False, edgecolor=rim, linewidth=shape.width, **common))
+            self.renderer.draw_path(self._pen(shape.colour, shape.width), path, self._on_page)
 
     @paint.register
-    def _(self, shape: Disc, height: int) -> None:
-        from matplotlib.patches import Circle
+    def _(self, shape: Disc) -> None:
+        from matplotlib.path import Path
+        from matplotlib.transforms import Affine2D
 
-        self._axes.add_patch(
-            Circle(
-                shape.centre,
-                shape.radius,
-                facecolor=self._colour(shape.fill),
-                edgecolor=self._colour(shape.colour),
-                linewidth=0 if shape.colour is None else shape.width,
-                zorder=height,
-                clip_on=False,
-            )
-        )
+        place = Affine2D().scale(shape.radius).translate(*shape.centre) + self._on_page
+        inside = None if shape.fill is None else self._rgb(shape.fill)
+        self.renderer.draw_path(self._pen(shape.colour, shape.width), Path.unit_circle(), place, inside)
 
     @paint.register
-    def _(self, shape: Label, height: int) -> None:
-        from matplotlib.patheffects import withStroke
+    def _(self, shape: Label) -> None:
+        from matplotlib.transforms import Affine2D
 
-        rim = [withStroke(linewidth=_HALO * shape.size, foreground=self._colour("paper"))] if shape.halo else []
-        self._axes.text(
-            *shape.at, shape.text, fontsize=shape.size, color=self._colour(shape.colour), parse_math=False,
-            ha="center" if shape.anchor == "middle" else "left", va="center_baseline", zorder=height,
-            fontweight="bold" if shape.bold else "normal", path_effects=rim, clip_on=False,
-        )  # fmt: skip
+        path, wide = _letters(shape.text, shape.bold)
+        left = shape.at[0] - (shape.size * wide / 2 if shape.anchor == "middle" else 0.0)
+        place = Affine2D().scale(shape.size, -shape.size).translate(left, shape.at[1] + _MIDDLE * shape.size)
+        if shape.halo:
+            self.renderer.draw_path(self._pen("paper", _HALO * shape.size), path, place + self._on_page)
+        self.renderer.draw_path(self._pen(None, 0), path, place + self._on_page, self._rgb(shape.colour))
 
-    def _colour(self, name: str | None) -> str:
-        return "none" if name is None else colour_of(name, self._paper)
+    def _pen(self, colour: str | None, width: float) -> Any:
+        pen = self.renderer.new_gc()
+        pen.set_antialiased(True)
+        pen.set_snap(False)  # letters of straight strokes would be moved to whole pixels
+        pen.set_capstyle("round")
+        pen.set_joinstyle("round")
+        pen.set_linewidth(0 if colour is None else width)  # points, as dashes are
+        if colour is not None:
+            pen.set_foreground(colour_of(colour, self._paper))
+        return pen
+
+    def _rgb(self, name: str, opacity: float = 1.0) -> tuple[float, float, float, float]:
+        code = colour_of(name, self._paper)
+        red, green, blue = (int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
+        return red, green, blue, opacity
+
+
+def _path(points: Any, *, closed: bool = False) -> Any:
+    from matplotlib.path import Path
+
+    return Path(np.asarray(points, dtype=float), closed=closed)
+
+
+@lru_cache(maxsize=2048)
+def _letters(text: str, bold: bool) -> tuple[Any, float]:
+    """Return the outlines of letters of height 1, y upwards, and how wide they are."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.path import Path
+    from matplotlib.textpath import TextToPath
+
+    drawn_at = 100.0
+    font = FontProperties(family="DejaVu Sans", weight="bold" if bold else "normal", size=drawn_at)
+    maker = TextToPath()
+    corners, codes = maker.get_text_path(font, text, ismath=False)
+    wide, _, _ = maker.get_text_width_height_descent(text, font, ismath=False)
+    scale = 1.0 / drawn_at
+    path = Path(np.asarray(corners, dtype=float).reshape(-1, 2) * scale, codes) if len(corners) else Path(_NONE)
+    return path, float(wide) * scale
+
+
+_NONE: list[Point] = [(0.0, 0.0)]

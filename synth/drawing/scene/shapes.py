@@ -17,7 +17,7 @@ Data: TypeAlias = tuple[tuple[str, str], ...]
 
 _LETTER = 0.62
 _WIDE_LETTER = 1.0
-_STEP = pi / 24
+_STEP = pi / 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,7 +214,7 @@ def arc_points(centre: Point, radius: float, start: float, stop: float) -> list[
 
     Examples
     --------
-    >>> [round(x, 3) for x, _ in arc_points((0, 0), 1, 0, pi)][::12]
+    >>> [round(x, 3) for x, _ in arc_points((0, 0), 1, 0, pi)][::30]
     [1.0, 0.0, -1.0]
     """
     pieces = max(1, round(abs(stop - start) / _STEP))

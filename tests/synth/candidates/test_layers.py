@@ -62,15 +62,36 @@ def test_rows_at_angles_and_with_opposites_are_drawn_in_as_many_layers_as_they_s
             assert title_of_picture(row, row["layers"]).endswith(f"layers {row['layers']}")
 
 
-def test_the_picture_has_the_layers_of_its_title():
-    pytest.importorskip("matplotlib")
+def test_the_layers_of_the_picture_are_those_of_its_title():
+    """Arcs of links at as many radii as are told, and those at one radius apart; on the cone the same layers."""
     job = CandidateJob(WATT, (WATT_BINARY,))
-    for row in rows_of_units(job, 1)[::64]:
-        figure = picture_of_row(job, row)
-        radii = {
-            round(float(np.hypot(*line.get_data())[0]), 6)
-            for line in figure.axes[0].lines
-            if line.get_label().startswith("link")
+    for row in rows_of_units(job, 1)[::16]:
+        scene = picture_of_row(job, row)
+        circle, cone = scene.layers[:2]
+        arcs = {}
+        for shape in circle.shapes:
+            if "layer" in dict(shape.data):
+                x, y = np.array(shape.points).T - 120
+                arcs.setdefault(dict(shape.data)["layer"], []).append((np.hypot(x, y), np.arctan2(y, x)))
+        radii = {round(float(far), 4) for links in arcs.values() for radius, _ in links for far in radius}
+        told = " ".join(label.text for label in scene.layers[-1].shapes)
+        assert f"layers {len(radii)}" in told
+        assert f"links in {len(radii)} layer" in told
+        for links in arcs.values():
+            gaps = [
+                np.abs(np.angle(np.exp(1j * (one[:, None] - other)))).min()
+                for i, (_, one) in enumerate(links)
+                for _, other in links[:i]
+            ]
+            assert min(gaps, default=1.0) > 0.02
+        on_cone = {
+            dict(shape.data)["link"]: dict(shape.data)["layer"]
+            for shape in cone.shapes
+            if "layer" in dict(shape.data)
         }
-        title = figure.get_suptitle()
-        assert f"layers {len(radii)}" in title
+        on_circle = {
+            dict(shape.data)["link"]: dict(shape.data)["layer"]
+            for shape in circle.shapes
+            if "layer" in dict(shape.data)
+        }
+        assert on_cone == on_circle

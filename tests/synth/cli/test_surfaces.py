@@ -166,7 +166,7 @@ def test_behaviour_of_several_loops():
 ])  # fmt: skip
 def test_pictures(words, tmp_path):
     pytest.importorskip("matplotlib")
-    for suffix, head in (("png", b"\x89PNG"), ("svg", b"<?xml")):
+    for suffix, head in (("png", b"\x89PNG"), ("svg", (b"<?xml", b"<svg"))):
         run(*words, "-o", tmp_path / f"a.{suffix}")
         assert (tmp_path / f"a.{suffix}").read_bytes().startswith(head)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.svg"]

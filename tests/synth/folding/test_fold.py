@@ -230,6 +230,6 @@ def test_pictures_of_foldings(tmp_path, monkeypatch, name):
     run("fold", vertex, "--frames", 2, "-o", tmp_path / name)
     assert (tmp_path / name).read_bytes()[:4] in (b"GIF8", b"\x89PNG")
     assert "exists already" in run("fold", vertex, "--frames", 2, "-o", tmp_path / name, code=2).stderr
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
     told = run("fold", vertex, "--frames", 2, "-o", tmp_path / f"other-{name}", code=2).stderr
     assert told.strip() == "pictures need matplotlib: pip install 'synthedra[draw]'"

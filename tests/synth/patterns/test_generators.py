@@ -4,7 +4,6 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from synth.folding.verdict.judged import mobility
 
 import synth
 from graphs.errors import InvariantError, UnsolvableError
@@ -14,6 +13,7 @@ from synth.moving.motion import move
 from synth.patterns import GENERATORS, generate
 from synth.patterns.creases.bases import bird_base
 from synth.patterns.creases.twists import polygon_twist
+from synth.verdict.judged import mobility
 
 QUICK = ("miura", "bennett", "crash-lock")
 FOLDS = {"yoshimura": 20, "preliminary-base": 20}

@@ -1,6 +1,7 @@
 """Pictures of every kind of mechanism: what is in them, and that nothing readable cannot be drawn."""
 
 import os
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -14,9 +15,9 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
-from synth.drawing.mechanisms.space import drawn_order
 from synth.drawing.scene.shapes import Disc, Line
 from synth.drawing.scene.svg import svg_text
+from synth.drawing.space.view import drawn_order
 
 DATA = Path(__file__).resolve().parents[4] / "data"
 FILES = [*sorted(DATA.rglob("*.fold")), *sorted(DATA.rglob("*.json"))]
@@ -92,17 +93,17 @@ def test_creases_by_centre_class_have_the_colours_of_their_ends():
     assert any(layer.name == "graph" for layer in scene.layers)
 
 
-def test_panels_that_move_as_one():
-    """A vertex of three creases holds its panels together; a flap beside it moves."""
-    corners = ((0, 0), (2, 0), (-1, 2), (-1, -2), (3, 3))
-    sheet = Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 4, 2)), corners)
-    scene = draw(sheet, colour="verdict", numbers=False)
-    panels, creases = (
-        next(layer.shapes for layer in scene.layers if layer.name == name) for name in ("panels", "creases")
-    )
-    assert [panel.fill for panel in panels] == ["class0", "class0", "class0", "body"]
-    looks = {(shape.colour, bool(shape.dash)) for shape in creases if shape.data}
-    assert looks == {("grey", True), ("class1", False)}
+def test_numbers_of_links_and_joints_have_room_beside_each_other():
+    """In a grid of panels the number of a panel does not touch those of the creases to its left and right."""
+    wide = 14
+    places = tuple((x, 1.2 * y) for y in range(wide + 1) for x in range(wide + 1))
+    first = [i for i in range(wide * (wide + 1)) if i % (wide + 1) < wide]
+    faces = tuple((i, i + 1, i + wide + 2, i + wide + 1) for i in first)
+    labels = draw(Sheet(len(places), (), "", faces, places)).layers[2].shapes
+    assert len(labels) == wide**2 + 2 * wide * (wide - 1)
+    rows = sorted((round(label.at[1], 3), label.box) for label in labels)
+    gaps = [after[0] - before[2] for (high, before), (low, after) in pairwise(rows) if high == low]
+    assert min(gaps) > 0.2 * labels[0].size
 
 
 def test_signs_of_centres():
@@ -159,6 +160,28 @@ def test_kinds_and_colourings_that_are_none():
         draw(read("k1:Cr"), "x")
     with pytest.raises(InvariantError, match="colouring 'x' is not known; expected letters"):
         draw(read(DATA / "patterns" / "bird-base.fold"), colour="x")
+
+
+@pytest.mark.parametrize("look", [{"colour": "verdict"}, {"graph": True}])
+def test_colours_of_a_pattern_are_not_left_out_in_silence(look):
+    with pytest.raises(UnsolvableError, match="are of a pattern; this is drawn as chain"):
+        draw(read("k1:Cr"), **look)
+
+
+def test_long_captions_are_broken_and_not_cut():
+    words = " ".join(f"word{i}" for i in range(30))
+    lines = [label.text for label in draw(read("k1:Cr"), caption=words).layers[-1].shapes]
+    assert len(lines) > 2
+    assert " ".join(lines).startswith(words)
+
+
+def test_a_linkage_round_a_cone_lies_on_it():
+    linkage = read(DATA / "surfaces" / "fig11-stephenson.json")
+    scene = draw(linkage, "cone")
+    assert {"circle", "cone"} <= {layer.name for layer in scene.layers}
+    assert values(drawn(linkage, "cone"), "data-joint") == set(map(str, linkage.chain.joints))
+    with pytest.raises(UnsolvableError, match="only a linkage given by its angles"):
+        draw(read("k1:Cr"), "cone")
 
 
 def test_the_command_knows_all_kinds(tmp_path):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 
+from graphs.plain_text import plain
 from synth.drawing.scene.palette import SMALL
 from synth.drawing.scene.shapes import Label, Layer, Point, Scene, text_width
 
@@ -14,6 +16,8 @@ COLUMN = 340.0
 """The width of a picture at most, points: it fits a page with margins, and a half of it is a column."""
 _MARGIN = 16.0
 _LINE = 1.5 * SMALL
+_LETTERS, _LONGEST = 84, 336
+"""Letters of a line below a picture, which is as wide as a picture at most; letters of a text of several lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,20 +102,20 @@ def captions_of(caption: str | None, *said: str) -> list[str]:
 
 
 def page_of(frame: Frame, layers: Iterable[Layer], captions: Sequence[str] = (), title: str = "") -> Scene:
-    """Return a scene as large as its frame, with lines of text below.
+    """Return a scene as large as its frame, with lines of text below; long ones are broken.
 
     Examples
     --------
     >>> page_of(framed([(0, 0), (1, 1)], 30), [], ["a square"]).height
     71.75
     """
-    lines = [Label((0, 0), text, SMALL, "grey", "start", halo=False, widest=110) for text in captions]
-    wide = max([frame.width, *(text_width(line.text, line.size) + 8 for line in lines)])
+    lines = [line for text in captions for line in wrap(plain(text, _LONGEST), _LETTERS)]
+    wide = max([frame.width, *(text_width(line, SMALL) + 8 for line in lines)])
     shift = (wide - frame.width) / 2
     below = []
     for number, line in enumerate(lines):
         place = (4.0, frame.height + (number + 0.5) * _LINE)
-        below.append(Label(place, line.text, SMALL, "grey", "start", halo=False, widest=110))
+        below.append(Label(place, line, SMALL, "grey", "start", halo=False, widest=_LETTERS))
     moved = [_moved(layer, shift) for layer in layers] if shift else list(layers)
     high = frame.height + len(lines) * _LINE
     return Scene(wide, high, (*moved, Layer("caption", tuple(below))), title or ", ".join(captions))

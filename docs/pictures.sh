@@ -1,0 +1,13 @@
+#!/bin/sh
+# The pictures of README.md and of the theory pages, made by the product: `make pictures`. BIN is the folder of synth.
+set -eu
+cd "$(dirname "$0")/.."
+synth="${BIN:+$BIN/}synth"
+mkdir -p docs/pictures
+
+"$synth" draw data/patterns/bird-base.fold --graph --colour centres --force -o docs/pictures/bird-base-centres.svg
+"$synth" draw data/patterns/bird-base.fold --colour branch --branch 1 --force -o docs/pictures/bird-base-branch.svg
+"$synth" fold data/patterns/bird-base.fold --all --frames 11 --force -o docs/pictures/bird-base-folding.svg
+"$synth" draw data/wiener/fortune-teller.json --force -o docs/pictures/fortune-teller.svg
+"$synth" draw data/wiener/eight-bar.json --as chain --force -o docs/pictures/eight-bar.svg
+"$synth" cone behaviour data/surfaces/fig11-stephenson.json --force -o docs/pictures/stephenson-cone.svg

@@ -1,0 +1,141 @@
+"""What the creases of a pattern do when it moves, for its picture: by the verdict, or on one branch."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from graphs.errors import numbered
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.sheet import Sheet
+from synth.folding.beginning import Wanted, beginning
+from synth.folding.prepared import prepared
+from synth.verdict.of_motion import verdict_of_motion
+
+__all__ = ["Doing", "Motions", "motions_by_verdict", "motions_on_branch"]
+
+Doing: TypeAlias = Literal["moves", "still", "unknown", "mountain", "valley", "later"]
+"""Later: at rest as the motion begins, and not for good."""
+
+_STILL = 1e-7
+
+
+@dataclass(frozen=True, slots=True)
+class Motions:
+    """What joints do, and which panels move as one.
+
+    Attributes
+    ----------
+    of : mapping of joint id to Doing
+    clusters : tuple of tuple of link ids
+    said : str
+        What colours mean, and how that is known.
+    """
+
+    of: Mapping[JointId, Doing] = field(default_factory=dict)
+    clusters: tuple[tuple[LinkId, ...], ...] = ()
+    said: str = ""
+
+
+def motions_by_verdict(sheet: Sheet) -> Motions:
+    """Return what the verdict on a sheet says of its joints: that they move on some way, are still, or neither.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, or its panels do not fit at its pose.
+
+    Examples
+    --------
+    Three creases that meet in a point hold each other, flat as they lie:
+
+    >>> tent = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), ((0, 0), (2, 0), (-1, 2), (-1, -2)))
+    >>> motions = motions_by_verdict(tent)
+    >>> set(motions.of.values()), motions.clusters, motions.said
+    ({'still'}, ((0, 1, 2),), 'no crease moves (grey, dotted; proved); panels of one colour move as one')
+    """
+    pattern = prepared(sheet)
+    verdict = verdict_of_motion(pattern)
+    still = set() if verdict.certainty == "not known" else set(verdict.stiff_joints)
+    ways = [set(way.stiff_joints) for way in verdict.ways if way.certainty != "not known"]
+    of: dict[JointId, Doing] = {}
+    for joint in pattern.linkage.graph.joints:
+        if joint in still:
+            of[joint] = "still"
+        else:
+            of[joint] = "moves" if any(joint not in stiff for stiff in ways) else "unknown"
+    clusters = verdict.clusters if still else ()
+    return Motions(of, clusters, _said_of_verdict(of, verdict.certainty))
+
+
+def _said_of_verdict(of: Mapping[JointId, Doing], certainty: str) -> str:
+    does = list(of.values())
+    moving, still, unknown = (does.count(one) for one in ("moves", "still", "unknown"))
+    if moving == len(does):
+        return f"every crease moves (orange; {certainty})"
+    if still == len(does):
+        return f"no crease moves (grey, dotted; {certainty}); panels of one colour move as one"
+    if unknown == len(does):
+        return "which creases move is not known (purple)"
+    told = [f"{numbered(moving, 'crease')} move{'s' * (moving == 1)} (orange)"] if moving else []
+    if still:
+        told.append(f"{still} still (grey, dotted; {certainty}), panels of one colour move as one")
+    if unknown:
+        told.append(f"of {unknown} (purple) it is not known")
+    return "; ".join(told)
+
+
+def motions_on_branch(sheet: Sheet, branch: int | str | None = None) -> Motions:
+    """Return how joints begin to move on a branch.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates.
+    branch : int or str, optional
+        Its number, as `synth fold --branches` lists them, or its signs; by default the one that agrees best with
+        the mountains and valleys of the sheet.
+
+    Raises
+    ------
+    UnsolvableError
+        If nothing moves, or panels do not fit at the pose of the sheet.
+    InvariantError
+        If there is no such branch.
+
+    Examples
+    --------
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> sheet = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", faces, corners)
+    >>> list(motions_on_branch(sheet).of.values())
+    ['mountain', 'valley', 'valley', 'valley']
+    """
+    pattern = prepared(sheet)
+    linkage, found = pattern.linkage, pattern.branches
+    joints = list(linkage.graph.joints)
+    marks = pattern.marks if pattern.marks.any() else np.ones(len(joints))
+    number, rates = beginning(pattern.closure, linkage, found, Wanted(branch, marks, [], np.zeros(0)))
+    taken = found.branches[number or 0] if found is not None else None
+    for_good = set(taken.still) if taken is not None else set()
+    of: dict[JointId, Doing] = {}
+    for place, (joint, rate) in enumerate(zip(joints, rates / np.abs(rates).max(), strict=True)):
+        if abs(rate) > _STILL:
+            of[joint] = "valley" if rate > 0 else "mountain"
+        else:
+            of[joint] = "still" if place in for_good else "later"
+    which = "one way to move" if found is None or taken is None else f"way {number or 0} of {len(found.branches)}"
+    if taken is not None:
+        freedoms = "freedoms not known" if taken.freedoms is None else numbered(taken.freedoms, "freedom")
+        which += f" ({freedoms}, {taken.certainty})"
+    looks = {"mountain": "red", "valley": "blue, dashed", "later": "purple", "still": "grey, dotted"}
+    there = [f"{one} {look}" for one, look in looks.items() if one in of.values()]
+    return Motions(of, (), f"{which}: {', '.join(there)}")

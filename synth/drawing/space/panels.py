@@ -1,0 +1,163 @@
+"""Panels in space: hidden by those before them, shaded by the light, their two sides in two colours."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.duality import mechanism_of_sheet
+from graphs.ids import JointId
+from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
+from synth.drawing.scene.palette import FINE, NORMAL
+from synth.drawing.scene.shapes import Line, Point, Polygon, Shape
+from synth.drawing.space.view import View, drawn_order
+
+__all__ = ["Panels", "front_up", "panel_shapes", "panels_of", "same_side_up"]
+
+_THIN = 1e-9
+_LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink"}
+_LIGHT = np.array([0.35, -0.45, 0.82]) / np.linalg.norm([0.35, -0.45, 0.82])
+_DARKEST = 0.5
+"""Of the shadow, on a panel that the light does not meet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Panels:
+    """What of a sheet is drawn in space, at whatever pose.
+
+    Attributes
+    ----------
+    faces : sequence of sequence of int
+        Vertices round each panel, the front of all on one side of the paper.
+    link_of : mapping of face to link
+    joint_of : mapping of two vertices to joint id
+    letters : mapping of two vertices to letter
+    """
+
+    faces: Sequence[Sequence[int]]
+    link_of: Mapping[int, int]
+    joint_of: Mapping[frozenset[int], JointId]
+    letters: Mapping[frozenset[int], str]
+
+
+def panels_of(sheet: Sheet) -> Panels:
+    """Return the panels of a sheet.
+
+    Examples
+    --------
+    >>> roof = Sheet(4, ((0, 1),), "M", ((0, 1, 2), (0, 1, 3)), ((0, 0, 1), (0, 2, 1), (1, 1, 0), (-1, 1, 0)))
+    >>> panels = panels_of(roof)
+    >>> panels.faces, panels.joint_of
+    ([(0, 1, 2), (3, 1, 0)], {frozenset({0, 1}): 0})
+    """
+    whole = with_all_edges(sheet)
+    mechanism = mechanism_of_sheet(sheet)
+    letters = {frozenset(edge): letter for edge, letter in zip(whole.edges, whole.assignments, strict=True)}
+    return Panels(
+        same_side_up(whole.faces),
+        {face: link for link, faces in enumerate(mechanism.panels) for face in faces},
+        {frozenset(edge): joint for joint, edges in mechanism.pieces.items() for edge in edges},
+        letters,
+    )
+
+
+def same_side_up(faces: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
+    """Return faces turned over where needed, so that those side by side show the same side of the paper.
+
+    The first of each piece stays as it is. A strip that is twisted into itself has one side only: somewhere on it
+    the colours change.
+
+    Examples
+    --------
+    >>> same_side_up([(0, 1, 2), (0, 1, 3)])
+    [(0, 1, 2), (3, 1, 0)]
+    """
+    beside: dict[frozenset[int], list[int]] = {}
+    for number, face in enumerate(faces):
+        for side in sides_of_face(face):
+            beside.setdefault(frozenset(side), []).append(number)
+    turned: dict[int, tuple[int, ...]] = {}
+    for first in range(len(faces)):
+        if first in turned:
+            continue
+        turned[first] = tuple(faces[first])
+        waiting = deque([first])
+        while waiting:
+            here = waiting.popleft()
+            for a, b in sides_of_face(turned[here]):
+                for other in beside[frozenset((a, b))]:
+                    if other not in turned:
+                        same = (a, b) in sides_of_face(faces[other])
+                        turned[other] = tuple(faces[other][::-1] if same else faces[other])
+                        waiting.append(other)
+    return [turned[number] for number in range(len(faces))]
+
+
+def front_up(panels: Panels, points: Floats, view: View) -> Panels:
+    """Return panels with the sides exchanged if more of the backs than of the fronts would be seen.
+
+    Examples
+    --------
+    >>> from synth.drawing.space.view import view_of_motion
+    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.0]])
+    >>> panels = panels_of(Sheet(3, (), "", ((0, 2, 1),)))
+    >>> front_up(panels, corners, view_of_motion(corners)).faces
+    [(1, 2, 0)]
+    """
+    if sum(float(_across(points[list(face)]) @ view.towards) for face in panels.faces) >= 0:
+        return panels
+    return replace(panels, faces=[tuple(face[::-1]) for face in panels.faces])
+
+
+def panel_shapes(
+    panels: Panels, points: Floats, view: View, page: Sequence[Point]
+) -> tuple[list[Shape], dict[int, list[Point]]]:
+    """Return the shapes of panels, those behind first; and the places of the corners of each, in this order.
+
+    Parameters
+    ----------
+    panels : Panels
+    points : float[n, 3]
+    view : View
+    page : sequence of (x, y)
+        Where the vertices lie on the page.
+    """
+    shapes: list[Shape] = []
+    corners: dict[int, list[Point]] = {}
+    for face in drawn_order(view.places(points), view.near(points), panels.faces):
+        row = panels.faces[face]
+        normal = _normal(points[list(row)])
+        corners[face] = [page[v] for v in row]
+        link = panels.link_of.get(face)
+        data = () if link is None else (("link", str(link)),)
+        side = "front" if float(normal @ view.towards) >= 0 else "back"
+        dark = _DARKEST * (1.0 - abs(float(normal @ _LIGHT)))
+        shapes.append(Polygon(corners[face], side, None, data=data))
+        shapes.append(Polygon(corners[face], "shadow", None, opacity=dark))
+        shapes += [_edge(panels, (a, b), [page[a], page[b]]) for a, b in sides_of_face(row)]
+    return shapes, corners
+
+
+def _edge(panels: Panels, ends: tuple[int, int], row: list[Point]) -> Line:
+    """Return a side of a panel: a hinge in the colour of its letter, another side fine."""
+    joint = panels.joint_of.get(frozenset(ends))
+    colour = _LETTERS.get(panels.letters.get(frozenset(ends), "B"), "grey")
+    if joint is None:
+        return Line(row, colour, FINE)
+    return Line(row, colour, NORMAL, data=(("joint", str(joint)),))
+
+
+def _normal(corners: Floats) -> Floats:
+    """Return the unit normal of a panel; zeros if it has no area."""
+    normal = _across(corners)
+    size = float(np.linalg.norm(normal))
+    return np.asarray(normal / size if size > _THIN * float(np.ptp(corners) or 1.0) ** 2 else 0.0 * normal)
+
+
+def _across(corners: Floats) -> Floats:
+    """Return the vector across a panel, twice its area long (Newell)."""
+    return np.asarray(np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0))
