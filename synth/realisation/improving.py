@@ -1,0 +1,147 @@
+"""A drawing made to a better shape: corners neither sharp nor flat, edges of like length, creases to their centres.
+
+What is minimised are squares that grow without bound where a corner closes or opens; no step may turn a panel over.
+Each step goes to where creases meet their centres, as far as derivatives tell, and within that to the better shape
+(Gauss-Newton, damped). Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from synth.realisation.measures import corner_angles, edge_lengths, is_convex, sums_at
+from synth.realisation.pattern import Pattern
+from synth.realisation.pointing import off_centres
+
+__all__ = ["improved"]
+
+_ROUNDS = 60
+_SHARP = np.radians(35.0)
+"""Corners sharper than this, or as near to 180 degrees, cost more than they should."""
+_LENGTH = 0.8
+_BORDER = 0.15
+"""Part of the mean turn at a vertex of the border below which it is near to straight."""
+_OFF = 30.0
+"""What a crease off its centre costs."""
+_CLOSED = 1e-14
+_ENOUGH = 1e-4
+"""A step that gains less than this part is the last."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Cost:
+    """Residuals at a drawing, and by how much creases miss their centres."""
+
+    residuals: Floats
+    by: Floats
+    off: Floats
+    off_by: Floats
+
+    @property
+    def merit(self) -> float:
+        return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
+
+
+def improved(pattern: Pattern, start: Floats, *, convex: bool = True) -> Floats | None:
+    """Return a drawing of better shape in which creases point to their centres; None if none was found.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    start : float[V + C, 2]
+        With panels that are convex.
+    convex : bool, optional
+        Keep the border convex.
+
+    Returns
+    -------
+    float[V + C, 2] or None
+        Edges are 1 long in the mean.
+    """
+    unknowns, cost = start, _cost(pattern, start, convex)
+    damping = 1e-2
+    for _ in range(_ROUNDS):
+        if cost is None:
+            return None
+        better = None
+        while better is None and damping < 1e8:
+            trial = unknowns + _step(cost, damping).reshape(unknowns.shape)
+            found = _cost(pattern, trial, convex)
+            if found is not None and found.merit < cost.merit:
+                better = found
+            else:
+                damping *= 6.0
+        if better is None:
+            break
+        gained = (cost.merit - better.merit) / cost.merit
+        unknowns, cost, damping = trial, better, max(damping / 10.0, 1e-6)
+        if gained < _ENOUGH and np.abs(cost.off).max(initial=0.0) < 1e-6:
+            break
+    return _closed(pattern, unknowns)
+
+
+def _closed(pattern: Pattern, unknowns: Floats) -> Floats | None:
+    """Return the drawing with all creases on their centres, moved as little as possible."""
+    for _ in range(12):
+        off, by = off_centres(pattern, unknowns)
+        if np.abs(off).max(initial=0.0) <= _CLOSED:
+            break
+        unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
+    angles, _ = corner_angles(unknowns[: pattern.vertices], pattern.corners)
+    off, _ = off_centres(pattern, unknowns)
+    if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_convex(pattern, angles):
+        return None
+    return unknowns
+
+
+def _step(cost: _Cost, damping: float) -> Floats:
+    """Return the step to where nothing is off, and in what that leaves free to the least cost."""
+    size = cost.by.shape[1]
+    if not len(cost.off):
+        matrix = cost.by.T @ cost.by + damping * np.eye(size)
+        return -np.linalg.solve(matrix, cost.by.T @ cost.residuals)
+    u, singular, vt = np.linalg.svd(cost.off_by)
+    rank = int((singular > 1e-9 * singular[0]).sum())
+    there: Floats = -vt[:rank].T @ ((u[:, :rank].T @ cost.off) / singular[:rank])
+    free = vt[rank:].T
+    by = cost.by @ free
+    matrix = by.T @ by + damping * np.eye(free.shape[1])
+    part = 1.0 / (1.0 + damping)
+    within: Floats = free @ np.linalg.solve(matrix, by.T @ (cost.residuals + part * (cost.by @ there)))
+    return part * there - within
+
+
+def _cost(pattern: Pattern, unknowns: Floats, convex: bool) -> _Cost | None:
+    """Return what a drawing costs; None where a panel is turned over or the border is not as it should be."""
+    places = unknowns[: pattern.vertices]
+    angles, by = corner_angles(places, pattern.corners)
+    if not is_convex(pattern, angles):
+        return None
+    lengths, by_lengths = edge_lengths(places, pattern.edges)
+    rows = [
+        *_near(angles, by, _SHARP, 1.0),
+        *_near(np.pi - angles, by, _SHARP, -1.0),
+        _LENGTH * (lengths + lengths**3),
+        _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
+    ]
+    room = [(pattern.outer, np.pi if convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
+    for ring, whole in room:
+        sums = sums_at(pattern, np.array(ring, np.int64))
+        left = whole - sums @ angles
+        if left.min() <= 0.0:
+            return None
+        rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(ring), -1.0)
+    residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
+    off, off_by = off_centres(pattern, unknowns)
+    padded = np.zeros((len(residuals), unknowns.size))
+    padded[:, : derivatives.shape[1]] = derivatives
+    return _Cost(residuals, padded, off, off_by)
+
+
+def _near(angles: Floats, by: Floats, size: float, sign: float) -> tuple[Floats, Floats]:
+    """Return residuals that grow as angles come near to 0, and derivatives; ``sign`` is that of the angles' own."""
+    residuals = (size / angles) ** 2
+    return residuals, (-2.0 * sign * residuals / angles)[:, None] * by

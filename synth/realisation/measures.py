@@ -1,0 +1,101 @@
+"""Angles and lengths of a drawn pattern, with their derivatives by the coordinates of the vertices.
+
+Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphs.arrays import Floats, Ints
+from synth.realisation.pattern import Pattern
+
+__all__ = ["corner_angles", "edge_lengths", "is_convex", "ring_angles", "sums_at"]
+
+_TURN = 1e-6
+
+
+def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
+    """Return the angle of each corner, in (-pi, pi], and its derivatives.
+
+    Parameters
+    ----------
+    places : float[V, 2]
+    corners : int64[K, 3]
+        Vertices before, at and after, counter-clockwise.
+
+    Returns
+    -------
+    angles : float[K]
+        Radians; negative where the corner is turned over.
+    derivatives : float[K, 2 V]
+
+    Examples
+    --------
+    >>> angles, by = corner_angles(np.array([[0.0, 1], [0, 0], [1, 0]]), np.array([[0, 1, 2]]))
+    >>> float(np.degrees(angles[0])), by.shape
+    (90.0, (1, 6))
+    """
+    back, on = places[corners[:, 0]] - places[corners[:, 1]], places[corners[:, 2]] - places[corners[:, 1]]
+    angles = np.arctan2(on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0], (on * back).sum(axis=1))
+    derivatives = np.zeros((len(corners), len(places), 2))
+    rows = np.arange(len(corners))
+    for vertex, arm, sign in ((0, back, 1.0), (2, on, -1.0)):
+        by = sign * np.column_stack([-arm[:, 1], arm[:, 0]]) / (arm**2).sum(axis=1)[:, None]
+        derivatives[rows, corners[:, vertex]] += by
+        derivatives[rows, corners[:, 1]] -= by
+    return angles, derivatives.reshape(len(corners), -1)
+
+
+def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
+    """Return the logarithm of the length of each edge, and its derivatives.
+
+    Parameters
+    ----------
+    places : float[V, 2]
+    edges : int64[E, 2]
+
+    Returns
+    -------
+    logarithms : float[E]
+    derivatives : float[E, 2 V]
+
+    Examples
+    --------
+    >>> edge_lengths(np.array([[0.0, 0], [1, 0]]), np.array([[0, 1]]))[0].tolist()
+    [0.0]
+    """
+    along = places[edges[:, 1]] - places[edges[:, 0]]
+    squares = (along**2).sum(axis=1)
+    derivatives = np.zeros((len(edges), len(places), 2))
+    rows = np.arange(len(edges))
+    derivatives[rows, edges[:, 1]] = along / squares[:, None]
+    derivatives[rows, edges[:, 0]] = -along / squares[:, None]
+    return np.log(squares) / 2, derivatives.reshape(len(edges), -1)
+
+
+def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
+    """Return float[n, K], which sums the corners at each of some vertices."""
+    return (pattern.corners[None, :, 1] == vertices[:, None]).astype(float)
+
+
+def ring_angles(pattern: Pattern, angles: Floats, ring: tuple[int, ...]) -> Floats:
+    """Return how much of each vertex of a ring the panels take, radians."""
+    return sums_at(pattern, np.array(ring, np.int64)) @ angles
+
+
+def is_convex(pattern: Pattern, angles: Floats) -> bool:
+    """Tell whether all panels are strictly convex, lie the same way up, and go once round each inner vertex.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    angles : float[K]
+        Of its corners.
+    """
+    if not (np.isfinite(angles).all() and angles.min() > 0.0 and angles.max() < np.pi):
+        return False
+    sides = np.array([len(panel) for panel in pattern.panels])
+    turns = np.bincount(pattern.panel_of_corner, angles, len(sides)) - np.pi * (sides - 2)
+    inner = sums_at(pattern, pattern.inner) @ angles - 2 * np.pi
+    return bool(np.abs(turns).max() < _TURN and np.abs(inner).max(initial=0.0) < _TURN)
