@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.realisation.measures import corner_angles, edge_lengths, is_convex, sums_at
+from synth.realisation.measures import edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern
 from synth.realisation.pointing import off_centres
 
@@ -90,9 +90,9 @@ def _closed(pattern: Pattern, unknowns: Floats) -> Floats | None:
         if np.abs(off).max(initial=0.0) <= _CLOSED:
             break
         unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
-    angles, _ = corner_angles(unknowns[: pattern.vertices], pattern.corners)
+    angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
     off, _ = off_centres(pattern, unknowns)
-    if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_convex(pattern, angles):
+    if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_drawn(pattern, angles):
         return None
     return unknowns
 
@@ -117,13 +117,13 @@ def _step(cost: _Cost, damping: float) -> Floats:
 def _cost(pattern: Pattern, unknowns: Floats, convex: bool) -> _Cost | None:
     """Return what a drawing costs; None where a panel is turned over or the border is not as it should be."""
     places = unknowns[: pattern.vertices]
-    angles, by = corner_angles(places, pattern.corners)
-    if not is_convex(pattern, angles):
+    angles, by = opened_angles(pattern, places)
+    if not is_drawn(pattern, angles):
         return None
     lengths, by_lengths = edge_lengths(places, pattern.edges)
     rows = [
         *_near(angles, by, _SHARP, 1.0),
-        *_near(np.pi - angles, by, _SHARP, -1.0),
+        *_near(pattern.widest - angles, by, _SHARP, -1.0),
         _LENGTH * (lengths + lengths**3),
         _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
     ]

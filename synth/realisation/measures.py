@@ -10,7 +10,7 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from synth.realisation.pattern import Pattern
 
-__all__ = ["corner_angles", "edge_lengths", "is_convex", "ring_angles", "sums_at"]
+__all__ = ["corner_angles", "edge_lengths", "is_drawn", "opened_angles", "sums_at"]
 
 _TURN = 1e-6
 
@@ -79,23 +79,36 @@ def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
     return (pattern.corners[None, :, 1] == vertices[:, None]).astype(float)
 
 
-def ring_angles(pattern: Pattern, angles: Floats, ring: tuple[int, ...]) -> Floats:
-    """Return how much of each vertex of a ring the panels take, radians."""
-    return sums_at(pattern, np.array(ring, np.int64)) @ angles
-
-
-def is_convex(pattern: Pattern, angles: Floats) -> bool:
-    """Tell whether all panels are strictly convex, lie the same way up, and go once round each inner vertex.
+def is_drawn(pattern: Pattern, angles: Floats) -> bool:
+    """Tell whether panels are strictly convex where they can be, lie one way up, and go once round inner vertices.
 
     Parameters
     ----------
     pattern : Pattern
     angles : float[K]
-        Of its corners.
+        Of its corners, as `opened_angles` gives them.
     """
-    if not (np.isfinite(angles).all() and angles.min() > 0.0 and angles.max() < np.pi):
+    if not (np.isfinite(angles).all() and angles.min() > 0.0 and (angles < pattern.widest).all()):
         return False
     sides = np.array([len(panel) for panel in pattern.panels])
     turns = np.bincount(pattern.panel_of_corner, angles, len(sides)) - np.pi * (sides - 2)
     inner = sums_at(pattern, pattern.inner) @ angles - 2 * np.pi
     return bool(np.abs(turns).max() < _TURN and np.abs(inner).max(initial=0.0) < _TURN)
+
+
+def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
+    """Return the angles of all corners, up to 360 degrees in panels that cannot be convex, and derivatives.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    places : float[V, 2]
+
+    Returns
+    -------
+    angles : float[K]
+        Radians; negative where a corner is turned over.
+    derivatives : float[K, 2 V]
+    """
+    angles, by = corner_angles(places, pattern.corners)
+    return np.where((angles < 0.0) & (pattern.widest > np.pi), angles + 2 * np.pi, angles), by

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphs.arrays import Ints
+from graphs.arrays import Flags, Floats, Ints
 from graphs.errors import UnsolvableError
 from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass
@@ -84,6 +84,29 @@ class Pattern:
     def panel_of_corner(self) -> Ints:
         """int64[K]: the panel of each corner."""
         return np.repeat(np.arange(len(self.panels)), [len(panel) for panel in self.panels])
+
+    @cached_property
+    def bent(self) -> Flags:
+        """bool[P]: which panels cannot be convex.
+
+        The lines of two sides of a convex panel pass through a point outside it, or through one of its vertices, and
+        no more: a link with three axes through a centre is no convex panel.
+        """
+        links = [self._links_at(one) for one in self.pointings]
+        return np.array([any(row.count(panel) > 2 for row in links) for panel in range(len(self.panels))])
+
+    @cached_property
+    def widest(self) -> Floats:
+        """float[K]: below which angle each corner stays: 180 degrees, or 360 in a panel that cannot be convex."""
+        widest: Floats = np.where(self.bent[self.panel_of_corner], 2 * np.pi, np.pi)
+        return widest
+
+    def _links_at(self, one: Pointing) -> list[int]:
+        """Return the panels of all creases through a centre, once for each crease."""
+        ends = [set(self.creases[crease]) for crease in one.creases]
+        ends += [set(crease) for crease in self.creases if one.vertex in crease]
+        sides = [[set(side) for side in sides_of_face(panel)] for panel in self.panels]
+        return [place for end in ends for place, row in enumerate(sides) if end in row]
 
     @cached_property
     def edges(self) -> Ints:

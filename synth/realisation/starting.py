@@ -2,7 +2,8 @@
 
 Tutte's theorem: in a convex border, with every other vertex in a weighted mean of its neighbours, the panels of a
 3-connected pattern are strictly convex and none overlap. Rules S1 and S2 of SCD graphs say that patterns are, with a
-*hub* in each hole joined to all vertices round it; the hub is where the centre across the hole begins.
+*hub* in each hole joined to all vertices round it; the hub is where the centre across the hole begins. A panel that
+cannot be convex gets a hub too, and is a star round it.
 
 Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963). Theory: docs/theory/realisation.md.
 """
@@ -41,10 +42,11 @@ def barycentric_start(pattern: Pattern, random: np.random.Generator | None = Non
     >>> places.shape
     (5, 2)
     """
-    spokes = [(v, pattern.vertices + hole) for hole, ring in enumerate(pattern.holes) for v in ring]
+    rings = [*pattern.holes, *(panel for place, panel in enumerate(pattern.panels) if pattern.bent[place])]
+    spokes = [(v, pattern.vertices + hub) for hub, ring in enumerate(rings) for v in ring]
     pairs = np.concatenate([pattern.edges, np.array(spokes, np.int64).reshape(-1, 2)])
     weights = np.ones(len(pairs)) if random is None else np.exp(_SPREAD * random.standard_normal(len(pairs)))
-    count = pattern.vertices + len(pattern.holes)
+    count = pattern.vertices + len(rings)
     matrix = np.zeros((count, count))
     for (a, b), weight in zip(pairs.tolist(), weights.tolist(), strict=True):
         matrix[[a, b], [a, b]] += weight
@@ -59,4 +61,4 @@ def barycentric_start(pattern: Pattern, random: np.random.Generator | None = Non
         places[inner] = np.linalg.solve(matrix[np.ix_(inner, inner)], right)
     ends = places[pattern.edges]
     places /= np.exp(np.log(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)).mean())
-    return places[: pattern.vertices], places[pattern.vertices :]
+    return places[: pattern.vertices], places[pattern.vertices : pattern.vertices + len(pattern.holes)]
