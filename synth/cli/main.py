@@ -24,6 +24,7 @@ _COMMANDS = {
     "convert": "synth.cli.graphs.convert:convert",
     "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
     "id": "synth.cli.graphs.id:id_command",
+    "realise": "synth.cli.things.realise:realise",
     "fold": "synth.cli.things.fold:fold",
     "draw": "synth.cli.things.draw:draw",
     "order": "synth.cli.guidance.order:order",

@@ -76,7 +76,8 @@ def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
 
 def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
     """Return float[n, K], which sums the corners at each of some vertices."""
-    return (pattern.corners[None, :, 1] == vertices[:, None]).astype(float)
+    at: Floats = (pattern.corners[None, :, 1] == vertices[:, None]).astype(np.float64)
+    return at
 
 
 def is_drawn(pattern: Pattern, angles: Floats) -> bool:

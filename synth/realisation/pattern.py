@@ -1,4 +1,4 @@
-"""What is to be drawn of a type: its panels, creases and borders in numbers, and which creases point to which centre.
+"""What is to be drawn of a type: panels, creases and borders in numbers, and which creases point to which centre.
 
 A bounded face without open edges is an inner vertex; one with open edges is a hole; the outer face is the border.
 Theory: docs/theory/realisation.md.
@@ -89,8 +89,8 @@ class Pattern:
     def bent(self) -> Flags:
         """bool[P]: which panels cannot be convex.
 
-        The lines of two sides of a convex panel pass through a point outside it, or through one of its vertices, and
-        no more: a link with three axes through a centre is no convex panel.
+        Two sides of a convex panel at most have lines through a point outside it, or through one of its vertices:
+        a link with three axes through a centre is no convex panel.
         """
         links = [self._links_at(one) for one in self.pointings]
         return np.array([any(row.count(panel) > 2 for row in links) for panel in range(len(self.panels))])

@@ -14,8 +14,8 @@ from synth.realisation.pattern import Pattern, Pointing
 __all__ = ["first_unknowns", "off_centres"]
 
 
-def first_unknowns(pattern: Pattern, places: Floats, hubs: Floats) -> Floats:
-    """Return the unknowns of a drawing: its vertices, then a point for each centre that is no vertex.
+def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels: Floats) -> Floats:
+    """Return the unknowns of a drawing: vertices, a point for each centre that is no vertex, hubs of bent panels.
 
     The point of an infinite centre is its direction, of length 1.
 
@@ -23,18 +23,20 @@ def first_unknowns(pattern: Pattern, places: Floats, hubs: Floats) -> Floats:
     ----------
     pattern : Pattern
     places : float[V, 2]
-    hubs : float[H, 2]
+    in_holes : float[H, 2]
+    in_panels : float[B, 2]
+        Hubs, as of `barycentric_start`.
 
     Returns
     -------
-    float[V + C, 2]
+    float[V + C + B, 2]
     """
     free = [one for one in pattern.pointings if one.vertex is None]
     points = [
-        _common_direction(pattern, places, one) if one.infinite else hubs[list(one.holes)].mean(axis=0)
+        _common_direction(pattern, places, one) if one.infinite else in_holes[list(one.holes)].mean(axis=0)
         for one in free
     ]
-    return np.concatenate([places, np.array(points).reshape(-1, 2)])
+    return np.concatenate([places, np.array(points).reshape(-1, 2), in_panels])
 
 
 def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
@@ -45,13 +47,13 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     Parameters
     ----------
     pattern : Pattern
-    unknowns : float[V + C, 2]
+    unknowns : float[V + C + B, 2]
 
     Returns
     -------
     off : float[P]
         Then, for each infinite centre, by how much its direction is longer than 1.
-    derivatives : float[P, 2 (V + C)]
+    derivatives : float[P, 2 (V + C + B)]
     """
     values: list[float] = []
     rows: list[Floats] = []

@@ -1,9 +1,9 @@
 """The first drawing of a pattern: barycentric, with a convex border.
 
 Tutte's theorem: in a convex border, with every other vertex in a weighted mean of its neighbours, the panels of a
-3-connected pattern are strictly convex and none overlap. Rules S1 and S2 of SCD graphs say that patterns are, with a
-*hub* in each hole joined to all vertices round it; the hub is where the centre across the hole begins. A panel that
-cannot be convex gets a hub too, and is a star round it.
+3-connected pattern are strictly convex and none overlap. Rules S1 and S2 of SCD graphs say that patterns are, with
+a *hub* in each hole joined to all vertices round it; the hub is where the centre across the hole begins. A panel
+that cannot be convex gets a hub too, and is a star round it.
 
 Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963). Theory: docs/theory/realisation.md.
 """
@@ -20,8 +20,10 @@ __all__ = ["barycentric_start"]
 _SPREAD = 0.5
 
 
-def barycentric_start(pattern: Pattern, random: np.random.Generator | None = None) -> tuple[Floats, Floats]:
-    """Return places of the vertices and of a hub in each hole; edges are about 1 long.
+def barycentric_start(
+    pattern: Pattern, random: np.random.Generator | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """Return places of the vertices and of the hubs; edges are about 1 long.
 
     Parameters
     ----------
@@ -32,13 +34,16 @@ def barycentric_start(pattern: Pattern, random: np.random.Generator | None = Non
     Returns
     -------
     vertices : float[V, 2]
-    hubs : float[H, 2]
+    in_holes : float[H, 2]
+    in_panels : float[B, 2]
+        Of those that cannot be convex.
 
     Examples
     --------
     >>> from graphs.convert.panels import scd_from_panels
     >>> from synth.realisation.pattern import pattern_of
-    >>> places, _ = barycentric_start(pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])))
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> places, _, _ = barycentric_start(pattern_of(fan))
     >>> places.shape
     (5, 2)
     """
@@ -61,4 +66,5 @@ def barycentric_start(pattern: Pattern, random: np.random.Generator | None = Non
         places[inner] = np.linalg.solve(matrix[np.ix_(inner, inner)], right)
     ends = places[pattern.edges]
     places /= np.exp(np.log(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)).mean())
-    return places[: pattern.vertices], places[pattern.vertices : pattern.vertices + len(pattern.holes)]
+    in_panels = pattern.vertices + len(pattern.holes)
+    return places[: pattern.vertices], places[pattern.vertices : in_panels], places[in_panels:]
