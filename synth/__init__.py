@@ -14,8 +14,9 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `reduce`, `convert`; edits are in `graphs.edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
-`four_bars`. A type as a thing, panels with coordinates: `realise`. Motion: `fold`, a crease pattern with rigid panels, frame by frame; `move`, any linkage. Pictures:
-`draw`, of any mechanism; a notebook shows them, `synth.drawing.save_scene` writes them.
+`four_bars`. A type as a thing: `realise`, panels with coordinates. Motion: `fold`, a crease pattern with rigid
+panels, frame by frame; `move`, any linkage. Pictures: `draw`, of any mechanism; a notebook shows them,
+`synth.drawing.save_scene` writes them.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.

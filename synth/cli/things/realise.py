@@ -12,14 +12,10 @@ __all__ = ["realise"]
 @click.command(short_help="Give a type coordinates: a flat sheet of panels, or a pose in space.")
 @click.argument("file", metavar="FILE")
 @click.option("--as", "kind", type=click.Choice(["sheet", "space"]), default="sheet", show_default=True)
-@click.option(
-    "--size", type=float, default=1.0, show_default=True, help="Longer side of the box round the drawing."
-)
+@click.option("--size", type=float, default=1.0, show_default=True, help="Longer side of the box round it.")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Another drawing for each.")
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
-@click.option(
-    "-o", "--output", metavar="OUT", help="Write the panels with their coordinates: .fold, .obj, .svg ..."
-)
+@click.option("-o", "--output", metavar="OUT", help="Write the placed panels: .fold, .obj, .svg ...")
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def realise(
@@ -35,8 +31,8 @@ def realise(
     """Give a type coordinates. FILE is a file, or an id m1:... or k1:...
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
-    to the same type. Of a graph without a drawing the simplest is taken, which is told. A flat sheet is drawn until
-    there is a way to fold it in which every crease turns; its mountains and valleys are those of that way.
+    to the same type. Of a graph without a drawing the simplest is taken, which is told. A flat sheet is drawn
+    until there is a way to fold it in which every crease turns; its mountains and valleys are those of that way.
 
     \b
     Examples:
