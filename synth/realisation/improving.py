@@ -23,7 +23,7 @@ __all__ = ["improved"]
 _ROUNDS = 40
 _SHARP = np.radians(35.0)
 """Corners sharper than this, or as near to 180 degrees, cost more than they should."""
-_LENGTH = 0.8
+_LENGTH = 1.1
 _BORDER = 0.15
 """Part of the mean turn at a vertex of the border below which it is near to straight."""
 _OFF = 30.0

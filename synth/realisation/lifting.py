@@ -19,8 +19,8 @@ __all__ = ["lifted"]
 
 _ZERO = 1e-9
 _STILL = 1e-6
-_STEEPEST = 1.0
-"""Difference in slope of the two panels at the crease that is folded most: 45 degrees if one is level."""
+_STEEPEST = 0.8
+"""Difference in slope of the two panels at the crease that is folded most: 39 degrees if one is level."""
 _STARTS, _ROUNDS = 12, 12
 
 
