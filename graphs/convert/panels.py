@@ -1,32 +1,41 @@
 """Panels given by their vertices, as in a mesh or a crease pattern, to an SCD graph.
 
 Two panels that share a side are hinged there; an interior vertex is a finite, explicit centre; a hole is a
-spatial loop. Source: Wiener 2016, section 3.4. Theory:
-docs/theory/scd-graphs.md.
+spatial loop, or has the centre that places of the panels give it. Source: Wiener 2016, section 3.4. Theory:
+docs/theory/scd-graphs.md, docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.centres import loops_with_centres
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.scd import SCDGraph
-from graphs.mechanism.sheet import sides_of_face
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
-__all__ = ["oriented_panels", "scd_from_panels"]
+__all__ = ["oriented_panels", "scd_from_panels", "scd_of_placed_panels"]
 
 Panel = tuple[Any, ...]
+
+Remote = Callable[[Mapping[JointId, tuple[Any, ...]], Sequence[tuple[JointId, ...]]], Sequence[Loop]]
+"""Says which loops round holes have a centre."""
 
 
 def scd_from_panels(
     panels: Mapping[Any, Sequence[Any]] | Sequence[Sequence[Any]],
     *,
     outer: tuple[Hashable, Hashable] | None = None,
+    remote: Remote | None = None,
 ) -> SCDGraph:
     """Return the SCD graph of panels given by their vertices.
 
@@ -37,6 +46,9 @@ def scd_from_panels(
     outer : (vertex, vertex), optional
         A side on the outer boundary. Without it the boundary with the most open edges is the outer one; on a
         closed surface the last interior vertex is the closing loop.
+    remote : callable, optional
+        Called with the ends of the joints and the cycles of joints round holes in whose every corner lies an open
+        edge; returns those that have a centre, as loops. Without it loops round holes are spatial.
 
     Returns
     -------
@@ -72,7 +84,11 @@ def scd_from_panels(
         for i, side in enumerate(sides_of_face(vertices))
         if rotation[link][i] is None
     }
-    return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)))
+    found: Callable[[list[tuple[JointId, ...]]], Sequence[Loop]] | None = None
+    if remote is not None:
+        ends = {joint: tuple(side) for side, joint in joint_at.items()}
+        found = partial(remote, ends)
+    return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)), found)
 
 
 def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
@@ -136,6 +152,7 @@ def _with_faces(
     joints: dict[JointId, tuple[LinkId, LinkId]],
     rotation: dict[LinkId, tuple[JointId | None, ...]],
     outer_side: tuple[LinkId, int] | None,
+    remote: Callable[[list[tuple[JointId, ...]]], Sequence[Loop]] | None,
 ) -> SCDGraph:
     """Choose the outer face and give every interior vertex its loop."""
     if not joints:
@@ -148,10 +165,15 @@ def _with_faces(
         outer = faces[-1].index  # a closed surface
     loops: list[Loop] = []
     closing: list[Loop] = []
+    holes: list[tuple[JointId, ...]] = []
     for face in faces:
         cycles = face_cycles(face)
         if not face.open_edges and len(cycles) == 1:
             (closing if face.index == outer else loops).append(Loop(cycles[0], Centre.FINITE))
+        elif len(cycles) == 1 and face.index != outer and face.open_corners == len(face.corners):
+            holes.append(cycles[0])
+    if remote is not None and holes:
+        loops += remote(holes)
     corner = faces[outer].corners[0]
     assert corner.leaving is not None
     side = "left" if joints[corner.leaving][0] == corner.link else "right"
@@ -172,3 +194,70 @@ def _face_of_side(
     joint = sides[index]
     assert joint in joints
     return left_of[joint, link]
+
+
+def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
+    """Return the SCD graph of a sheet whose faces are its links, with the centres that geometry gives.
+
+    The outer boundary is the one round the largest area. Where the creases of a loop round a hole meet in a point
+    or are parallel, within the precision of the coordinates, it has an implicit centre there. Without coordinates
+    loops round holes are spatial, and the boundary with the most open edges is the outer.
+
+    Parameters
+    ----------
+    sheet : Sheet
+
+    Raises
+    ------
+    InvariantError
+        As `graphs.convert.panels.scd_from_panels`.
+
+    Examples
+    --------
+    Four panels round a square hole, the creases on its diagonals: they meet in its middle.
+
+    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+    >>> corners = ((-2, -2), (2, -2), (2, 2), (-2, 2), (-1, -1), (1, -1), (1, 1), (-1, 1))
+    >>> [loop.centre for loop in scd_of_placed_panels(Sheet(8, (), "", faces, corners)).loops]
+    [<Centre.FINITE: 'finite'>]
+    """
+    panels = oriented_panels(dict(enumerate(sheet.faces)))
+    if sheet.coordinates is None:
+        return scd_from_panels(panels)
+    outer = _outer_side(sheet, panels)
+
+    def remote(ends: Mapping[JointId, Edge], cycles: Sequence[tuple[JointId, ...]]) -> list[Loop]:
+        return loops_with_centres(sheet, cycles, ends)  # type: ignore[arg-type]  # joints of panels are numbers
+
+    return scd_from_panels(panels, outer=outer, remote=remote)
+
+
+def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | None:
+    """Return a side on the boundary round the largest area; None where there is one boundary or none."""
+    sides = {side for panel in panels.values() for side in sides_of_face(panel)}
+    after = {b: a for a, b in sides if (b, a) not in sides}
+    if len(after) < sum((b, a) not in sides for a, b in sides):
+        return None  # boundaries that touch in a vertex are not told apart
+    places = np.zeros((sheet.vertices, 3))
+    given = np.asarray(sheet.coordinates, dtype=float)
+    places[:, : given.shape[1]] = given
+    rings: list[list[int]] = []
+    seen: set[int] = set()
+    for start in after:
+        ring, here = [], start
+        while here not in seen:
+            seen.add(here)
+            ring.append(here)
+            here = after[here]
+        if ring:
+            rings.append(ring)
+    if len(rings) < 2:
+        return None
+    widest = max(rings, key=lambda ring: float(np.linalg.norm(_area(places[ring]))))
+    return widest[0], widest[1]
+
+
+def _area(ring: Floats) -> Floats:
+    around = ring - ring.mean(axis=0)
+    area: Floats = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0) / 2
+    return area

@@ -14,7 +14,7 @@ import networkx as nx
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.panels import oriented_panels, scd_from_panels
+from graphs.convert.panels import oriented_panels, scd_from_panels, scd_of_placed_panels
 from graphs.convert.reconstruction import polyhedron_of
 from graphs.errors import UnsolvableError
 from graphs.mechanism.conical import ConicalLinkage
@@ -97,7 +97,7 @@ def to_scd(thing: Mechanism) -> SCDGraph:
     if isinstance(thing, SCDGraph):
         return thing
     if isinstance(thing, Sheet):
-        return scd_from_panels(dict(enumerate(_plain(thing).faces)))
+        return scd_of_placed_panels(_plain(thing))
     if isinstance(thing, PolyhedronModel):
         if not thing.links:
             raise UnsolvableError("the polyhedron model does not say which vertices make up a link")

@@ -25,6 +25,7 @@ _COMMANDS = {
     "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
     "id": "synth.cli.graphs.id:id_command",
     "generate": "synth.cli.things.generate:generate",
+    "realise": "synth.cli.things.realise:realise",
     "fold": "synth.cli.things.fold:fold",
     "draw": "synth.cli.things.draw:draw",
     "order": "synth.cli.guidance.order:order",

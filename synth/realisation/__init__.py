@@ -1,0 +1,19 @@
+"""Types as things: panels with coordinates, as a flat sheet or as a pose in space.
+
+`realise` takes a type, draws its panels, and says what they look like. Below it: `pattern` (what is to be drawn),
+`starting` (a barycentric drawing), `improving` (its shape, creases to their centres), `drawing` (one try after the
+other), `lifting` (to a pose in space), `figures`, `simplest` (the drawn type of an SC graph). Theory:
+docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from graphs.lazy import offered
+
+if TYPE_CHECKING:
+    from synth.realisation.realised import Realised as Realised
+    from synth.realisation.realised import realise as realise
+else:
+    __getattr__, __dir__, __all__ = offered(__name__, {"realised": "Realised realise"})

@@ -1,0 +1,92 @@
+"""Drawings of a pattern in the plane, one after the other: each from another start, to other lengths.
+
+Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from synth.realisation.figures import crossings
+from synth.realisation.improving import improved
+from synth.realisation.measures import opened_angles
+from synth.realisation.pattern import Pattern
+from synth.realisation.pointing import first_unknowns
+from synth.realisation.starting import barycentric_start
+
+__all__ = ["Drawn", "drawings"]
+
+_VARIED = 0.35
+_APART = 1e-3
+"""Centres nearer to each other or to a vertex than this, in units of the extent, are taken as one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A drawing.
+
+    Attributes
+    ----------
+    places : float[V, 2]
+        Of the vertices; edges are about 1 long.
+    angles : float[K]
+        Of the corners of panels, radians.
+    convex : bool
+        Whether the border was kept convex.
+    number : int
+        Which try it is.
+    """
+
+    places: Floats
+    angles: Floats
+    convex: bool
+    number: int
+
+
+def drawings(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
+    """Yield drawings without crossings, each panel strictly convex where it can be, creases to their centres.
+
+    The first is as even as possible, every other aims at random lengths. The border is convex; where creases point
+    to centres across holes every third drawing may have another.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    seed, tries : int
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
+    >>> [drawn.convex for drawn in drawings(fan, 0, 2)]
+    [True, True]
+    """
+    for number in range(tries):
+        random = np.random.default_rng((seed, number))
+        convex = not pattern.pointings or number % 3 < 2
+        start = barycentric_start(pattern, random if number else None)
+        aims = _VARIED * random.standard_normal(len(pattern.edges)) if number or seed else None
+        found = improved(pattern, first_unknowns(pattern, *start), convex=convex, aims=aims)
+        if found is None:
+            continue
+        places = found[: pattern.vertices]
+        if crossings(pattern, places) or not _are_apart(pattern, found):
+            continue
+        yield Drawn(places, opened_angles(pattern, places)[0], convex, number)
+
+
+def _are_apart(pattern: Pattern, unknowns: Floats) -> bool:
+    """Tell whether centres across holes are different from each other and from the vertices."""
+    free = [one for one in pattern.pointings if one.vertex is None]
+    finite = [pattern.vertices + place for place, one in enumerate(free) if not one.infinite]
+    extent = np.ptp(unknowns[: pattern.vertices], axis=0).max()
+    for place in finite:
+        others = np.delete(unknowns[: pattern.vertices + len(free)], place, axis=0)
+        if np.linalg.norm(others - unknowns[place], axis=1).min() < _APART * extent:
+            return False
+    return True

@@ -1,0 +1,180 @@
+"""A drawing made to a better shape: corners neither sharp nor flat, edges alike, creases to their centres.
+
+What is minimised are squares that grow without bound where a corner closes or opens; no step may turn a panel
+over. Each step goes to where creases meet their centres, as far as derivatives tell, and within that to the better
+shape (Gauss-Newton, damped). Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.mechanism.sheet import sides_of_face
+from synth.realisation.figures import crossings
+from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
+from synth.realisation.pattern import Pattern
+from synth.realisation.pointing import off_centres
+
+__all__ = ["improved"]
+
+_ROUNDS = 40
+_SHARP = np.radians(35.0)
+"""Corners sharper than this, or as near to 180 degrees, cost more than they should."""
+_LENGTH = 1.1
+_BORDER = 0.15
+"""Part of the mean turn at a vertex of the border below which it is near to straight."""
+_OFF = 30.0
+"""What a crease off its centre costs."""
+_SEEN = np.radians(6.0)
+"""Sides of bent panels that are seen from the hub under less than this cost more than they should."""
+_CLOSED = 1e-14
+_ENOUGH = 1e-3
+"""A step that gains less than this part is the last."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Cost:
+    """Residuals at a drawing, and by how much creases miss their centres."""
+
+    residuals: Floats
+    by: Floats
+    off: Floats
+    off_by: Floats
+
+    @property
+    def merit(self) -> float:
+        return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
+
+
+@dataclass(frozen=True, slots=True)
+class _Wanted:
+    """A convex border, and logarithms of the lengths of edges."""
+
+    convex: bool
+    lengths: Floats
+
+
+def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floats | None = None) -> Floats | None:
+    """Return a drawing of better shape in which creases point to their centres; None if none was found.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    start : float[V + C + B, 2]
+        With panels that are convex, or seen from their hubs.
+    convex : bool, optional
+        Keep the border convex.
+    aims : float[E], optional
+        Logarithm of the length that each edge is to have; without it 0, all alike.
+
+    Returns
+    -------
+    float[V + C + B, 2] or None
+        Edges are 1 long in the mean, or as is aimed at.
+    """
+    wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims)
+    unknowns, cost = start, _cost(pattern, start, wanted)
+    damping = 1e-2
+    for _ in range(_ROUNDS):
+        if cost is None:
+            return None
+        better = None
+        while better is None and damping < 1e8:
+            trial = unknowns + _step(cost, damping).reshape(unknowns.shape)
+            found = _cost(pattern, trial, wanted)
+            if found is not None and found.merit < cost.merit:
+                better = found
+            else:
+                damping *= 6.0
+        if better is None:
+            break
+        gained = (cost.merit - better.merit) / cost.merit
+        unknowns, cost, damping = trial, better, max(damping / 10.0, 1e-6)
+        if gained < _ENOUGH and np.abs(cost.off).max(initial=0.0) < 1e-6:
+            break
+    return _closed(pattern, unknowns)
+
+
+def _closed(pattern: Pattern, unknowns: Floats) -> Floats | None:
+    """Return the drawing with all creases on their centres, moved as little as possible."""
+    for _ in range(12):
+        off, by = off_centres(pattern, unknowns)
+        if np.abs(off).max(initial=0.0) <= _CLOSED:
+            break
+        unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
+    angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
+    off, _ = off_centres(pattern, unknowns)
+    if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_drawn(pattern, angles):
+        return None
+    return unknowns
+
+
+def _step(cost: _Cost, damping: float) -> Floats:
+    """Return the step to where nothing is off, and in what that leaves free to the least cost."""
+    size = cost.by.shape[1]
+    if not len(cost.off):
+        matrix = cost.by.T @ cost.by + damping * np.eye(size)
+        step: Floats = -np.asarray(np.linalg.solve(matrix, cost.by.T @ cost.residuals), dtype=np.float64)
+        return step
+    u, singular, vt = np.linalg.svd(cost.off_by)
+    rank = int((singular > 1e-9 * singular[0]).sum())
+    there: Floats = np.asarray(-vt[:rank].T @ ((u[:, :rank].T @ cost.off) / singular[:rank]))
+    free = vt[rank:].T
+    by = cost.by @ free
+    matrix = by.T @ by + damping * np.eye(free.shape[1])
+    part = 1.0 / (1.0 + damping)
+    within: Floats = free @ np.linalg.solve(matrix, by.T @ (cost.residuals + part * (cost.by @ there)))
+    step = part * there - within
+    return step
+
+
+def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
+    """Return what a drawing costs; None where a panel is turned over or the border is not as it should be."""
+    places = unknowns[: pattern.vertices]
+    angles, by = opened_angles(pattern, places)
+    if not is_drawn(pattern, angles):
+        return None
+    lengths, by_lengths = edge_lengths(places, pattern.edges)
+    lengths = lengths - wanted.lengths
+    rows = [
+        *_near(angles, by, _SHARP, 1.0),
+        *_near(pattern.widest - angles, by, _SHARP, -1.0),
+        _LENGTH * (lengths + lengths**3),
+        _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
+    ]
+    room = [(pattern.outer, np.pi if wanted.convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
+    for ring, whole in room:
+        sums = sums_at(pattern, np.array(ring, np.int64))
+        left = whole - sums @ angles
+        if left.min() <= 0.0:
+            return None
+        rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(ring), -1.0)
+    residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
+    padded = np.zeros((len(residuals), unknowns.size))
+    padded[:, : derivatives.shape[1]] = derivatives
+    off, off_by = off_centres(pattern, unknowns)
+    if not pattern.bent.any():
+        return _Cost(residuals, padded, off, off_by)
+    seen, by_seen = _seen(pattern, unknowns)
+    if seen.min() <= 0.0 or crossings(pattern, places):
+        return None
+    return _Cost(np.concatenate([residuals, seen]), np.concatenate([padded, by_seen]), off, off_by)
+
+
+def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
+    """Return what it costs that a side of a bent panel is hardly seen from its hub; negative if it is not seen."""
+    hubs = range(len(unknowns) - int(pattern.bent.sum()), len(unknowns))
+    panels = [pattern.panels[place] for place in np.flatnonzero(pattern.bent)]
+    sides = [(b, hub, a) for hub, panel in zip(hubs, panels, strict=True) for a, b in sides_of_face(panel)]
+    angles, by = corner_angles(unknowns, np.array(sides, np.int64))
+    costs, by_costs = _near(angles, by, _SEEN, 1.0)
+    return np.where(angles > 0.0, costs, -1.0), by_costs
+
+
+def _near(angles: Floats, by: Floats, size: float, sign: float) -> tuple[Floats, Floats]:
+    """Return residuals that grow as angles come near to 0, and derivatives; ``sign`` is that of their own."""
+    residuals = (size / angles) ** 2
+    return residuals, (-2.0 * sign * residuals / angles)[:, None] * by

@@ -1,0 +1,116 @@
+"""From a drawing in the plane to a pose in space: every vertex gets a height, every panel stays plane.
+
+A panel is the plane z = a x + b y + c over its drawing. Two panels agree along their crease; so round a centre all
+axes meet above the point where the creases of the drawing meet, and are parallel above parallel creases. What is
+left is linear: the lifts of a drawing are its first-order flexes, J - 2 C - 3 S of them or more, C the number of
+centres and S of spatial loops. Source: H. Crapo and W. Whiteley, Statics of frameworks and motions of panel
+structures, Structural Topology 6 (1982). Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import UnsolvableError, shown
+from synth.realisation.pattern import Pattern
+
+__all__ = ["lifted"]
+
+_ZERO = 1e-9
+_STILL = 1e-6
+_STEEPEST = 0.8
+"""Difference in slope of the two panels at the crease that is folded most: 39 degrees if one is level."""
+_STARTS, _ROUNDS = 12, 12
+
+
+def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Floats:
+    """Return places in space above a drawing, every crease folded, as evenly as was found.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    places : float[V, 2]
+    random : Generator
+
+    Returns
+    -------
+    float[V, 3]
+
+    Raises
+    ------
+    UnsolvableError
+        If creases stay straight in every lift.
+    """
+    middle = places.mean(axis=0)
+    planes = _planes(pattern, places - middle)
+    folds = _folds(pattern, places, planes)
+    still = np.abs(folds).max(axis=1, initial=0.0) <= _STILL
+    if still.any():
+        names = ", ".join(shown(pattern.joints[place]) for place in np.flatnonzero(still))
+        raise UnsolvableError(f"in every pose above this drawing the panels at joint(s) {names} are one plane")
+    weights = _evenly(folds, random)
+    chosen = planes @ weights * (_STEEPEST / np.abs(folds @ weights).max(initial=_STILL))
+    return _above(pattern, places, places - middle, chosen.reshape(-1, 3))
+
+
+def _planes(pattern: Pattern, places: Floats) -> Floats:
+    """Return float[3 N, K]: planes of the panels that agree along creases, the first panel level."""
+    panel_at = {(a, b): i for i, p in enumerate(pattern.panels) for a, b in zip(p, (*p[1:], p[0]), strict=True)}
+    matrix = np.zeros((2 * len(pattern.creases), 3 * len(pattern.panels)))
+    for row, (a, b) in enumerate(pattern.creases):
+        one, other = panel_at[a, b], panel_at[b, a]
+        for end, vertex in enumerate((a, b)):
+            point = [*places[vertex], 1.0]
+            matrix[2 * row + end, 3 * one : 3 * one + 3] = point
+            matrix[2 * row + end, 3 * other : 3 * other + 3] = [-value for value in point]
+    level = np.eye(3, matrix.shape[1])
+    _, singular, vt = np.linalg.svd(np.vstack([matrix, level]))
+    rank = int((singular > _ZERO * singular[0]).sum())
+    return vt[rank:].T
+
+
+def _folds(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
+    """Return float[J, K]: across each crease, the difference of slope of its panels, for each lift."""
+    panel_at = {(a, b): i for i, p in enumerate(pattern.panels) for a, b in zip(p, (*p[1:], p[0]), strict=True)}
+    slopes = planes.reshape(len(pattern.panels), 3, -1)[:, :2]
+    rows = []
+    for a, b in pattern.creases:
+        along = places[b] - places[a]
+        across = np.array([-along[1], along[0]]) / np.linalg.norm(along)
+        rows.append(across @ (slopes[panel_at[a, b]] - slopes[panel_at[b, a]]))
+    return np.array(rows).reshape(len(pattern.creases), -1)
+
+
+def _evenly(folds: Floats, random: np.random.Generator) -> Floats:
+    """Return weights of the lifts with which the crease folded least is folded most, of some that are tried.
+
+    From random weights the folds are brought near to 1 or -1, as their signs are, in the mean of squares.
+    """
+    best: Floats = np.zeros(folds.shape[1])
+    weights: Floats
+    most = -1.0
+    for _ in range(_STARTS):
+        weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
+        for _ in range(_ROUNDS):
+            least = _evenness(folds @ weights)
+            if least > most:
+                best, most = weights, least
+            signs = np.where(folds @ weights < 0.0, -1.0, 1.0)
+            weights = np.asarray(np.linalg.lstsq(folds, signs, rcond=None)[0])
+    return best
+
+
+def _evenness(turns: Floats) -> float:
+    """Return the least turn by the largest."""
+    return float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=_STILL))
+
+
+def _above(pattern: Pattern, places: Floats, centred: Floats, planes: Floats) -> Floats:
+    """Return the vertices at the height of their panels, in the mean of those that meet there."""
+    heights, count = np.zeros(pattern.vertices), np.zeros(pattern.vertices)
+    for panel, plane in zip(pattern.panels, planes, strict=True):
+        around = list(panel)
+        heights[around] += centred[around] @ plane[:2] + plane[2]
+        count[around] += 1
+    return np.column_stack([places, heights / count])

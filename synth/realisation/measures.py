@@ -1,0 +1,115 @@
+"""Angles and lengths of a drawn pattern, with their derivatives by the coordinates of the vertices.
+
+Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphs.arrays import Floats, Ints
+from synth.realisation.pattern import Pattern
+
+__all__ = ["corner_angles", "edge_lengths", "is_drawn", "opened_angles", "sums_at"]
+
+_TURN = 1e-6
+
+
+def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
+    """Return the angle of each corner, in (-pi, pi], and its derivatives.
+
+    Parameters
+    ----------
+    places : float[V, 2]
+    corners : int64[K, 3]
+        Vertices before, at and after, counter-clockwise.
+
+    Returns
+    -------
+    angles : float[K]
+        Radians; negative where the corner is turned over.
+    derivatives : float[K, 2 V]
+
+    Examples
+    --------
+    >>> angles, by = corner_angles(np.array([[0.0, 1], [0, 0], [1, 0]]), np.array([[0, 1, 2]]))
+    >>> float(np.degrees(angles[0])), by.shape
+    (90.0, (1, 6))
+    """
+    back, on = places[corners[:, 0]] - places[corners[:, 1]], places[corners[:, 2]] - places[corners[:, 1]]
+    angles = np.arctan2(on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0], (on * back).sum(axis=1))
+    derivatives = np.zeros((len(corners), len(places), 2))
+    rows = np.arange(len(corners))
+    for vertex, arm, sign in ((0, back, 1.0), (2, on, -1.0)):
+        by = sign * np.column_stack([-arm[:, 1], arm[:, 0]]) / (arm**2).sum(axis=1)[:, None]
+        derivatives[rows, corners[:, vertex]] += by
+        derivatives[rows, corners[:, 1]] -= by
+    return angles, derivatives.reshape(len(corners), -1)
+
+
+def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
+    """Return the logarithm of the length of each edge, and its derivatives.
+
+    Parameters
+    ----------
+    places : float[V, 2]
+    edges : int64[E, 2]
+
+    Returns
+    -------
+    logarithms : float[E]
+    derivatives : float[E, 2 V]
+
+    Examples
+    --------
+    >>> edge_lengths(np.array([[0.0, 0], [1, 0]]), np.array([[0, 1]]))[0].tolist()
+    [0.0]
+    """
+    along = places[edges[:, 1]] - places[edges[:, 0]]
+    squares = (along**2).sum(axis=1)
+    derivatives = np.zeros((len(edges), len(places), 2))
+    rows = np.arange(len(edges))
+    derivatives[rows, edges[:, 1]] = along / squares[:, None]
+    derivatives[rows, edges[:, 0]] = -along / squares[:, None]
+    return np.log(squares) / 2, derivatives.reshape(len(edges), -1)
+
+
+def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
+    """Return float[n, K], which sums the corners at each of some vertices."""
+    at: Floats = (pattern.corners[None, :, 1] == vertices[:, None]).astype(np.float64)
+    return at
+
+
+def is_drawn(pattern: Pattern, angles: Floats) -> bool:
+    """Tell whether panels are strictly convex where they can be, lie one way up, and go once round inner vertices.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    angles : float[K]
+        Of its corners, as `opened_angles` gives them.
+    """
+    if not (np.isfinite(angles).all() and angles.min() > 0.0 and (angles < pattern.widest).all()):
+        return False
+    sides = np.array([len(panel) for panel in pattern.panels])
+    turns = np.bincount(pattern.panel_of_corner, angles, len(sides)) - np.pi * (sides - 2)
+    inner = sums_at(pattern, pattern.inner) @ angles - 2 * np.pi
+    return bool(np.abs(turns).max() < _TURN and np.abs(inner).max(initial=0.0) < _TURN)
+
+
+def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
+    """Return the angles of all corners, up to 360 degrees in panels that cannot be convex, and derivatives.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    places : float[V, 2]
+
+    Returns
+    -------
+    angles : float[K]
+        Radians; negative where a corner is turned over.
+    derivatives : float[K, 2 V]
+    """
+    angles, by = corner_angles(places, pattern.corners)
+    return np.where((angles < 0.0) & (pattern.widest > np.pi), angles + 2 * np.pi, angles), by

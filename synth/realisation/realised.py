@@ -1,0 +1,285 @@
+"""A type as a thing: a flat sheet of panels, or a pose of it in space.
+
+Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isfinite
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.table import Mechanism, to_scd
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.identity.drawings import map_id
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import Sheet
+from graphs.printing import Block, html_of, text_of
+from graphs.rank.generic import exact_mobility
+from graphs.rank.pose import pose_mobility
+from synth.folding.linkage import linkage_of_sheet
+from synth.folding.prepared import prepared
+from synth.realisation.drawing import Drawn, drawings
+from synth.realisation.figures import ShapeFigures, figures_of
+from synth.realisation.lifting import lifted
+from synth.realisation.pattern import Pattern, pattern_of
+from synth.realisation.simplest import simplest_drawn
+
+__all__ = ["Kind", "Realised", "realise"]
+
+Kind = Literal["sheet", "space"]
+
+_TRIES = 12
+
+
+@dataclass(frozen=True)
+class Realised:
+    """A type with coordinates.
+
+    Attributes
+    ----------
+    kind : {"sheet", "space"}
+    scd : SCDGraph
+        The type.
+    sheet : Sheet
+        Its panels, in the order of the links; edge ``i`` is joint ``i`` in the order of ``scd.joints``, then come
+        borders. Valleys and mountains are those of the pose, or of a way to fold the flat sheet.
+    figures : ShapeFigures
+    mobility : int
+        Exact generic mobility of the type.
+    freedoms : int or None
+        First-order freedoms at this pose; None where singular values do not tell.
+    folds : bool or None
+        Of a flat sheet: whether a way was found to fold it in which every crease turns. None in space.
+    convex : bool
+        Whether the border of the drawing is convex.
+    bent : tuple of link id
+        Panels that are not convex: three axes or more pass through one centre.
+    number, tries : int
+        Which try it is, and how many drawings were tried.
+    notes : tuple of str
+        What was chosen where the input leaves it open.
+    """
+
+    kind: Kind
+    scd: SCDGraph
+    sheet: Sheet
+    figures: ShapeFigures
+    mobility: int
+    freedoms: int | None
+    folds: bool | None
+    convex: bool
+    bent: tuple[Any, ...]
+    number: int
+    tries: int
+    notes: tuple[str, ...] = ()
+
+    @property
+    def rank(self) -> tuple[bool, bool, float]:
+        """What it is chosen by: whether it moves as it should, whether it folds, its quality."""
+        quality = self.figures.quality
+        return self.kind == "sheet" or self.freedoms == self.mobility, self.folds is not False, quality
+
+    @property
+    def good(self) -> bool:
+        """Whether no better one need be looked for."""
+        moves, folds, quality = self.rank
+        return moves and folds and quality >= 1.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        return {
+            "kind": self.kind,
+            "drawing": map_id(self.scd),
+            "figures": self.figures.to_json(),
+            "mobility": self.mobility,
+            "freedoms": self.freedoms,
+            "folds": self.folds,
+            "convex_border": self.convex,
+            "bent_panels": [str(link) for link in self.bent],
+            "try": self.number,
+            "tries": self.tries,
+            "notes": list(self.notes),
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        shape = self.figures
+        told = [f"note: {note}" for note in self.notes]
+        told += [
+            f"{'a flat sheet' if self.kind == 'sheet' else 'a pose in space'} of {self.scd}",
+            f"drawing  {map_id(self.scd)}, read back from the coordinates",
+            f"corners {np.degrees(shape.least_angle):.3g} to {np.degrees(shape.greatest_angle):.3g} degrees, "
+            f"shortest side {shape.edge_ratio:.2g} of the longest, vertices {shape.least_distance:.2g} of the "
+            f"extent apart, panels plane to {shape.planarity:.0e}",
+        ]
+        if self.bent:
+            names = ", ".join(shown(link) for link in self.bent)
+            told.append(f"not convex: panel(s) {names}, of which three axes or more pass through one centre")
+        if not self.convex:
+            told.append("the border is not convex")
+        told.append(f"mobility {self.mobility}, exact; {self._freedoms()} at this pose")
+        if self.folds is not None:
+            told.append(self._folding())
+        told.append(f"try {self.number + 1} of {self.tries}")
+        return list(told)
+
+    def _freedoms(self) -> str:
+        found = "an unknown number of" if self.freedoms is None else str(self.freedoms)
+        return f"{found} first-order freedom(s)"
+
+    def _folding(self) -> str:
+        if self.folds:
+            return "folds with every crease turning, as mountains and valleys say"
+        return f"no folding drawing found in {self.tries} tries: on each some creases stay flat"
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<Realised: {self.kind}, {self.sheet!r}>"
+
+
+def realise(
+    mechanism: Mechanism, *, kind: Kind = "sheet", size: float = 1.0, seed: int = 0, tries: int = _TRIES
+) -> Realised:
+    """Give a type coordinates.
+
+    Parameters
+    ----------
+    mechanism : SCDGraph, or what has one; SCGraph
+        Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told.
+    kind : {"sheet", "space"}, optional
+        A flat sheet, or a pose in space with every crease folded.
+    size : float, optional
+        The longer side of the box round the drawing.
+    seed : int, optional
+        Other seeds give other drawings; the same gives the same.
+    tries : int, optional
+        How many drawings are tried at most. The first of good shape that folds is taken, or the best.
+
+    Returns
+    -------
+    Realised
+
+    Raises
+    ------
+    UnsolvableError
+        If the mechanism has no drawing, its panels close to a surface without a border, or nothing was found.
+    InvariantError
+        If an option is out of its range.
+
+    Examples
+    --------
+    >>> from graphs.identity.drawings import mechanism_from_map_id
+    >>> vertex = realise(mechanism_from_map_id("m1:a-b.ac-.b-d.cd-"))
+    >>> vertex.sheet, vertex.folds, vertex.mobility
+    (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
+    """
+    _check(kind, size, seed, tries)
+    scd, notes = simplest_drawn(mechanism)
+    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes)
+    best: Realised | None = None
+    reasons: dict[str, None] = {}
+    for drawn in drawings(asked.pattern, seed, tries):
+        try:
+            found = _realised(asked, drawn)
+        except UnsolvableError as error:
+            reasons[str(error)] = None
+            continue
+        if best is None or found.rank > best.rank:
+            best = found
+        if best.good:
+            break
+    if best is None:
+        why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
+        raise UnsolvableError(f"not found in {tries} tries: {why}")
+    return best
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What is to be realised, and how."""
+
+    kind: Kind
+    scd: SCDGraph
+    pattern: Pattern
+    code: str
+    size: float
+    seed: int
+    tries: int
+    notes: tuple[str, ...]
+
+
+def _realised(asked: _Asked, drawn: Drawn) -> Realised:
+    """Return what a drawing gives; refuse one that is of another type when it is read back."""
+    sheet = _placed(asked, drawn)
+    if map_id(to_scd(sheet)) != asked.code:
+        raise UnsolvableError("the axes of a loop meet that the type does not ask to")
+    sheet, folds = _folded(sheet) if asked.kind == "sheet" else (_marked(sheet), None)
+    pattern = asked.pattern
+    return Realised(
+        kind=asked.kind,
+        scd=asked.scd,
+        sheet=sheet,
+        figures=figures_of(pattern, sheet, drawn.angles),
+        mobility=exact_mobility(asked.scd).mobility,
+        freedoms=pose_mobility(sheet).dof,
+        folds=folds,
+        convex=drawn.convex,
+        bent=tuple(link for link, bent in zip(pattern.links, pattern.bent, strict=True) if bent),
+        number=drawn.number,
+        tries=asked.tries,
+        notes=asked.notes,
+    )
+
+
+def _check(kind: str, size: float, seed: int, tries: int) -> None:
+    if kind not in get_args(Kind):
+        raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
+    if not (isfinite(size) and size > 0.0):
+        raise InvariantError("size", f"the size is {size:g}", "a number above 0")
+    if seed < 0 or tries < 1:
+        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
+
+
+def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
+    """Return the panels with coordinates of the size that is asked for."""
+    pattern = asked.pattern
+    places = drawn.places - drawn.places.min(axis=0)
+    places = places * (asked.size / places.max())
+    if asked.kind == "space":
+        places = lifted(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+    creases = len(pattern.creases)
+    return Sheet(
+        pattern.vertices,
+        tuple((int(a), int(b)) for a, b in pattern.edges),
+        "U" * creases + "B" * (len(pattern.edges) - creases),
+        pattern.panels,
+        tuple(tuple(map(float, row)) for row in places),
+    )
+
+
+def _marked(sheet: Sheet) -> Sheet:
+    """Return a sheet in space with mountains and valleys as it is folded."""
+    return _lettered(sheet, linkage_of_sheet(sheet).angles)
+
+
+def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
+    """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any."""
+    found = prepared(sheet).branches
+    for branch in found.branches if found is not None else ():
+        if branch.certainty != "not known" and "0" not in branch.signs:
+            return _lettered(sheet, branch.rates), True
+    return sheet, False
+
+
+def _lettered(sheet: Sheet, turns: Floats) -> Sheet:
+    letters = "".join("V" if turn > 0.0 else "M" for turn in turns)
+    return replace(sheet, assignments=letters + sheet.assignments[len(letters) :])
