@@ -36,7 +36,7 @@ def crease_patterns(folder, most):
                 run("mobility", file, code=2)
 
 
-@pytest.mark.parametrize("most", [8_000, pytest.param(10**9, marks=pytest.mark.slow)], ids=["small", "all"])
+@pytest.mark.parametrize("most", [2_500, pytest.param(10**9, marks=pytest.mark.slow)], ids=["small", "all"])
 def test_the_answer_for_crease_patterns_is_that_of_the_command(most, fold_folder):
     patterns = list(crease_patterns(fold_folder, most))
     assert len(patterns) > 10

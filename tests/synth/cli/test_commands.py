@@ -278,7 +278,7 @@ def test_an_edited_pattern_is_a_pattern(data, tmp_path):
         (["--add-crease", "0:sky"], "'sky' is neither a vertex nor a point X,Y"),
         (
             ["--add-crease", "0.3,0.1:2"],
-            "the nearest are vertex 9 (0.414214, 0) and edge 0 (V) from vertex 0 (0, 0)",
+            "the nearest are vertex 9 (0.585786, 0) and edge 0 (V) from vertex 0 (0, 0)",
         ),
         (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease is for crease patterns"),
     ],
@@ -430,6 +430,8 @@ def test_shell_completion_knows_the_commands():
         "convert",
         "reconstruct",
         "id",
+        "generate",
+        "realise",
         "order",
         "dyads",
         "fourbar",

@@ -59,7 +59,7 @@ def test_a_noisy_sheet_folds_and_says_what_was_moved():
 def test_a_folded_sheet_is_moved_along_its_motion():
     """No angles in its plane help: loops have to close at several poses, and panels to be plane."""
     crease = next(iter(mechanism_of_sheet(miura(3, 3, 1.0)).sc.joints))
-    folded = fold(miura(3, 3, 1.0), drive={crease: 1.0}, branch=1, frames=2).frames()[-1]
+    folded = fold(miura(3, 3, 1.0), drive={crease: 1.0}, frames=2).frames()[-1]
     noisy = disturbed(folded, 1e-6)
     linkage = linkage_of_sheet(noisy)
     assert not branches_of(linkage).branches
