@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel.row_set import slot_of
 from graphs.arrays import Bytes, Ints
 
 __all__ = ["Cycles", "count_left_in_place", "cycles_of"]
@@ -177,8 +178,8 @@ def _filled(
                 after, numbers = doubled(after), doubled(numbers)
                 table = np.full(_table_size(len(after)), -1, np.int64)
                 for j in range(used):
-                    table[_slot(table, after, after[j])] = j
-            slot = _slot(table, after, row)
+                    table[slot_of(table, after, after[j])] = j
+            slot = slot_of(table, after, row)
             if table[slot] < 0:
                 table[slot] = used
                 for k in range(width):
@@ -208,21 +209,3 @@ def _table_size(rows: int) -> int:
     while size < 4 * rows:
         size *= 2
     return size
-
-
-@compiled
-def _slot(table: Ints, rows: Ints, row: Ints) -> np.int64:
-    """Return where a row is in a hash table of rows, or the free slot where it belongs."""
-    word = np.uint64(0)
-    for value in row:
-        word = (word ^ np.uint64(value)) * np.uint64(0x9E3779B97F4A7C15)
-        word ^= word >> np.uint64(32)
-    slot = np.int64(word & np.uint64(len(table) - 1))
-    while table[slot] >= 0:
-        other, k = table[slot], 0
-        while k < len(row) and rows[other, k] == row[k]:
-            k += 1
-        if k == len(row):
-            return slot
-        slot = (slot + 1) & np.int64(len(table) - 1)
-    return slot

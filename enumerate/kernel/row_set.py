@@ -7,7 +7,7 @@ import numpy as np
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.arrays import Bytes, Ints
 
-__all__ = ["empty_set", "insert"]
+__all__ = ["empty_set", "insert", "slot_of"]
 
 
 @compiled
@@ -17,11 +17,11 @@ def empty_set(width: int) -> tuple[Ints, Bytes, int]:
 
 
 @compiled
-def _slot(table: Ints, rows: Bytes, row: Bytes) -> np.int64:
+def slot_of(table: Ints, rows: Bytes | Ints, row: Bytes | Ints) -> np.int64:
     """Return where a row is in a hash table of rows, or the free slot where it belongs."""
     word = np.uint64(0)
-    for byte in row:
-        word = (word ^ np.uint64(byte)) * np.uint64(0x9E3779B97F4A7C15)
+    for value in row:
+        word = (word ^ np.uint64(value)) * np.uint64(0x9E3779B97F4A7C15)
         word ^= word >> np.uint64(32)
     slot = np.int64(word & np.uint64(len(table) - 1))
     while table[slot] >= 0:
@@ -38,7 +38,7 @@ def _slot(table: Ints, rows: Bytes, row: Bytes) -> np.int64:
 @compiled
 def insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes, int]:
     """Add a row to a set of rows, which may grow; return table, rows and their number."""
-    slot = _slot(table, rows, row)
+    slot = slot_of(table, rows, row)
     if table[slot] >= 0:
         return table, rows, used
     table[slot] = used
@@ -49,5 +49,5 @@ def insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes
         rows = doubled(rows)
         table = np.full(8 * used, -1, np.int64)
         for i in range(used):
-            table[_slot(table, rows, rows[i])] = i
+            table[slot_of(table, rows, rows[i])] = i
     return table, rows, used

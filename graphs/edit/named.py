@@ -53,6 +53,8 @@ def link_named(sc: SCGraph, name: str) -> LinkId:
 def joint_named(sc: SCGraph, name: str) -> JointId:
     """Return the joint whose id reads as given; else by its number in the list, else the one between two links.
 
+    Numbers in the list are for joints that have names: where ids are numbers themselves, another number is none.
+
     Parameters
     ----------
     sc : SCGraph
@@ -73,7 +75,8 @@ def joint_named(sc: SCGraph, name: str) -> JointId:
     for joint in sc.joints:
         if str(joint) == name:
             return joint
-    if name.isascii() and name.isdigit() and len(name) < 10 and int(name) < len(sc.joints):
+    numbered = any(isinstance(joint, int) for joint in sc.joints)
+    if not numbered and name.isascii() and name.isdigit() and len(name) < 10 and int(name) < len(sc.joints):
         return list(sc.joints)[int(name)]
     first, comma, second = (word.strip() for word in name.partition(","))
     if not comma:

@@ -12,7 +12,7 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.precision import Precision, extent_of, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["Flattened", "flat_places", "flat_within", "flattened", "lies_flat"]
+__all__ = ["Flattened", "flat_places", "flat_within", "flattened", "in_space", "lies_flat"]
 
 _FLAT = 1e-5
 """Points that are this close to one plane, in units of the extent, lie in it."""
@@ -35,6 +35,20 @@ class Flattened:
 
     places: Floats
     turned: str
+
+
+def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
+    """Return points in space, float[n, 3]: z is 0 where the coordinates, in any unit of length, have none.
+
+    Examples
+    --------
+    >>> in_space([(1, 2), (3, 4)]).tolist()
+    [[1.0, 2.0, 0.0], [3.0, 4.0, 0.0]]
+    """
+    points = np.zeros((len(coordinates), 3))
+    if len(coordinates):
+        points[:, : len(coordinates[0])] = coordinates
+    return points
 
 
 def flat_within(precision: Precision) -> float:

@@ -20,7 +20,7 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId
-from graphs.mechanism.plane import flat_within
+from graphs.mechanism.plane import flat_within, in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import (
     Precision,
@@ -132,7 +132,7 @@ def pose_mobility(
     mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     closure = closure_at_pose(sheet, mechanism)
     assert sheet.coordinates is not None
-    points = _in_space(sheet.coordinates)
+    points = _centred(sheet.coordinates)
     precision = precision_of_sheet(sheet)
     error = _error_of_axes(points, mechanism)
     nearly = _nearly(points, mechanism, off_panel_planes(sheet))
@@ -179,7 +179,7 @@ def pose_mobility_of_axes(
     sizes = np.linalg.norm(directions, axis=1)
     for joint in np.array(list(sc.joints), dtype=object)[sizes == 0.0]:
         raise InvariantError("axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero")
-    near = _in_space(points.tolist())
+    near = _centred(points.tolist())
     lines = {
         joint: join((*p, 1.0), (*(p + u), 1.0), Reals())
         for joint, p, u in zip(sc.joints, near, directions / sizes[:, None], strict=True)
@@ -214,7 +214,7 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     """
     if not model.coordinates:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the model has none")
-    places = _in_space(tuple(model.coordinates.values()))
+    places = _centred(tuple(model.coordinates.values()))
     near: dict[Any, Any] = dict(zip(model.coordinates, map(tuple, places.tolist()), strict=True))
     for a, b in model.edges:
         if near[a] == near[b]:
@@ -299,17 +299,16 @@ def closure_at_pose(sheet: Sheet, found: SheetMechanism) -> Closure:
     """
     if sheet.coordinates is None:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the sheet has none")
-    places = _in_space(sheet.coordinates)
+    places = _centred(sheet.coordinates)
     axes = _axes(places, found)
     centres = {loop: (*places[vertex].tolist(), 1.0) for loop, vertex in enumerate(found.loop_vertices)}
     return closure_of(found.sc, axes, centres, Reals())
 
 
-def _in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
+def _centred(coordinates: Sequence[Sequence[float]]) -> Floats:
     """Return coordinates in space, in units of their extent, about their middle: float[n, 3]."""
-    points = np.zeros((len(coordinates), 3))
-    if len(coordinates):
-        points[:, : len(coordinates[0])] = coordinates
+    points = in_space(coordinates)
+    if len(points):
         points -= points.mean(axis=0)
     return points / (extent_of(points) or 1.0)
 

@@ -8,15 +8,16 @@ the sign of all rates together; farther off, two branches may be one curve. Theo
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import inf
+from math import degrees, inf
 from time import monotonic
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.ids import JointId
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
@@ -104,6 +105,18 @@ class Branch:
     def signs(self) -> str:
         """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
         return "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in self.rates)
+
+    def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
+        """Return plain data, joints by their ids: those of the linkage, in order."""
+        return {
+            "signs": self.signs,
+            "freedoms": self.freedoms,
+            "certainty": self.certainty,
+            "still": len(self.still),
+            "modes": [None if pair is None else [joints[place] for place in pair] for pair in self.modes],
+            "followed_deg": degrees(self.followed),
+            "closure": self.error,
+        }
 
 
 @dataclass(frozen=True, slots=True)

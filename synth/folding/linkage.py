@@ -20,6 +20,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.ids import JointId
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Centre
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
@@ -155,8 +156,7 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
     if sheet.coordinates is None:
         raise UnsolvableError("folding needs coordinates, and the sheet has none")
     found = mechanism or mechanism_of_sheet(sheet)
-    corners = np.zeros((sheet.vertices, 3))
-    corners[:, : len(sheet.coordinates[0])] = sheet.coordinates
+    corners = in_space(sheet.coordinates)
     panels = _Panels(sheet)
     joints: Mapping[int, tuple[int, int]] = found.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
     edges = np.array([found.hinges[joint] for joint in joints], dtype=np.int64).reshape(-1, 2)

@@ -5,30 +5,29 @@ Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from math import degrees, pi, radians
+from math import degrees, radians
 from typing import Any
 
 import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
-from graphs.edit.named import known
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import UnsolvableError, shown
 from graphs.ids import JointId
-from graphs.mechanism.precision import Precision, precision_of_sheet
+from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
-from synth.folding.beginning import Wanted, beginning
-from synth.folding.branches import Branch, Branches
+from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations
+from synth.folding.driving import Asked, driven_from
 from synth.folding.following.collisions import Panels, Poses, first_collision
 from synth.folding.following.event import PathEvent
 from synth.folding.linkage import PosedLinkage
-from synth.folding.mending.repair import EXACT, Mended
+from synth.folding.mending.repair import Mended, doubt_of
 from synth.folding.newton import corrected
-from synth.folding.path import DrivenPath, PathOptions, driven_path
+from synth.folding.path import DrivenPath
 from synth.folding.placement import vertex_places
 from synth.folding.prepared import prepared
 
@@ -111,7 +110,7 @@ class Folding:
         found = self.branches
         return {
             "freedoms": self.freedoms,
-            "branches": None if found is None else [_branch_json(one, self.joints) for one in found.branches],
+            "branches": None if found is None else [one.to_json(self.joints) for one in found.branches],
             "exhaustive": None if found is None else found.exhaustive,
             "search": None if found is None else found.method,
             "branch": self.branch,
@@ -162,18 +161,6 @@ class Folding:
 
     def __repr__(self) -> str:
         return f"<Folding: {len(self.path.angles)} frames of {self.sheet!r}>"
-
-
-def _branch_json(branch: Branch, joints: Sequence[JointId]) -> dict[str, Any]:
-    return {
-        "signs": branch.signs,
-        "freedoms": branch.freedoms,
-        "certainty": branch.certainty,
-        "still": len(branch.still),
-        "modes": [None if pair is None else [joints[place] for place in pair] for pair in branch.modes],
-        "followed_deg": degrees(branch.followed),
-        "closure": branch.error,
-    }
 
 
 def fold(
@@ -229,27 +216,19 @@ def fold(
     joints = tuple(linkage.graph.joints)
     if not joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
-    places, goals = _asked(joints, drive or {})
     marks = pattern.marks if pattern.marks.any() else np.ones(len(joints))
-    turns = goals - linkage.angles[places]
-    wanted = Wanted(branch, marks, places, turns, _doubt(precision_of_sheet(sheet)))
-    number, rates = beginning(closure, linkage, found, wanted)
-    if not places:
-        places = [int(np.abs(rates).argmax())]
-        goals = _WHOLE * np.sign(rates[places])
-    start = linkage.angles[places]
-    if (goals - start) @ rates[places] < 0.0:
-        rates = -rates
-    steps = np.arange(1, frames + 1)[:, None] / frames
-    options = PathOptions(rates, np.ones(len(joints), dtype=bool), report=report, names=joints)
-    path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    doubt = doubt_of(precision_of_sheet(sheet))
+    asked = Asked(drive or {}, _WHOLE, branch, marks, frames, limited=True, doubt=doubt, report=report)
+    driven = driven_from(linkage, closure, found, asked)
+    path = driven.path
     if collisions:
-        path = _unobstructed(path, places[0], sheet, mechanism, linkage)
+        path = _unobstructed(path, driven.places[0], sheet, mechanism, linkage)
     vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
-    path = _together(path, apart, wanted.doubt)
+    path = _together(path, apart, doubt)
     vertices, parted = vertices[: len(path.angles)], float(apart[: len(path.angles)].max())
-    driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
-    return Folding(sheet, linkage, found, number, joints, path, driven, parted, vertices, pattern.repairs)
+    return Folding(
+        sheet, linkage, found, driven.branch, joints, path, driven.goals, parted, vertices, pattern.repairs
+    )
 
 
 def _together(path: DrivenPath, apart: Floats, doubt: str) -> DrivenPath:
@@ -294,22 +273,3 @@ def _unobstructed(
         stopped=told if met.frame >= 0 else f"panels pass through each other where it begins: {told}",
         events=(*(one for one in path.events if one.frame < kept - 1), event),
     )
-
-
-def _doubt(precision: Precision) -> str:
-    """Return what rounded coordinates leave open: panels that would fit need not fit as they are written."""
-    if precision.size <= EXACT:
-        return ""
-    told = f"{precision.size:.0e} of the extent ({precision.source})"
-    return f", with the coordinates as they are written; they are precise to {told}, and exact ones may move"
-
-
-def _asked(joints: tuple[JointId, ...], drive: Mapping[JointId, float]) -> tuple[list[int], Floats]:
-    """Return the places and goals of driven joints."""
-    for joint, angle in drive.items():
-        if joint not in joints:
-            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
-        if not abs(angle) <= pi:
-            told = f"joint {shown(joint)} is to fold by {degrees(angle):g} degrees"
-            raise InvariantError("fold angle", told, "between -180 and 180")
-    return [joints.index(joint) for joint in drive], np.array(list(drive.values()), dtype=float)

@@ -15,6 +15,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.ids import LinkId
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
 from synth.folding.closure import turns
 from synth.folding.linkage import PosedLinkage
@@ -106,9 +107,7 @@ def vertex_places(
         Largest distance between two places of one vertex, by different panels, in units of the extent.
     """
     assert sheet.coordinates is not None
-    corners = np.zeros((sheet.vertices, 3))
-    corners[:, : len(sheet.coordinates[0])] = sheet.coordinates
-    local = (corners - linkage.middle) / linkage.extent
+    local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
     motions = link_motions(linkage, angles, _largest(mechanism.panels))
     places = np.broadcast_to(local, (len(angles), *local.shape)).copy()
     placed = np.zeros(sheet.vertices, dtype=bool)

@@ -11,18 +11,17 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, search_for
 from synth.folding.branches import Branches, branches_of
 from synth.folding.closure import ClosureEquations
+from synth.folding.driving import check_closed
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import EXACT, Mended, flattened, mended, nearly, precision_of
-from synth.folding.newton import CLOSED
 from synth.folding.opened import opened
 from synth.folding.second_order import rate_spaces, rates_near
-from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.quadrics import ZERO, quadrics_of
 
 __all__ = ["Prepared", "prepared"]
 
@@ -55,6 +54,11 @@ class Prepared:
     closure: ClosureEquations
     branches: Branches | None
     repairs: tuple[Mended, ...]
+
+    @property
+    def flat(self) -> bool:
+        """Whether all fold angles are zero at the pose."""
+        return bool(np.abs(self.linkage.angles).max(initial=0.0) <= _FOLDED)
 
     @property
     def marks(self) -> Floats:
@@ -105,10 +109,7 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
         mechanism = mechanism_of_sheet(apart, hinge_flat=hinge_flat)
     linkage = linkage_of_sheet(apart, mechanism)
     closure = ClosureEquations(linkage)
-    error = closure.error(linkage.angles)
-    if error > CLOSED:
-        told = f"loops miss closing by {error:.1e}, expected {CLOSED:.0e}"
-        raise UnsolvableError(f"the panels do not fit at the pose of the file: {told}")
+    check_closed(closure, linkage)
     repair = _repair(apart, mechanism, linkage)
     if repair is not None:
         apart, linkage = repair.sheet, linkage_of_sheet(repair.sheet, mechanism)
@@ -143,8 +144,8 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
     return mended(sheet, places, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
 
 
-def _ways(linkage: PosedLinkage, zero: float | None = None) -> tuple[int, ...]:
+def _ways(linkage: PosedLinkage, zero: float = ZERO) -> tuple[int, ...]:
     """Return the dimensions of the spaces of rates that agree, the largest first."""
-    limits = (MOST_BRANCHES,) if zero is None else (MOST_BRANCHES, zero)
-    spaces, _ = rate_spaces(ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), *limits)
+    quadrics = quadrics_of(linkage)
+    spaces, _ = rate_spaces(ClosureEquations(linkage), linkage.angles, quadrics, MOST_BRANCHES, zero)
     return tuple(sorted((space.basis.shape[1] for space in spaces), reverse=True))

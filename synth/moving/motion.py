@@ -7,24 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import degrees, isfinite, tau
+from math import degrees, tau
 from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
-from graphs.edit.named import known
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.printing import Block, html_of, text_of
 from synth.conformed.linkages import OnCone
-from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
+from synth.folding.beginning import MOST_JOINTS, search_for
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
+from synth.folding.driving import Asked, check_closed, driven_from
 from synth.folding.linkage import PosedLinkage
-from synth.folding.newton import CLOSED
-from synth.folding.path import DrivenPath, PathOptions, driven_path
+from synth.folding.path import DrivenPath
 from synth.moving.linkages import linkage_of
 
 __all__ = ["Motion", "Movable", "move"]
@@ -83,7 +81,7 @@ class Motion:
         return {
             "freedoms": None if taken is None else taken.freedoms,
             "certainty": None if taken is None else taken.certainty,
-            "branches": None if found is None else len(found.branches),
+            "branches": None if found is None else [one.to_json(self.joints) for one in found.branches],
             "exhaustive": None if found is None else found.exhaustive,
             "branch": self.branch,
             "driven": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
@@ -94,6 +92,8 @@ class Motion:
                 for joint, column in zip(self.joints, self.path.angles.T, strict=True)
             },
             "stopped": self.path.stopped or None,
+            "events": [event.to_json(self.joints) for event in self.path.events],
+            "ranks_watched": self.path.watched,
         }
 
     def blocks(self) -> list[Block]:
@@ -111,6 +111,7 @@ class Motion:
         lines.append(f"loops close to {self.closure:.1e}")
         ends = zip(self.joints, np.degrees(self.path.angles[-1]), strict=True)
         lines.append("joints: " + ", ".join(f"{shown(joint)} at {angle:.6g}" for joint, angle in ends))
+        lines += [event.told(self.joints) for event in self.path.events]
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
         return lines
@@ -175,36 +176,9 @@ def move(
     joints = tuple(linkage.graph.joints)
     if not joints:
         raise UnsolvableError("nothing moves: there are no joints")
-    _check_closed(closure, linkage)
-    places, goals = _asked(joints, drive or {})
+    check_closed(closure, linkage)
     found = branches_of(linkage, closure, search_for(len(joints), None)) if len(joints) <= MOST_JOINTS else None
-    turns = goals - linkage.angles[places]
     marks = np.ones(len(joints))
-    number, rates = beginning(closure, linkage, found, Wanted(branch, marks, places, turns, ""))
-    if not places:
-        places = [int(np.abs(rates).argmax())]
-        goals = linkage.angles[places] + tau * np.sign(rates[places])
-    start = linkage.angles[places]
-    if (goals - start) @ rates[places] < 0.0:
-        rates = -rates
-    steps = np.arange(1, frames + 1)[:, None] / frames
-    options = PathOptions(rates, report=report)
-    path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
-    driven = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
-    return Motion(linkage, found, number, path, driven)
-
-
-def _check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
-    error = closure.error(linkage.angles)
-    if error > CLOSED:
-        raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {CLOSED:.0e}")
-
-
-def _asked(joints: tuple[JointId, ...], drive: Mapping[JointId, float]) -> tuple[list[int], Floats]:
-    """Return the places and goals of driven joints."""
-    for joint, angle in drive.items():
-        if joint not in joints:
-            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
-        if not isfinite(angle):
-            raise InvariantError("joint angle", f"joint {shown(joint)} is to turn by {angle}", "a finite angle")
-    return [joints.index(joint) for joint in drive], np.array(list(drive.values()), dtype=float)
+    asked = Asked(drive or {}, tau, branch, marks, frames, limited=False, report=report)
+    driven = driven_from(linkage, closure, found, asked)
+    return Motion(linkage, found, driven.branch, driven.path, driven.goals)

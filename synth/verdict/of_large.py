@@ -8,20 +8,20 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.folding.branches import Certainty
+from graphs.mechanism.precision import precision_of_sheet
 from synth.folding.closure import ClosureEquations
+from synth.folding.mending.repair import doubt_of
 from synth.folding.newton import TangentSpace
-from synth.folding.path import PathOptions, driven_path
 from synth.folding.prepared import Prepared
 from synth.folding.second_order import rates_near
 from synth.folding.singular.quadrics import quadrics_of
-from synth.folding.singular.sampling import FOLLOWED
+from synth.folding.singular.sampling import MOVED, walked
 from synth.verdict.verdict import Verdict, Way, clusters_of
 from synth.verdict.words import Posed, Told, flaps_of, text_of_motion
 
 __all__ = ["freedoms_by_projection", "verdict_of_large"]
 
-_FLAT = _STILL = 1e-9
+_STILL = 1e-9
 _BLOCK, _MOST = 8, 512
 _FREE = 1e-4
 """Projected random rates have singular values above this part of the largest, or none: it is far from both."""
@@ -37,33 +37,30 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
         The mobility of its type, with which the sentence compares.
     """
     linkage, closure = pattern.linkage, pattern.closure
-    flat = bool(np.abs(linkage.angles).max(initial=0.0) <= _FLAT)
-    posed = Posed(linkage, "Folds", flat, "")
+    posed = Posed(linkage, "Folds", pattern.flat, doubt_of(precision_of_sheet(pattern.sheet)))
     joints = list(linkage.graph.joints)
     if len(flaps_of(linkage.graph)) == len(joints):
-        ways: tuple[Way, ...] = (Way("+" * len(joints), len(joints), "proved", ()),)
-        text = text_of_motion(Told(posed, ways, None, True, generic, ()), len(joints), "proved")
-        return Verdict(len(joints), "pose", "proved", text, ways, True)
+        loose = Way("+" * len(joints), len(joints), "proved", (), 0.0)
+        text = text_of_motion(Told(posed, (loose,), None, True, generic, (), loose), len(joints), "proved")
+        return Verdict(len(joints), "pose", "proved", text, (loose,), True)
     wanted = pattern.marks if pattern.marks.any() else np.ones(len(joints))
     rates = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted)
-    end = None if rates is None else _followed(closure, linkage.angles, rates)
-    if rates is None or end is None:
-        text = text_of_motion(Told(posed, (), None, False, generic, ()), None, "not known")
+    end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
+    far = float(np.abs(end - linkage.angles).max())
+    if rates is None or far <= MOVED:
+        text = text_of_motion(Told(posed, (), None, False, generic, (), None), None, "not known")
         return Verdict(None, "motion", "not known", text)
+    rates = rates / np.abs(rates).max()
     freedoms = freedoms_by_projection(closure, end)
-    known: Certainty = "not known" if freedoms is None else "numerical"
-    still = tuple(
-        joint
-        for joint, rate, change in zip(joints, rates, end - linkage.angles, strict=True)
-        if abs(rate) <= _STILL and abs(change) <= _STILL
-    )
+    changes = zip(joints, rates, end - linkage.angles, strict=True)
+    still = tuple(joint for joint, rate, change in changes if max(abs(rate), abs(change)) <= _STILL)
     signs = "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in rates)
-    way = Way(signs, freedoms, known, still)
-    stiff = still if freedoms == 1 and not flat else ()
-    text = text_of_motion(
-        Told(posed, (way,), _as_marked(pattern.marks, rates), False, generic, stiff), freedoms, known
-    )
-    return Verdict(freedoms, "motion", known, text, (way,), False, stiff, clusters_of(linkage.graph, stiff))
+    way = Way(signs, freedoms, "numerical", still, far)
+    stiff = still if freedoms == 1 and not posed.flat else ()
+    told = Told(posed, (way,), _as_marked(pattern.marks, rates), False, generic, stiff, way)
+    text = text_of_motion(told, freedoms, "numerical")
+    clusters = clusters_of(linkage.graph, stiff)
+    return Verdict(freedoms, "motion", "numerical", text, (way,), False, stiff, clusters)
 
 
 def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | None:
@@ -95,15 +92,6 @@ def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | N
         if rank < len(found):
             return rank
     return None
-
-
-def _followed(closure: ClosureEquations, start: Floats, rates: Floats) -> Floats | None:
-    """Return the joint angles some degrees along a motion, or None where it stops before."""
-    rates = rates / np.abs(rates).max()
-    driver = int(np.abs(rates).argmax())
-    goal = start[driver] + FOLLOWED * np.sign(rates[driver])
-    path = driven_path(closure, start, [driver], goal, options=PathOptions(rates, straight=True))
-    return None if path.stopped else path.angles[-1]
 
 
 def _as_marked(marks: Floats, rates: Floats) -> bool | None:

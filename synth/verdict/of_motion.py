@@ -18,17 +18,16 @@ from graphs.mechanism.precision import Precision, precision_of_sheet
 from synth.folding.beginning import MOST_JOINTS, search_for
 from synth.folding.branches import Branch, Branches, Certainty, branches_of
 from synth.folding.linkage import PosedLinkage
-from synth.folding.mending.repair import EXACT
+from synth.folding.mending.repair import doubt_of
 from synth.folding.prepared import Prepared
 from synth.folding.singular.sampling import rates_towards
 from synth.verdict.of_large import verdict_of_large
-from synth.verdict.verdict import Verdict, Way, clusters_of
+from synth.verdict.verdict import Basis, Verdict, Way, clusters_of
 from synth.verdict.words import Posed, Told, text_of_motion
 
 __all__ = ["verdict_of_linkage", "verdict_of_motion"]
 
 _STILL = 1e-9
-_FLAT = 1e-9
 
 
 def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
@@ -53,7 +52,7 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
         return Verdict(0, "motion", "proved", "Nothing to fold: there are no creases between panels.")
     if pattern.branches is None:
         return verdict_of_large(pattern, generic)
-    posed = Posed(pattern.linkage, "Folds", _is_flat(pattern.linkage), _doubt(precision_of_sheet(pattern.sheet)))
+    posed = Posed(pattern.linkage, "Folds", pattern.flat, doubt_of(precision_of_sheet(pattern.sheet)))
     verdict = _verdict(posed, pattern.branches, pattern.marks, generic)
     return replace(verdict, places=_places(pattern, verdict.stiff_joints))
 
@@ -78,7 +77,7 @@ def verdict_of_linkage(linkage: PosedLinkage, precision: Precision, generic: int
     if joints > MOST_JOINTS:
         raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
     found = branches_of(linkage, None, search_for(joints, None))
-    return _verdict(Posed(linkage, "Moves", False, _doubt(precision)), found, np.zeros(joints), generic)
+    return _verdict(Posed(linkage, "Moves", False, doubt_of(precision)), found, np.zeros(joints), generic)
 
 
 def _verdict(posed: Posed, found: Branches, marks: Floats, generic: int | None) -> Verdict:
@@ -87,46 +86,31 @@ def _verdict(posed: Posed, found: Branches, marks: Floats, generic: int | None) 
     known = found.complete and all(way.freedoms is not None for way in ways)
     still = _common(linkage, ways) if known else ()
     chosen, agree = _chosen(found.branches, marks if posed.flat else np.zeros_like(marks))
-    told = Told(posed, ways, agree, found.complete, generic, still)
-    freedoms, certainty = _answer(ways, chosen, found.exhaustive)
+    way = _told_way(ways, chosen)
+    if way is None:
+        freedoms: int | None = 0 if found.exhaustive else None
+        certainty: Certainty = "proved" if found.exhaustive else "not known"
+    else:
+        freedoms, certainty = way.freedoms, way.certainty
+    told = Told(posed, ways, agree, found.complete, generic, still, way)
+    basis: Basis = "pose" if found.regular and certainty == "proved" else "motion"
     text = text_of_motion(told, freedoms, certainty)
-    return Verdict(
-        freedoms,
-        "pose" if found.regular and certainty == "proved" else "motion",
-        certainty,
-        text,
-        ways,
-        found.exhaustive,
-        still,
-        clusters_of(linkage.graph, still),
-    )
+    clusters = clusters_of(linkage.graph, still)
+    return Verdict(freedoms, basis, certainty, text, ways, found.exhaustive, still, clusters)
 
 
 def _way(linkage: PosedLinkage, branch: Branch) -> Way:
     joints = list(linkage.graph.joints)
     apart = np.abs(branch.sample - linkage.angles) > _STILL
     still = [joint for place, joint in enumerate(joints) if place in branch.still and not apart[place]]
-    return Way(branch.signs, branch.freedoms, branch.certainty, tuple(still))
+    return Way(branch.signs, branch.freedoms, branch.certainty, tuple(still), branch.followed)
 
 
-def _doubt(precision: Precision) -> str:
-    """Return what rounded coordinates leave open where nothing moves."""
-    if precision.size <= EXACT:
-        return ""
-    return f"; its coordinates are precise to {precision.size:.0e} ({precision.source}), and exact ones may move"
-
-
-def _answer(ways: Sequence[Way], chosen: int | None, exhaustive: bool) -> tuple[int | None, Certainty]:
-    """Return the freedoms that are told, and how they are known."""
-    if not ways:
-        return (0, "proved") if exhaustive else (None, "not known")
+def _told_way(ways: Sequence[Way], chosen: int | None) -> Way | None:
+    """Return the way whose freedoms are told: that which marks choose, or the freest; None if there is none."""
     if chosen is not None:
-        return ways[chosen].freedoms, ways[chosen].certainty
-    known = [way for way in ways if way.freedoms is not None]
-    if not known:
-        return None, "not known"
-    best = max(known, key=lambda way: way.freedoms or 0)
-    return best.freedoms, best.certainty
+        return ways[chosen]
+    return max(ways, key=lambda way: (way.certainty != "not known", way.freedoms or 0), default=None)
 
 
 def _chosen(branches: Sequence[Branch], marks: Floats) -> tuple[int | None, bool | None]:
@@ -172,7 +156,3 @@ def _places(
     assert corners is not None
     ends = {joint: pattern.mechanism.hinges[joint] for joint in joints}  # type: ignore[index]
     return {joint: (tuple(corners[a]), tuple(corners[b])) for joint, (a, b) in ends.items()}
-
-
-def _is_flat(linkage: PosedLinkage) -> bool:
-    return bool(np.abs(linkage.angles).max(initial=0.0) <= _FLAT)

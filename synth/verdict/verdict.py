@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import degrees
 from typing import Any, Literal
 
 import networkx as nx
@@ -32,12 +33,15 @@ class Way:
     certainty : {"proved", "numerical", "not known"}
     stiff_joints : tuple of joint ids
         That do not move on it.
+    followed : float
+        How far the joint that moves most was followed, radians.
     """
 
     signs: str
     freedoms: int | None
     certainty: Certainty
     stiff_joints: tuple[JointId, ...]
+    followed: float
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
@@ -46,6 +50,7 @@ class Way:
             "freedoms": self.freedoms,
             "certainty": self.certainty,
             "stiff_joints": list(self.stiff_joints),
+            "followed_deg": degrees(self.followed),
         }
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import degrees
 
 import networkx as nx
 
@@ -13,16 +14,12 @@ from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.folding.branches import Certainty
 from synth.folding.linkage import PosedLinkage
+from synth.folding.newton import CLOSED
 from synth.verdict.verdict import Way
 
 __all__ = ["Posed", "Told", "flaps_of", "listed", "text_of_motion"]
 
 _MOST = 12
-_HOW = {
-    "proved": "proved",
-    "numerical": "followed to 10 degrees, loops closed to 1e-12",
-    "not known": "not known for certain",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +58,8 @@ class Told:
     generic : int or None
         The mobility of the type.
     stiff : tuple of joint ids
+    way : Way or None
+        The one whose freedoms are told.
     """
 
     posed: Posed
@@ -69,6 +68,7 @@ class Told:
     complete: bool
     generic: int | None
     stiff: Sequence[JointId]
+    way: Way | None
 
 
 def flaps_of(graph: SCGraph) -> list[JointId]:
@@ -86,25 +86,23 @@ def flaps_of(graph: SCGraph) -> list[JointId]:
 def text_of_motion(told: Told, freedoms: int | None, certainty: Certainty) -> str:
     """Return the sentence about a crease pattern."""
     flaps = flaps_of(told.posed.linkage.graph)
+    if told.way is not None and freedoms is None and certainty != "not known":
+        how = f"{_followed(told.way)}; with how many freedoms is not known"
+        return f"{told.posed.verb} from {_start(told)}{_ways(told)}; {how}."
     if freedoms is None:
         return f"No motion found, and none excluded{told.posed.doubt}."
     if not freedoms:
-        return (
-            f"Rigid as it is written: nothing moves{told.posed.doubt}."
-            if told.posed.doubt
-            else "Rigid: nothing moves."
-        )
+        return f"Rigid: nothing moves{told.posed.doubt}."
     if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.posed.linkage.graph.joints) - len(flaps):
         hang = "freedom is the flap" if len(flaps) == 1 else "freedoms are the flaps"
         if told.stiff:
             stiff = f"joints {listed(told.stiff)} cannot move"
             return f"Rigid but for flaps: {stiff}; {len(flaps)} {hang} {listed(flaps)}."
-    start = "flat" if told.posed.flat else "its pose"
-    parts = [f"{told.posed.verb} with {freedoms} {_freedom(freedoms)} from {start}{_ways(told)}"]
+    parts = [f"{told.posed.verb} with {freedoms} {_freedom(freedoms)} from {_start(told)}{_ways(told)}"]
     if told.stiff:
         parts.append(f"joint{'s' * (len(told.stiff) > 1)} {listed(told.stiff)} cannot move")
     if certainty != "proved":
-        parts.append(_HOW[certainty])
+        parts.append("not known for certain" if told.way is None else _followed(told.way))
     return "; ".join(parts) + _generally(told, freedoms) + "."
 
 
@@ -113,6 +111,14 @@ def listed(joints: Sequence[JointId]) -> str:
     names = [shown(joint) for joint in joints[:_MOST]]
     more = f" and {len(joints) - _MOST} more" if len(joints) > _MOST else ""
     return ", ".join(names) + more
+
+
+def _start(told: Told) -> str:
+    return "flat" if told.posed.flat else "its pose"
+
+
+def _followed(way: Way) -> str:
+    return f"followed to {degrees(way.followed):.3g} degrees, loops closed to {CLOSED:.0e}"
 
 
 def _freedom(number: int) -> str:

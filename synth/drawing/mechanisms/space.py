@@ -11,8 +11,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.layout.mechanisms import layout_of
@@ -23,7 +23,7 @@ from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, S
 from synth.drawing.space.panels import panel_shapes, panels_of
 from synth.drawing.space.view import view_from_above
 
-__all__ = ["folded_scene", "model_scene", "points_in_space"]
+__all__ = ["folded_scene", "model_scene"]
 
 _MANY = 60
 
@@ -54,7 +54,7 @@ def folded_scene(
     """
     if sheet.coordinates is None:
         raise UnsolvableError("a sheet without coordinates has no picture in space")
-    points = points_in_space(sheet)
+    points = in_space(sheet.coordinates)
     view, panels = view_from_above(points), panels_of(sheet)
     seen = view.places(points)
     extent = float(np.ptp(seen, axis=0).max()) or 1.0
@@ -65,12 +65,6 @@ def folded_scene(
     said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, seen from above"
     layers = [Layer("panels", tuple(shapes)), Layer("labels", tuple(labels))]
     return page_of(frame, layers, captions_of(caption, said))
-
-
-def points_in_space(sheet: Sheet) -> Floats:
-    """Return the places of the vertices, float[n, 3]; z is 0 where the coordinates have none."""
-    points = np.asarray(sheet.coordinates, dtype=float)
-    return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
 
 
 def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, int]) -> list[Label]:

@@ -14,6 +14,7 @@ import scipy.sparse
 from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
 from graphs.loops.loop import Centre
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
@@ -50,9 +51,7 @@ class VertexPlaces:
 
     def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
         assert sheet.coordinates is not None
-        corners = np.zeros((sheet.vertices, 3))
-        corners[:, : len(sheet.coordinates[0])] = sheet.coordinates
-        self.given: Floats = (corners - linkage.middle) / linkage.extent
+        self.given: Floats = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
         self.loops = linkage.loops
         self._linkage = replace(linkage, loops=tuple(_with_all_equations(loop) for loop in linkage.loops))
         ends = [mechanism.hinges[joint] for joint in linkage.graph.joints]  # type: ignore[index]

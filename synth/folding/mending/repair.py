@@ -24,7 +24,7 @@ from synth.folding.mending.places import VertexPlaces
 from synth.folding.second_order import rate_spaces, rates_near
 from synth.folding.singular.quadrics import quadrics_of
 
-__all__ = ["EXACT", "Mended", "flattened", "mended", "nearly", "precision_of"]
+__all__ = ["EXACT", "Mended", "doubt_of", "flattened", "mended", "nearly", "precision_of"]
 
 EXACT = 1e-12
 """Coordinates that are precise to this part of the extent are taken at their word."""
@@ -92,6 +92,14 @@ def precision_of(places: VertexPlaces, sheet: Sheet) -> Precision:
     if precision.size <= EXACT < places.bent:
         return Precision(places.bent, "creases of several pieces")
     return precision
+
+
+def doubt_of(precision: Precision) -> str:
+    """Return what rounded coordinates leave open where nothing moves; empty if they are exact."""
+    if precision.size <= EXACT:
+        return ""
+    told = f"{precision.size:.0e} of the extent ({precision.source})"
+    return f", with the coordinates as they are written; they are precise to {told}, and exact ones may move"
 
 
 def nearly(precision: Precision) -> float:

@@ -32,6 +32,7 @@ __all__ = [
     "in_half_tangents",
     "rates_towards",
     "same_part",
+    "walked",
 ]
 
 FOLLOWED = radians(10.0)
@@ -41,7 +42,7 @@ _STARTS = 60
 _AGREES = 1e-9
 _STILL = 1e-7
 _NEWTON, _ROUNDED = 30, 1e-14
-_MOVED, _SHORT_OF = 1e-3, 0.7
+MOVED, _SHORT_OF = 1e-3, 0.7
 """A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
 _SPACES = 64
 """At a pose of a branch, after so many spaces of rates second order is said not to tell."""
@@ -102,22 +103,22 @@ def followed(
     """
     ways = [_Locked(linkage, still), closure] if still else [closure]
     for way in ways:
-        end, error = _walked(linkage.angles, way, rates)
+        end, error = walked(linkage.angles, way, rates)
         far = float(np.abs(end - linkage.angles).max())
-        if far > _MOVED:
+        if far > MOVED:
             break
     else:
         return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
     return Followed(freedoms_at(linkage, closure, end), end, error, far)
 
 
-def _walked(start: Floats, closure: ClosureEquations, rates: Floats) -> tuple[Floats, float]:
+def walked(start: Floats, closure: ClosureEquations, rates: Floats) -> tuple[Floats, float]:
     """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
     driver = int(np.abs(rates).argmax())
     options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
     path = driven_path(closure, start, [driver], start[driver] + goal, options=options)
     reached = float(path.angles[-1][driver] - start[driver])
-    if path.stopped and abs(reached) > _MOVED:  # the end of a path may be no general pose
+    if path.stopped and abs(reached) > MOVED:  # the end of a path may be no general pose
         path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)
     return path.angles[-1], float(path.errors[-1])
 

@@ -4,6 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from placements import is_moving
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_fixed
 from enumerate.contracted.binary_links import rigid_sets
@@ -18,15 +19,7 @@ def fixed_ones(moved, ends, first, sets, needs, units, most):
             continue
         if tuple(np.array(x)[moved]) != x:
             continue
-        held = [
-            sum(
-                min(x[e], 2)
-                for e, (a, b) in zip(range(len(ends)), ends.tolist(), strict=True)
-                if s >> a & s >> b & 1
-            )
-            for s in sets.tolist()
-        ]
-        found += all(have >= need for have, need in zip(held, needs.tolist(), strict=True))
+        found += is_moving(x, ends, sets, needs)
     return found
 
 

@@ -5,6 +5,7 @@ from itertools import combinations_with_replacement, product
 
 import numpy as np
 import pytest
+from placements import is_moving
 
 from enumerate.chains.counting import count_in
 from enumerate.contracted.binary_links import EVERY, Wanted, no_prefix, rigid_sets
@@ -37,15 +38,7 @@ def largest_ones(ends, first, moved, sets, needs, units, most):
     for x in product(range(most + 1), repeat=len(ends)):
         if sum(x) != units or any(first[e] != e and x[e] > x[e - 1] for e in range(len(ends))):
             continue
-        held = [
-            sum(
-                min(x[e], 2)
-                for e, (a, b) in zip(range(len(ends)), ends.tolist(), strict=True)
-                if s >> a & s >> b & 1
-            )
-            for s in sets.tolist()
-        ]
-        if any(have < need for have, need in zip(held, needs.tolist(), strict=True)):
+        if not is_moving(x, ends, sets, needs):
             continue
         found += all(tuple(np.array(x)[image]) <= x for image in moved)
     return found

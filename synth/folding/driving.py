@@ -1,0 +1,150 @@
+"""What folding a crease pattern and moving any other linkage have in common: joints driven from a pose.
+
+Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import degrees, pi
+from sys import float_info
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.edit.named import known
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.ids import JointId
+from synth.folding.beginning import Wanted, beginning
+from synth.folding.branches import Branches
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.newton import CLOSED
+from synth.folding.path import DrivenPath, PathOptions, driven_path
+
+__all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What is asked of a motion.
+
+    Attributes
+    ----------
+    drive : mapping of joint id to float
+        Angles of driven joints, radians. If there are none the joint that moves most goes `whole`.
+    whole : float
+        Radians, from the zero of the joint.
+    branch : int, str or None
+        Number or signs of a branch.
+    marks : float[J]
+        1 for valleys, -1 for mountains, 0 for what is not marked.
+    frames : int
+        How many after the first.
+    limited : bool
+        Whether joints end at 180 degrees, where panels lie on each other.
+    doubt : str
+        What is to be said beside "no".
+    report : callable or None
+        Called with the number of frames after each.
+    """
+
+    drive: Mapping[JointId, float]
+    whole: float
+    branch: int | str | None
+    marks: Floats
+    frames: int
+    limited: bool
+    doubt: str = ""
+    report: Callable[[int], None] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Driven:
+    """A motion.
+
+    Attributes
+    ----------
+    branch : int or None
+        The branch that was taken; None where there was no choice.
+    places : list of int
+        Of the driven joints.
+    goals : mapping of joint id to float
+        Their angles at the end, as they were asked for, radians.
+    path : DrivenPath
+    """
+
+    branch: int | None
+    places: list[int]
+    goals: Mapping[JointId, float]
+    path: DrivenPath
+
+
+def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
+    """Refuse a pose at which loops do not close.
+
+    Raises
+    ------
+    UnsolvableError
+        If they miss by more than 1e-12, radians and units of the extent.
+    """
+    error = closure.error(linkage.angles)
+    if error > CLOSED:
+        raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {CLOSED:.0e}")
+
+
+def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:
+    """Return the places and the goals of driven joints, radians.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such joint, or an angle is no number, or larger than the most.
+    """
+    for joint, angle in drive.items():
+        if joint not in joints:
+            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
+        if not abs(angle) <= most:
+            limits = "between -180 and 180" if most == pi else "a finite angle"
+            told = f"joint {shown(joint)} is to turn by {degrees(angle):g} degrees"
+            raise InvariantError("joint angle", told, limits)
+    return [joints.index(joint) for joint in drive], np.array(list(drive.values()), dtype=float)
+
+
+def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | None, asked: Asked) -> Driven:
+    """Drive joints from the pose of a linkage, on the branch that is asked for.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    closure : ClosureEquations
+        Of this linkage.
+    found : Branches or None
+        The ways to move from the pose, where they were looked for.
+    asked : Asked
+
+    Raises
+    ------
+    UnsolvableError
+        If nothing moves, or not with the driven joints.
+    InvariantError
+        If there is no such joint or branch, or an angle is out of range.
+    """
+    joints = tuple(linkage.graph.joints)
+    places, goals = goals_of(joints, asked.drive, pi if asked.limited else float_info.max)
+    wanted = Wanted(asked.branch, asked.marks, places, goals - linkage.angles[places], asked.doubt)
+    number, rates = beginning(closure, linkage, found, wanted)
+    if not places:
+        places = [int(np.abs(rates).argmax())]
+        goals = asked.whole * np.sign(rates[places])
+    start = linkage.angles[places]
+    if (goals - start) @ rates[places] < 0.0:
+        rates = -rates
+    steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
+    limited = np.full(len(joints), asked.limited)
+    options = PathOptions(rates, limited, report=asked.report, names=joints)
+    path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
+    return Driven(number, places, told, path)
