@@ -31,6 +31,8 @@ _FOLLOWED = 2500
 how fast a machine is."""
 
 _STILL = 1e-9
+_DIGITS = 6
+"""Of a cosine: branches that point along rates alike are told apart by their order."""
 
 
 def search_for(joints: int, towards: Floats | None) -> Search:
@@ -54,6 +56,9 @@ class Wanted:
         How far each is to turn, radians.
     doubt : str
         What is to be said beside "no": coordinates may be rounded. Empty if they are not.
+    along : bool
+        Whether the turns are rates, of which the marks are what they are made of: the branch that they point along
+        best is taken.
     """
 
     branch: int | str | None
@@ -61,6 +66,7 @@ class Wanted:
     driven: Sequence[int]
     turns: Floats
     doubt: str = ""
+    along: bool = False
 
 
 def beginning(
@@ -123,11 +129,20 @@ def _chosen(found: Branches, wanted: Wanted) -> int:
                 return number
         signs = known([one.signs for one in every], asked)
         raise InvariantError("branch", f"no branch has the signs {shown(asked)}", signs)
-    return max(range(len(every)), key=lambda number: (_agreement(every[number], wanted.marks), -number))
+    return max(range(len(every)), key=lambda number: (_agreement(every[number], wanted), -number))
 
 
-def _agreement(branch: Branch, marks: Floats) -> int:
-    """Return how many marked joints begin on a branch as they are marked, less those that do not."""
+def _agreement(branch: Branch, wanted: Wanted) -> float:
+    """Return how many marked joints begin on a branch as they are marked, less those that do not.
+
+    Where rates are wanted: the cosine between these and the nearest ones of the branch, of the joints that have
+    any.
+    """
+    marks = wanted.marks
+    if wanted.along:
+        begun = rates_towards(branch.space, marks)[list(wanted.driven)]
+        sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
+        return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
     rates = _towards(branch, marks)
     return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
 
@@ -143,17 +158,19 @@ def _towards(branch: Branch, marks: Floats) -> Floats:
 def _rates(branch: Branch, wanted: Wanted) -> Floats:
     """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
-    if len(wanted.driven) < 2:
+    if len(wanted.driven) < 2 and not wanted.along:
         return _towards(branch, wanted.marks) if wanted.branch is None else branch.rates
     for start in (wanted.marks, space.basis.sum(axis=1)):
         towards = rates_towards(space, start)
         if np.abs(towards[list(wanted.driven)]).max() > _STILL:
             return towards
-    raise UnsolvableError("the driven joints cannot begin to turn in these proportions on this branch")
+    which = "joints" if wanted.along else "driven joints"
+    raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
 
 
 def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
     """Return the part of a space in which driven joints turn in proportion."""
     across = scipy.linalg.null_space(wanted.turns[None])
-    normals = space.basis[list(wanted.driven)].T @ across
-    return replace(space, basis=np.asarray(space.basis @ scipy.linalg.null_space(normals.T, rcond=_STILL)))
+    normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
+    turned, sizes, _ = np.linalg.svd(normals)
+    return replace(space, basis=np.asarray(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))

@@ -5,8 +5,8 @@ Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from math import degrees, pi
 from sys import float_info
 
@@ -48,6 +48,8 @@ class Asked:
         What is to be said beside "no".
     report : callable or None
         Called with the number of frames after each.
+    along : mapping of joint id to float, optional
+        In place of driven joints: rates to begin with. The path goes straight on.
     """
 
     drive: Mapping[JointId, float]
@@ -58,6 +60,7 @@ class Asked:
     limited: bool
     doubt: str = ""
     report: Callable[[int], None] | None = None
+    along: Mapping[JointId, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,14 +105,13 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
     InvariantError
         If there is no such joint, or an angle is no number, or larger than the most.
     """
+    places = _places(joints, drive)
     for joint, angle in drive.items():
-        if joint not in joints:
-            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
         if not abs(angle) <= most:
             limits = "between -180 and 180" if most == pi else "a finite angle"
             told = f"joint {shown(joint)} is to turn by {degrees(angle):g} degrees"
             raise InvariantError("joint angle", told, limits)
-    return [joints.index(joint) for joint in drive], np.array(list(drive.values()), dtype=float)
+    return places, np.array(list(drive.values()), dtype=float)
 
 
 def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | None, asked: Asked) -> Driven:
@@ -135,6 +137,8 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
     joints = tuple(linkage.graph.joints)
     places, goals = goals_of(joints, asked.drive, pi if asked.limited else float_info.max)
     wanted = Wanted(asked.branch, asked.marks, places, goals - linkage.angles[places], asked.doubt)
+    if asked.along:
+        wanted = _along(joints, asked)
     number, rates = beginning(closure, linkage, found, wanted)
     if not places:
         places = [int(np.abs(rates).argmax())]
@@ -144,7 +148,26 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
         rates = -rates
     steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
     limited = np.full(len(joints), asked.limited)
-    options = PathOptions(rates, limited, report=asked.report, names=joints)
+    options = PathOptions(rates, limited, straight=bool(asked.along), report=asked.report, names=joints)
     path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
     told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, told, path)
+
+
+def _along(joints: tuple[JointId, ...], asked: Asked) -> Wanted:
+    """Return what is wanted where rates are given: these of their joints, the least ones of others."""
+    if asked.drive:
+        raise InvariantError("along", "joints are driven too", "rates or angles, not both")
+    places, rates = _places(joints, asked.along), np.array(list(asked.along.values()), dtype=float)
+    if not (np.isfinite(rates).all() and rates.any()):
+        raise InvariantError("along", f"rates are {', '.join(map(str, rates))}", "finite ones, not all zero")
+    wanted = np.zeros(len(joints))
+    wanted[places] = rates
+    return Wanted(asked.branch, wanted, places, rates, asked.doubt, along=True)
+
+
+def _places(joints: tuple[JointId, ...], names: Iterable[JointId]) -> list[int]:
+    for joint in names:
+        if joint not in joints:
+            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
+    return [joints.index(joint) for joint in names]

@@ -16,7 +16,6 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError, shown
 from graphs.ids import JointId
-from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
 from synth.folding.branches import Branches
@@ -25,7 +24,7 @@ from synth.folding.driving import Asked, driven_from
 from synth.folding.following.collisions import Panels, Poses, first_collision
 from synth.folding.following.event import PathEvent
 from synth.folding.linkage import PosedLinkage
-from synth.folding.mending.repair import Mended, doubt_of
+from synth.folding.mending.repair import Mended
 from synth.folding.newton import corrected
 from synth.folding.path import DrivenPath
 from synth.folding.placement import vertex_places
@@ -167,6 +166,7 @@ def fold(
     sheet: Sheet,
     *,
     drive: Mapping[JointId, float] | None = None,
+    along: Mapping[JointId, float] | None = None,
     branch: int | str | None = None,
     frames: int = _FRAMES,
     collisions: bool = False,
@@ -180,6 +180,9 @@ def fold(
         With coordinates, flat or folded; loops closed at its pose.
     drive : mapping of joint id to float, optional
         Fold angles, radians, valleys positive. By default the crease that moves most is folded as far as it goes.
+    along : mapping of joint id to float, optional
+        In place of driven creases: rates at which some begin, others as little as may be. The motion goes straight
+        on, with several freedoms, until the crease that began to move most has gone as far as it goes.
     branch : int or str, optional
         Which of the ways to move from a singular pose, a flat one above all: its number among
         `synth.folding.branches_of`, or its signs. By default the one that agrees best with the letters of the
@@ -217,8 +220,8 @@ def fold(
     if not joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
     marks = pattern.marks if pattern.marks.any() else np.ones(len(joints))
-    doubt = doubt_of(precision_of_sheet(sheet))
-    asked = Asked(drive or {}, _WHOLE, branch, marks, frames, limited=True, doubt=doubt, report=report)
+    drive, along, doubt = drive or {}, along or {}, pattern.doubt
+    asked = Asked(drive, _WHOLE, branch, marks, frames, limited=True, doubt=doubt, report=report, along=along)
     driven = driven_from(linkage, closure, found, asked)
     path = driven.path
     if collisions:

@@ -6,19 +6,31 @@ Theory: docs/theory/folding.md, docs/theory/mending.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, search_for
 from synth.folding.branches import Branches, branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.driving import check_closed
 from synth.folding.linkage import PosedLinkage, linkage_of_sheet
+from synth.folding.mending.misfit import least_misfit
 from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.repair import EXACT, Mended, flattened, mended, nearly, precision_of
+from synth.folding.mending.repair import (
+    EXACT,
+    Mended,
+    doubt_of,
+    flattened,
+    mended,
+    nearly,
+    nearly_agreeing,
+    precision_of,
+)
 from synth.folding.opened import opened
 from synth.folding.second_order import rate_spaces, rates_near
 from synth.folding.singular.quadrics import ZERO, quadrics_of
@@ -29,6 +41,8 @@ _ALL_WAYS = 120
 """Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
 
 _FOLDED = 1e-9
+_TURNED_WAYS = 4
+"""So many motions are tried of what is rigid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +78,17 @@ class Prepared:
     def marks(self) -> Floats:
         """1 for valleys and -1 for mountains, as marked; without marks, as they are folded, or all 0."""
         return marks_of(self.sheet, self.linkage)
+
+    @property
+    def doubt(self) -> str:
+        """What rounded coordinates leave open where nothing moves; empty if they are exact."""
+        precision = precision_of_sheet(self.sheet)
+        if precision.size <= EXACT or self.branches is None or self.branches.branches:
+            return doubt_of(precision)
+        wanted, most = _wanted(self.marks), _most(self.linkage)
+        near = nearly_agreeing(self.linkage, precision, wanted, most)
+        misfits = [least_misfit(self.closure, self.linkage.angles, rates) for rates in islice(near, _TURNED_WAYS)]
+        return doubt_of(precision, min(misfits, default=None))
 
 
 def marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
@@ -118,7 +143,7 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
     branches = None
     if len(linkage.graph.joints) <= MOST_JOINTS:
         marks = marks_of(apart, linkage)
-        search = search_for(len(marks), marks if marks.any() else np.ones(len(marks)))
+        search = search_for(len(marks), _wanted(marks))
         branches = branches_of(linkage, closure, search)
     return Prepared(apart, mechanism, linkage, closure, branches, tuple(repairs))
 
@@ -129,9 +154,7 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
     precision = precision_of(places, sheet)
     if precision.size <= EXACT:
         return None
-    wanted = marks_of(sheet, linkage)
-    wanted = wanted if wanted.any() else np.ones(len(wanted))
-    most = MOST_BRANCHES if len(linkage.graph.joints) <= _ALL_WAYS else None
+    wanted, most = _wanted(marks_of(sheet, linkage)), _most(linkage)
     nearly_all = () if most is None else _ways(linkage, nearly(precision))
 
     def moves(linkage: PosedLinkage) -> bool:
@@ -142,6 +165,16 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
     if places.bent <= EXACT and moves(linkage):
         return None
     return mended(sheet, places, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
+
+
+def _wanted(marks: Floats) -> Floats:
+    """Return which way joints are to go: as they are marked, or all alike."""
+    return marks if marks.any() else np.ones(len(marks))
+
+
+def _most(linkage: PosedLinkage) -> int | None:
+    """Return how many spaces of rates are looked for; None for linkages too large to split their rates."""
+    return MOST_BRANCHES if len(linkage.graph.joints) <= _ALL_WAYS else None
 
 
 def _ways(linkage: PosedLinkage, zero: float = ZERO) -> tuple[int, ...]:

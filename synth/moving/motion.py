@@ -130,6 +130,7 @@ def move(
     thing: Movable,
     *,
     drive: Mapping[JointId, float] | None = None,
+    along: Mapping[JointId, float] | None = None,
     branch: int | str | None = None,
     frames: int = _FRAMES,
     report: Callable[[int], None] | None = None,
@@ -143,6 +144,9 @@ def move(
     drive : mapping of joint id to float, optional
         Angles, radians, from the zero of each joint: of a crease from flat, of others from the pose. By default
         the joint that moves most is turned once round.
+    along : mapping of joint id to float, optional
+        In place of driven joints: rates at which some begin, others as little as may be. With several freedoms the
+        motion goes straight on.
     branch : int or str, optional
         Which of the ways to move from a singular pose: its number among `synth.folding.branches_of`, or its signs.
     frames : int, optional
@@ -179,6 +183,6 @@ def move(
     check_closed(closure, linkage)
     found = branches_of(linkage, closure, search_for(len(joints), None)) if len(joints) <= MOST_JOINTS else None
     marks = np.ones(len(joints))
-    asked = Asked(drive or {}, tau, branch, marks, frames, limited=False, report=report)
+    asked = Asked(drive or {}, tau, branch, marks, frames, limited=False, report=report, along=along or {})
     driven = driven_from(linkage, closure, found, asked)
     return Motion(linkage, found, driven.branch, driven.path, driven.goals)

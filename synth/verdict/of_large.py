@@ -8,14 +8,13 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.mechanism.precision import precision_of_sheet
 from synth.folding.closure import ClosureEquations
-from synth.folding.mending.repair import doubt_of
 from synth.folding.newton import TangentSpace
 from synth.folding.prepared import Prepared
 from synth.folding.second_order import rates_near
 from synth.folding.singular.quadrics import quadrics_of
 from synth.folding.singular.sampling import MOVED, walked
+from synth.verdict.marked import Marked
 from synth.verdict.verdict import Verdict, Way, clusters_of
 from synth.verdict.words import Posed, Told, flaps_of, text_of_motion
 
@@ -37,7 +36,7 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
         The mobility of its type, with which the sentence compares.
     """
     linkage, closure = pattern.linkage, pattern.closure
-    posed = Posed(linkage, "Folds", pattern.flat, doubt_of(precision_of_sheet(pattern.sheet)))
+    posed = Posed(linkage, "Folds", pattern.flat, pattern.doubt)
     joints = list(linkage.graph.joints)
     if len(flaps_of(linkage.graph)) == len(joints):
         loose = Way("+" * len(joints), len(joints), "proved", (), 0.0)
@@ -94,7 +93,9 @@ def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | N
     return None
 
 
-def _as_marked(marks: Floats, rates: Floats) -> bool | None:
+def _as_marked(marks: Floats, rates: Floats) -> Marked | None:
     """Tell whether all marked joints turn as they are marked, or all against it; None where nothing is marked."""
     turned = (marks * rates)[marks != 0.0]
-    return bool((turned > _STILL).all() or (turned < -_STILL).all()) if len(turned) else None
+    if not len(turned):
+        return None
+    return "has" if (turned > _STILL).all() or (turned < -_STILL).all() else "none found"

@@ -9,18 +9,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import linprog
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.ids import JointId
-from graphs.mechanism.precision import Precision, precision_of_sheet
+from graphs.mechanism.precision import Precision
 from synth.folding.beginning import MOST_JOINTS, search_for
 from synth.folding.branches import Branch, Branches, Certainty, branches_of
+from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.repair import doubt_of
 from synth.folding.prepared import Prepared
-from synth.folding.singular.sampling import rates_towards
+from synth.folding.second_order import rates_at
+from synth.verdict.marked import MarkedWay, marked_way
 from synth.verdict.of_large import verdict_of_large
 from synth.verdict.verdict import Basis, Verdict, Way, clusters_of
 from synth.verdict.words import Posed, Told, text_of_motion
@@ -52,7 +53,7 @@ def verdict_of_motion(pattern: Prepared, generic: int | None = None) -> Verdict:
         return Verdict(0, "motion", "proved", "Nothing to fold: there are no creases between panels.")
     if pattern.branches is None:
         return verdict_of_large(pattern, generic)
-    posed = Posed(pattern.linkage, "Folds", pattern.flat, doubt_of(precision_of_sheet(pattern.sheet)))
+    posed = Posed(pattern.linkage, "Folds", pattern.flat, pattern.doubt)
     verdict = _verdict(posed, pattern.branches, pattern.marks, generic)
     return replace(verdict, places=_places(pattern, verdict.stiff_joints))
 
@@ -85,14 +86,16 @@ def _verdict(posed: Posed, found: Branches, marks: Floats, generic: int | None) 
     ways = tuple(_way(linkage, branch) for branch in found.branches)
     known = found.complete and all(way.freedoms is not None for way in ways)
     still = _common(linkage, ways) if known else ()
-    chosen, agree = _chosen(found.branches, marks if posed.flat else np.zeros_like(marks))
-    way = _told_way(ways, chosen)
+    by_marks = MarkedWay(None, None)
+    if posed.flat and marks.any() and ways:
+        by_marks = marked_way(found, rates_at(ClosureEquations(linkage), linkage.angles), marks)
+    way = _told_way(ways, by_marks.number)
     if way is None:
         freedoms: int | None = 0 if found.exhaustive else None
         certainty: Certainty = "proved" if found.exhaustive else "not known"
     else:
         freedoms, certainty = way.freedoms, way.certainty
-    told = Told(posed, ways, agree, found.complete, generic, still, way)
+    told = Told(posed, ways, by_marks.marked, found.complete, generic, still, way)
     basis: Basis = "pose" if found.regular and certainty == "proved" else "motion"
     text = text_of_motion(told, freedoms, certainty)
     clusters = clusters_of(linkage.graph, still)
@@ -111,34 +114,6 @@ def _told_way(ways: Sequence[Way], chosen: int | None) -> Way | None:
     if chosen is not None:
         return ways[chosen]
     return max(ways, key=lambda way: (way.certainty != "not known", way.freedoms or 0), default=None)
-
-
-def _chosen(branches: Sequence[Branch], marks: Floats) -> tuple[int | None, bool | None]:
-    """Return the branch that marks choose, of several that have them all the freest; and whether one has."""
-    if not marks.any() or not branches:
-        return None, None
-    agree = [number for number, branch in enumerate(branches) if _has(branch, marks)]
-    if not agree:
-        return None, False
-    return max(agree, key=lambda number: (branches[number].freedoms or 0, -number)), True
-
-
-def _has(branch: Branch, marks: Floats) -> bool:
-    """Tell whether a branch can begin with all marked joints as they are marked."""
-    marked = marks != 0.0
-    for signs in (marks, -marks):  # a branch is one up to the sign of all rates
-        if branch.space.left:
-            rates = rates_towards(branch.space, signs)
-            if (rates[marked] * signs[marked] > _STILL).all():
-                return True
-            continue
-        rows = -signs[marked, None] * branch.space.basis[marked]
-        found = linprog(
-            np.zeros(rows.shape[1]), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs"
-        )
-        if found.status == 0:
-            return True
-    return False
 
 
 def _common(linkage: PosedLinkage, ways: Sequence[Way]) -> tuple[JointId, ...]:

@@ -15,11 +15,17 @@ from graphs.mechanism.sc import SCGraph
 from synth.folding.branches import Certainty
 from synth.folding.linkage import PosedLinkage
 from synth.folding.newton import CLOSED
+from synth.verdict.marked import Marked
 from synth.verdict.verdict import Way
 
 __all__ = ["Posed", "Told", "flaps_of", "listed", "text_of_motion"]
 
 _MOST = 12
+_MARKED = {
+    "has": " as it is marked",
+    "none has": ", though no way begins as it is marked",
+    "none found": ", though no way was found that begins as it is marked",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +57,8 @@ class Told:
     ----------
     posed : Posed
     ways : tuple of Way
-    marked : bool or None
-        Whether a way has all mountains and valleys as they are marked; None where nothing is.
+    marked : {"has", "none has", "none found"} or None
+        Whether a way begins with all mountains and valleys as they are marked; None where nothing is.
     complete : bool
         Whether all ways were looked for.
     generic : int or None
@@ -64,7 +70,7 @@ class Told:
 
     posed: Posed
     ways: Sequence[Way]
-    marked: bool | None
+    marked: Marked | None
     complete: bool
     generic: int | None
     stiff: Sequence[JointId]
@@ -126,7 +132,7 @@ def _freedom(number: int) -> str:
 
 
 def _ways(told: Told) -> str:
-    marked = {True: " as it is marked", False: ", though on no way as it is marked", None: ""}[told.marked]
+    marked = "" if told.marked is None else _MARKED[told.marked]
     if len(told.ways) < 2:
         return marked
     kinds = Counter(way.freedoms for way in told.ways)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from math import radians
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
@@ -15,6 +15,8 @@ from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json,
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
+    from graphs.ids import JointId
+    from graphs.mechanism.sc import SCGraph
     from synth.moving.motion import Motion
 
 __all__ = ["fold"]
@@ -23,6 +25,7 @@ __all__ = ["fold"]
 @click.command(short_help="Fold a crease pattern with rigid panels; list its ways to fold.")
 @click.argument("file", metavar="FILE")
 @click.option("--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease so far; may be repeated.")
+@click.option("--along", multiple=True, metavar="JOINT=RATE", help="Begin at these rates, then go straight on.")
 @click.option("--all", "whole", is_flag=True, help="Fold all creases together, by one freedom (without --drive).")
 @click.option("--branch", metavar="K", help="Take this way from a flat state: its number, or its signs.")
 @click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
@@ -39,6 +42,7 @@ __all__ = ["fold"]
 def fold(
     file: str,
     drive: tuple[str, ...],
+    along: tuple[str, ...],
     whole: bool,
     branch: str | None,
     listed: bool,
@@ -52,8 +56,9 @@ def fold(
 
     Fold angles are in degrees, valleys positive. From a flat state there are several ways to fold; without
     --branch it is the one that agrees best with the mountains and valleys of the file. Without --drive, as with
-    --all, the crease that moves most is folded as far as it goes, and the others follow. JOINT is an id, a number
-    in the list of edges, or two links A,B.
+    --all, the crease that moves most is folded as far as it goes, and the others follow. With several freedoms
+    --along says in which direction: rates of some creases, others as little as may be. JOINT is an id, or two
+    links A,B.
     What has no panels (solids hinged at edges, rods, a linkage on its cone) moves by joint angles, from the pose.
 
     \b
@@ -63,30 +68,30 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
     """
     from graphs.convert.duality import mechanism_of_sheet
-    from graphs.edit.named import joint_named
     from graphs.files.formats import read
     from synth.drawing.foldings import check_output, write_folding
     from synth.folding.motion import fold as folded
     from synth.moving.linkages import sheet_of
 
-    if whole and drive:
-        raise click.UsageError("--all folds without --drive: leave one of them out")
+    if sum(map(bool, (whole, drive, along))) > 1:
+        raise click.UsageError("--drive, --along and --all each say how to move: leave all but one out")
     if output is not None:
         check_output(output, force=force)
     thing = read(file)
     with about(file):
         sheet = sheet_of(thing)
         if sheet is None:
-            moved = _moved(thing, drive, branch, frames, output)
+            moved = _moved(thing, _Joints(drive, along), branch, frames, output)
             print_json({"file": file, "output": None, **moved.to_json()}) if as_json else click.echo(str(moved))
             return
         sheet = sheet.frames.first_placed() if sheet.frames is not None else sheet
         graph = mechanism_of_sheet(sheet).sc
-        goals = {joint_named(graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
+        asked = _Joints(drive, along)
         with _progress(frames + 1) as report:
             found = folded(
                 sheet,
-                drive=goals or None,
+                drive=asked.driven(graph),
+                along=asked.rates(graph),
                 branch=_way(branch),
                 frames=frames,
                 collisions=collisions,
@@ -108,11 +113,8 @@ def fold(
         click.echo(f"written: {plain(str(place), 4096)}")
 
 
-def _moved(
-    thing: Mechanism, drive: tuple[str, ...], branch: str | None, frames: int, output: str | None
-) -> Motion:
+def _moved(thing: Mechanism, asked: _Joints, branch: str | None, frames: int, output: str | None) -> Motion:
     """Move what has no panels: solids hinged at edges, rods, a linkage on its cone."""
-    from graphs.edit.named import joint_named
     from graphs.errors import UnsolvableError
     from synth.moving.linkages import linkage_of
     from synth.moving.motion import move
@@ -120,8 +122,8 @@ def _moved(
     linkage = linkage_of(thing)
     if output is not None:
         raise UnsolvableError("there are no panels to write: --json gives the joint angles of each frame")
-    goals = {joint_named(linkage.graph, joint): radians(angle) for joint, angle in map(_asked, drive)}
-    return move(linkage, drive=goals or None, branch=_way(branch), frames=frames)
+    graph = linkage.graph
+    return move(linkage, drive=asked.driven(graph), along=asked.rates(graph), branch=_way(branch), frames=frames)
 
 
 def _way(branch: str | None) -> int | str | None:
@@ -146,11 +148,33 @@ def _progress(frames: int) -> Iterator[Callable[[int], None]]:
             click.echo("\r" + " " * 40 + "\r", nl=False, err=True)
 
 
-def _asked(text: str) -> tuple[str, float]:
-    joint, equals, angle = text.rpartition("=")
-    try:
-        if not equals or not joint:
-            raise ValueError
-        return joint.strip(), float(angle)
-    except ValueError:
-        raise click.BadParameter(f"{plain(text)!r} is not JOINT=DEGREES", param_hint="--drive") from None
+class _Joints(NamedTuple):
+    """What is asked of joints, as it was typed."""
+
+    drive: tuple[str, ...]
+    along: tuple[str, ...]
+
+    def driven(self, graph: SCGraph) -> dict[JointId, float]:
+        """Return the angles of driven joints, radians."""
+        asked = _numbers(graph, self.drive, "--drive", "JOINT=DEGREES")
+        return {joint: radians(angle) for joint, angle in asked.items()}
+
+    def rates(self, graph: SCGraph) -> dict[JointId, float]:
+        """Return the rates at which joints are to begin."""
+        return _numbers(graph, self.along, "--along", "JOINT=RATE")
+
+
+def _numbers(graph: SCGraph, words: tuple[str, ...], option: str, form: str) -> dict[JointId, float]:
+    from graphs.edit.named import joint_named
+
+    asked = {}
+    for word in words:
+        joint, equals, number = word.rpartition("=")
+        try:
+            if not equals or not joint:
+                raise ValueError
+            value = float(number)
+        except ValueError:
+            raise click.BadParameter(f"{plain(word)!r} is not {form}", param_hint=option) from None
+        asked[joint_named(graph, joint.strip())] = value
+    return asked

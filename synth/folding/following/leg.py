@@ -185,7 +185,8 @@ class _Following:
         self._note("turning point", top.angles)
         if not self._stepping.single(top, step.leaving):
             self._here = top
-            return f"{self._turns_back(top)}; there are several freedoms, and the least rates lead no farther"
+            how = "the way straight on leads" if self._legs.options.straight else "the least rates lead"
+            return f"{self._turns_back(top)}; there are several freedoms, and {how} no farther"
         if self._first_turn is None:
             self._first_turn = top.angles, top.space.projected(step.leaving)
         self._tops.append(top)

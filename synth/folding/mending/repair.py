@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
+from math import degrees
 
 import numpy as np
 
@@ -20,11 +21,21 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import Fitting
+from synth.folding.mending.misfit import TURNED
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.second_order import rate_spaces, rates_near
 from synth.folding.singular.quadrics import quadrics_of
 
-__all__ = ["EXACT", "Mended", "doubt_of", "flattened", "mended", "nearly", "precision_of"]
+__all__ = [
+    "EXACT",
+    "Mended",
+    "doubt_of",
+    "flattened",
+    "mended",
+    "nearly",
+    "nearly_agreeing",
+    "precision_of",
+]
 
 EXACT = 1e-12
 """Coordinates that are precise to this part of the extent are taken at their word."""
@@ -94,12 +105,24 @@ def precision_of(places: VertexPlaces, sheet: Sheet) -> Precision:
     return precision
 
 
-def doubt_of(precision: Precision) -> str:
-    """Return what rounded coordinates leave open where nothing moves; empty if they are exact."""
+def doubt_of(precision: Precision, misfit: float | None = None) -> str:
+    """Return what rounded coordinates leave open where nothing moves; empty if they are exact.
+
+    Parameters
+    ----------
+    precision : Precision
+    misfit : float, optional
+        By how much loops stay open when something is turned all the same.
+    """
     if precision.size <= EXACT:
         return ""
     told = f"{precision.size:.0e} of the extent ({precision.source})"
-    return f", with the coordinates as they are written; they are precise to {told}, and exact ones may move"
+    near = (
+        ""
+        if misfit is None
+        else f"; turned by {degrees(TURNED):g} degrees its loops close to {misfit:.0e} at best"
+    )
+    return f", with the coordinates as they are written{near}; they are precise to {told}, and exact ones may move"
 
 
 def nearly(precision: Precision) -> float:
@@ -150,7 +173,7 @@ def mended(
         if moves(now):
             why = "angles that nearly agree are equal" if len(angles) else "creases are straight and panels plane"
             return Mended(now, fitting.moved, precision, why)
-        for rates in islice(_nearly_agreeing(linkage, precision, wanted, most), _TRIES):
+        for rates in islice(nearly_agreeing(linkage, precision, wanted, most), _TRIES):
             if not fitting.along(rates, farthest):
                 continue
             now = _placed(sheet, fitting.corners * linkage.extent + linkage.middle)
@@ -159,7 +182,7 @@ def mended(
     return None
 
 
-def _nearly_agreeing(
+def nearly_agreeing(
     linkage: PosedLinkage, precision: Precision, wanted: Floats, most: int | None
 ) -> Iterator[Floats]:
     """Yield rates that agree but for what the coordinates cannot tell, those nearest to wanted ones first."""

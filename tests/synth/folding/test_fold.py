@@ -12,7 +12,7 @@ from creased import is_zigzag
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read, read_all
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
@@ -22,6 +22,7 @@ from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
 from synth.folding.motion import fold
 from synth.folding.path import PathOptions, driven_path
+from synth.folding.prepared import prepared
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 
@@ -94,6 +95,43 @@ def test_several_creases_are_driven_together():
     closure = ClosureEquations(folded.linkage)
     assert max(closure.error(angles) for angles in folded.path.angles) == folded.closure < 1e-12
     assert folded.apart < 1e-11
+
+
+def test_a_direction_is_followed_straight_on():
+    """Six creases have three freedoms: two rates that are given leave one, which is as little as may be."""
+    star = fan(np.radians([0, 50, 130, 180, 250, 310]), "VVVVVV")
+    folded = fold(star, along={0: 2.0, 3: -1.0}, frames=40)
+    begun = folded.path.angles[1]
+    assert begun[3] / begun[0] == pytest.approx(-0.5, abs=0.02)
+    chords = np.diff(folded.path.angles, axis=0)
+    chords /= np.linalg.norm(chords, axis=1, keepdims=True)
+    assert (chords[1:] * chords[:-1]).sum(axis=1).min() > 0.99
+    assert folded.closure < 1e-12
+    assert folded.apart < 1e-11
+
+
+def test_a_direction_chooses_the_way_that_points_along_it():
+    sheet = miura(3, 3, 1.0)
+    ways = prepared(sheet).branches.branches
+    joints = tuple(mechanism_of_sheet(sheet).sc.joints)
+    for number, way in enumerate(ways):
+        along = {joint: rate for joint, rate in zip(joints, way.rates.tolist(), strict=True) if abs(rate) > 1e-7}
+        assert fold(sheet, along=along, frames=1).branch == number
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"along": {9: 1.0}}, "9 is no joint"),
+        ({"along": {0: 0.0}}, "expected finite ones, not all zero"),
+        ({"along": {0: float("nan")}}, "expected finite ones, not all zero"),
+        ({"along": {0: 1.0}, "drive": {1: 1.0}}, "rates or angles, not both"),
+        ({"along": {0: 1.0, 1: 1.0, 2: 5.0, 3: 1.0}}, "cannot begin to turn in these proportions"),
+    ],
+)
+def test_directions_that_are_none_are_refused(asked, told):
+    with pytest.raises(SynthedraError, match=told):
+        fold(VERTEX, **asked)
 
 
 def test_a_joint_turns_back_where_it_must():
@@ -213,7 +251,7 @@ def test_the_command_line(tmp_path, data):
     assert read(out).frames.others == 3
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
-    assert "--all folds without --drive" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
+    assert "leave all but one out" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
     assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 
 

@@ -63,7 +63,7 @@ def test_marks_that_no_way_has_are_said():
         letters[i] = "V"
     verdict = told(replace(sheet, assignments="".join(letters)))
     assert verdict.freedoms == 1
-    assert "though on no way as it is marked" in verdict.text
+    assert "though no way begins as it is marked" in verdict.text
 
 
 @pytest.mark.parametrize("mirrored", [False, True])

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
@@ -13,6 +14,7 @@ from synth.folding.branches import branches_of
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_sheet
 from synth.folding.mending.angles import MeantAngles
+from synth.folding.mending.misfit import TURNED, least_misfit
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import flattened
 from synth.folding.motion import fold
@@ -82,6 +84,36 @@ def test_what_is_rigid_stays_so():
     pattern = prepared(rigid)
     assert pattern.repairs == ()
     assert pattern.branches.no_motion == "proved"
+
+
+@pytest.mark.parametrize("noise", [1e-3, 1e-5])
+def test_how_nearly_a_rigid_sheet_moves(noise):
+    """One crease held at ten degrees, its loops stay open by less than the noise; by another solver too."""
+    sheet = miura(3, 3, 1.0)
+    way = branches_of(linkage_of_sheet(sheet)).branches[0]
+    assert least_misfit(ClosureEquations(linkage_of_sheet(sheet)), np.zeros(12), way.rates) < 1e-12
+    linkage = linkage_of_sheet(disturbed(sheet, noise))
+    closure = ClosureEquations(linkage)
+    misfit = least_misfit(closure, linkage.angles, way.rates)
+    assert 1e-12 < misfit < noise
+    driver = int(np.abs(way.rates).argmax())
+    others = [joint for joint in range(12) if joint != driver]
+
+    def opened(x):
+        angles = np.insert(x, driver, np.sign(way.rates[driver]) * TURNED)
+        return closure.at(angles)[0]
+
+    best = least_squares(opened, TURNED * way.rates[others], xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    assert misfit == pytest.approx(np.abs(best.fun).max(), rel=0.05)
+
+
+def test_what_nothing_mends_is_told_with_how_nearly_it_moves():
+    sheet = disturbed(miura(3, 3, 1.0), 1e-4)
+    places = np.array(sheet.coordinates)
+    places[5] += (2e-3, -1e-3)
+    pattern = prepared(replace(sheet, coordinates=tuple(map(tuple, places.tolist()))))
+    assert not pattern.branches.branches
+    assert "; turned by 10 degrees its loops close to " in pattern.doubt
 
 
 def test_a_sheet_is_put_into_its_plane():

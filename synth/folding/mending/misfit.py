@@ -1,0 +1,77 @@
+"""How nearly a rigid pattern moves: by how much its loops stay open when it is turned all the same.
+
+Theory: docs/theory/mending.md.
+"""
+
+from __future__ import annotations
+
+from math import radians
+
+import numpy as np
+
+from graphs.arrays import Floats
+from synth.folding.closure import ClosureEquations
+from synth.folding.newton import TangentSpace
+
+__all__ = ["TURNED", "least_misfit"]
+
+TURNED = radians(10.0)
+"""How far the joint that moves most is turned."""
+_ROUNDS = 60
+_START, _LEAST, _MOST = 1e-6, 1e-13, 1.0
+"""Regularisation of a step: at first, and between which bounds."""
+_SLOW = 1e-3
+"""A step that makes less of this part of the sum of squares better is the last."""
+
+
+def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> float:
+    """Return by how much loops do not close, at most, at a pose where they do so least.
+
+    One joint is held, turned by ten degrees; the others are moved to where the sum of squares of what does not
+    close is least (Levenberg, Marquardt).
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    start : float[J]
+        A pose, radians.
+    rates : float[J]
+        Which way to turn; the joint that moves most is held.
+
+    Returns
+    -------
+    float
+        Radians and units of the extent.
+
+    Examples
+    --------
+    Three creases about a vertex, one of them turned: the others cannot follow.
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (-.5, .9), (-.5, -.9))
+    >>> linkage = linkage_of_sheet(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), corners))
+    >>> round(least_misfit(ClosureEquations(linkage), linkage.angles, np.array([1.0, 0.5, 0.5])), 2)
+    0.09
+    """
+    driver = int(np.abs(rates).argmax())
+    free = np.ones(closure.joints)
+    free[driver] = 0.0
+    angles = start + TURNED / abs(float(rates[driver])) * rates
+    residual, jacobian = closure.at(angles)
+    regular = _START
+    for _ in range(_ROUNDS):
+        jacobian.data *= free[jacobian.indices]
+        tried = angles + TangentSpace(jacobian, regular).step(residual)
+        after, slopes = closure.at(tried)
+        gain = float(residual @ residual - after @ after)
+        if gain > 0.0:
+            enough = gain > _SLOW * float(residual @ residual)
+            angles, residual, jacobian, regular = tried, after, slopes, max(regular / 10.0, _LEAST)
+            if not enough:
+                break
+        elif regular >= _MOST:
+            break
+        else:
+            regular *= 10.0
+    return float(np.abs(residual).max(initial=0.0))
