@@ -14,8 +14,8 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from synth.folding.branches import Branch, Branches, Search
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
-from synth.folding.second_order import RateSpace, rates_near
-from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.second_order import RateSpace
+from synth.folding.singular.nearest import begun_near
 from synth.folding.singular.sampling import rates_towards, same_part
 
 __all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "search_for"]
@@ -92,10 +92,10 @@ def beginning(
     if found is None:
         if wanted.branch is not None:
             raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
-        near = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted.marks)
+        near = begun_near(closure, linkage, wanted.marks).rates
         if near is None:
             raise UnsolvableError(
-                f"no motion that begins as the edges are marked was found at this pose{wanted.doubt}"
+                f"no motion near to how the edges are marked was found at this pose{wanted.doubt}"
             )
         return None, near
     if not found.branches:

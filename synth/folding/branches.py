@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from math import degrees, inf
 from time import monotonic
 from typing import Any, Literal
@@ -21,11 +22,19 @@ from graphs.ids import JointId
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
-from synth.folding.second_order import RateSpace, largest_only, rates_at, rates_near, space_near, spaces_within
+from synth.folding.second_order import RateSpace, largest_only, rates_at, rates_near, spaces_within
 from synth.folding.singular.flat_vertices import FlatVertices
+from synth.folding.singular.nearest import spaces_near
 from synth.folding.singular.quadrics import ZERO, Quadric, all_quadrics
 from synth.folding.singular.rigidity import Rigidity, rigidity_of
-from synth.folding.singular.sampling import Followed, followed, general_rates, in_half_tangents
+from synth.folding.singular.sampling import (
+    Followed,
+    followed,
+    general_rates,
+    in_half_tangents,
+    rates_towards,
+    same_part,
+)
 
 __all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of"]
 
@@ -33,6 +42,8 @@ Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
 _STILL = 1e-7
+_DEAD_ENDS = 20
+"""After so many choices that leave nothing the space near to wanted rates is given up."""
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
 
@@ -228,7 +239,9 @@ class _Looking:
         if wanted is None:
             return []
         rates = rates_near(self.closure, self.linkage.angles, self._quadrics, wanted)
-        return [] if rates is None else [space_near(self._tangent, self._quadrics, rates, self.search.zero)]
+        near = wanted if rates is None else rates
+        spaces = spaces_near(self._tangent, self._quadrics, near, self.search.zero)
+        return [space for space in islice(spaces, _DEAD_ENDS) if space is not None][:1]
 
     def is_regular(self, spaces: list[RateSpace]) -> bool:
         """Tell whether all rates that agree to first order agree to second."""
@@ -251,16 +264,31 @@ class _Looking:
         return spectrum(jacobian.toarray(), _ERROR).rank == self.closure.rows
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
-        """Yield the branches of all spaces; the first is followed in any case."""
-        begun = 0
+        """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
+        parts: list[tuple[RateSpace, Floats]] = []
         for space in spaces:
-            parts, whole = general_rates(space, self.search.most, self.search.towards, self._late)
+            here, whole = general_rates(space, self.search.most, self.search.towards, self._late)
             self.complete = self.complete and whole
-            for rates in parts:
-                late = begun > 0 and (self._late() or begun == self.search.follow)
-                begun += not late
-                self.complete = self.complete and not late
-                yield self._branch(space, rates, proved, late)
+            parts += [(space, rates) for rates in here]
+        nearest = self._nearest(parts)
+        begun = 0
+        for number, (space, rates) in enumerate(parts):
+            late = number != nearest and (self._late() or begun == self.search.follow)
+            begun += not late
+            self.complete = self.complete and not late
+            yield self._branch(space, rates, proved, late)
+
+    def _nearest(self, parts: Sequence[tuple[RateSpace, Floats]]) -> int:
+        """Return the number of the part on which most joints go as is wanted."""
+        towards = self.search.towards
+        if towards is None or len(parts) < 2:
+            return 0
+        agree = []
+        for space, rates in parts:
+            near = rates_towards(space, towards)
+            there = near if near.any() and same_part(space, near, rates) else rates
+            agree.append(abs(float(np.sign(np.where(np.abs(there) > _STILL, there, 0.0)) @ towards)))
+        return int(np.argmax(agree))
 
     def _branch(self, space: RateSpace, rates: Floats, proved: bool, late: bool) -> Branch:
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())

@@ -32,13 +32,16 @@ from synth.folding.mending.repair import (
     precision_of,
 )
 from synth.folding.opened import opened
-from synth.folding.second_order import rate_spaces, rates_near
+from synth.folding.second_order import rate_spaces, rates_at, rates_near
 from synth.folding.singular.quadrics import ZERO, quadrics_of
 
 __all__ = ["Prepared", "prepared"]
 
 _ALL_WAYS = 120
 """Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
+
+_MOST_FLEXES = 100
+"""Where closure equations depend on each other at a pose of more flexes, one way to move is enough."""
 
 _FOLDED = 1e-9
 _TURNED_WAYS = 4
@@ -141,7 +144,7 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
         closure = ClosureEquations(linkage)
         repairs.append(repair)
     branches = None
-    if len(linkage.graph.joints) <= MOST_JOINTS:
+    if not _too_large(linkage, closure):
         marks = marks_of(apart, linkage)
         search = search_for(len(marks), _wanted(marks))
         branches = branches_of(linkage, closure, search)
@@ -165,6 +168,15 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
     if places.bent <= EXACT and moves(linkage):
         return None
     return mended(sheet, places, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
+
+
+def _too_large(linkage: PosedLinkage, closure: ClosureEquations) -> bool:
+    """Tell whether all ways to move are too many to look for, or the equations between its rates too large."""
+    joints = len(linkage.graph.joints)
+    if joints > MOST_JOINTS or joints <= _MOST_FLEXES:
+        return joints > MOST_JOINTS
+    flexes = rates_at(closure, linkage.angles).shape[1]
+    return bool(flexes > _MOST_FLEXES and joints - flexes < closure.rows)
 
 
 def _wanted(marks: Floats) -> Floats:

@@ -23,7 +23,7 @@ from synth.folding.newton import TangentSpace
 from synth.folding.singular.definite import CLEAR, definite_weights
 from synth.folding.singular.quadrics import ZERO, Quadric, local_forms
 
-__all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near", "space_near", "spaces_within"]
+__all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near", "spaces_within"]
 
 _CLOSED, _STEPS = 1e-11, 40
 _SAME, _LOST = 1e-6, 10.0
@@ -79,25 +79,6 @@ def spaces_within(tangent: Floats, quadrics: Sequence[Quadric], zero: float = ZE
     """
     quadrics = tuple(quadrics)
     yield from _split(_Case(tangent, quadrics, local_forms(tangent, quadrics), zero))
-
-
-def space_near(tangent: Floats, quadrics: Sequence[Quadric], rates: Floats, zero: float = ZERO) -> RateSpace:
-    """Return the space that rates which agree to second order belong to, without a search of all.
-
-    Of each product the factor is taken that vanishes at the rates; where both do, the first.
-
-    Parameters
-    ----------
-    tangent, quadrics, zero
-        As in `spaces_within`.
-    rates : float[J]
-    """
-    quadrics = tuple(quadrics)
-    case, factors = _simplified(_Case(tangent, quadrics, local_forms(tangent, quadrics), zero))
-    while factors is not None:
-        here = case.basis.T @ rates
-        case, factors = _simplified(case.across(min(factors, key=lambda normal: abs(float(normal @ here)))))
-    return RateSpace(case.basis, case.left)
 
 
 def largest_only(spaces: Sequence[RateSpace], zero: float = ZERO) -> list[RateSpace]:

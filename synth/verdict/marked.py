@@ -78,8 +78,11 @@ def _begins(branch: Branch, marks: Floats) -> bool:
         return inside is not None
     chance = np.random.default_rng(len(marks))
     marked = marks != 0.0
+    largest = np.abs(inside).max()
     for number in range(_STARTS):
-        start = inside if not number else inside + chance.normal(size=len(marks)) * np.abs(inside).max() / 2.0
+        start = (marks * largest, inside)[number % 2]
+        if number > 1:  # other sizes, the same signs
+            start = start * chance.uniform(0.0, 2.0, len(marks))
         rates = rates_towards(branch.space, start) * marks
         if (rates[marked] > _STILL).all() or (rates[marked] < -_STILL).all():
             return True

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.arrays import Floats, Ints
+from synth.folding.branches import Certainty
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
 from synth.folding.prepared import Prepared
-from synth.folding.second_order import rates_near
-from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.nearest import begun_near
 from synth.folding.singular.sampling import MOVED, walked
 from synth.verdict.marked import Marked
 from synth.verdict.verdict import Verdict, Way, clusters_of
@@ -43,16 +43,15 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
         text = text_of_motion(Told(posed, (loose,), None, True, generic, (), loose), len(joints), "proved")
         return Verdict(len(joints), "pose", "proved", text, (loose,), True)
     wanted = pattern.marks if pattern.marks.any() else np.ones(len(joints))
-    rates = rates_near(closure, linkage.angles, quadrics_of(linkage), wanted)
+    begun = begun_near(closure, linkage, wanted)
+    rates = begun.rates
     end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
     far = float(np.abs(end - linkage.angles).max())
     if rates is None or far <= MOVED:
-        text = text_of_motion(Told(posed, (), None, False, generic, (), None), None, "not known")
-        return Verdict(None, "motion", "not known", text)
-    rates = rates / np.abs(rates).max()
-    freedoms = freedoms_by_projection(closure, end)
-    changes = zip(joints, rates, end - linkage.angles, strict=True)
-    still = tuple(joint for joint, rate, change in changes if max(abs(rate), abs(change)) <= _STILL)
+        return _unmoved(posed, begun.rigid, generic)
+    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
+    freedoms = freedoms_by_projection(closure, end, moving)
+    still = tuple(joint for place, joint in enumerate(joints) if place not in set(moving.tolist()))
     signs = "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in rates)
     way = Way(signs, freedoms, "numerical", still, far)
     stiff = still if freedoms == 1 and not posed.flat else ()
@@ -62,7 +61,16 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
     return Verdict(freedoms, "motion", "numerical", text, (way,), False, stiff, clusters)
 
 
-def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | None:
+def _unmoved(posed: Posed, rigid: bool, generic: int | None) -> Verdict:
+    """Return the verdict on what was not seen to move: rigid, if that is proved."""
+    freedoms = 0 if rigid else None
+    certainty: Certainty = "proved" if rigid else "not known"
+    text = text_of_motion(Told(posed, (), None, rigid, generic, (), None), freedoms, certainty)
+    stiff = tuple(posed.linkage.graph.joints) if rigid else ()
+    return Verdict(freedoms, "motion", certainty, text, (), rigid, stiff, clusters_of(posed.linkage.graph, stiff))
+
+
+def freedoms_by_projection(closure: ClosureEquations, angles: Floats, moving: Ints | None = None) -> int | None:
     """Return how many rates a pose has, by random ones projected onto them; None where they are too many.
 
     Parameters
@@ -70,6 +78,9 @@ def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | N
     closure : ClosureEquations
     angles : float[J]
         A closed pose, radians.
+    moving : int[n], optional
+        The joints that move, of a branch on which others are still: these may have rates of their own at its
+        poses, which begin other branches. By default all.
 
     Examples
     --------
@@ -81,13 +92,15 @@ def freedoms_by_projection(closure: ClosureEquations, angles: Floats) -> int | N
     >>> freedoms_by_projection(ClosureEquations(linkage), linkage.angles)
     2
     """
-    space = TangentSpace(closure.at(angles)[1])
-    chance = np.random.default_rng(len(angles))
+    jacobian = closure.at(angles)[1]
+    space = TangentSpace(jacobian if moving is None else jacobian[:, moving])
+    size = len(angles) if moving is None else len(moving)
+    chance = np.random.default_rng(size)
     found: list[Floats] = []
-    while len(found) < min(_MOST, len(angles)):
-        found += [space.projected(chance.normal(size=len(angles))) for _ in range(_BLOCK)]
+    while len(found) < min(_MOST, size):
+        found += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
         sizes = np.linalg.svd(np.array(found), compute_uv=False)
-        rank = int((sizes > _FREE * np.sqrt(len(angles))).sum())
+        rank = int((sizes > _FREE * np.sqrt(size)).sum())
         if rank < len(found):
             return rank
     return None

@@ -114,7 +114,7 @@ def shared_quadrics(
         joints = list(loop.joints)
         matrix[start:end, joints] = block
         here = tangent[joints]
-        seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here)
+        seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
     stresses = scipy.linalg.null_space(matrix.T, rcond=zero) if size and rows[-1] else np.zeros((rows[-1], 0))
     if not stresses.shape[1]:
         return []

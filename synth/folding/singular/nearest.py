@@ -1,0 +1,179 @@
+"""Rates near to wanted ones that agree to second order, without a search of all; for linkages too large for that.
+
+Each equation is looked at on the few joints that it is between, so that one step costs as much as there are
+equations, however many rates there are. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+import scipy.linalg
+
+from graphs.arrays import Floats, Ints
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.second_order import RateSpace, rates_at, rates_near
+from synth.folding.singular.quadrics import ZERO, Quadric, quadrics_of
+from synth.folding.singular.sampling import rates_towards
+
+__all__ = ["MOST_RATES", "Begun", "begun_near", "spaces_near"]
+
+MOST_RATES = 1500
+"""Of more joints the rates that close to first order are not all looked for: their matrix is dense."""
+_DEAD_ENDS = 200
+"""After so many choices that leave nothing the search ends."""
+_EVEN = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """Whether a motion begins.
+
+    Attributes
+    ----------
+    rates : float[J] or None
+        The largest 1 or -1; None where none were found.
+    rigid : bool
+        Whether all choices leave nothing: nothing moves.
+    """
+
+    rates: Floats | None
+    rigid: bool
+
+
+def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
+    """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
+
+    By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
+    still, within the nearest space.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    linkage : PosedLinkage
+    wanted : float[J]
+        Rates, or signs of them.
+    """
+    quadrics = quadrics_of(linkage)
+    rates = rates_near(closure, linkage.angles, quadrics, wanted)
+    if rates is not None:
+        return Begun(rates / np.abs(rates).max(), rigid=False)
+    if closure.joints > MOST_RATES:
+        return Begun(None, rigid=False)
+    tangent = rates_at(closure, linkage.angles)
+    spaces, nothing = spaces_near(tangent, quadrics, wanted), True
+    for space in islice(spaces, _DEAD_ENDS):
+        if space is None:
+            continue
+        nothing = False
+        for start in (wanted, space.basis.sum(axis=1)):
+            rates = rates_towards(space, start)
+            if rates.any():
+                return Begun(rates, rigid=False)
+    through = not list(islice(spaces, 1))
+    return Begun(None, rigid=nothing and through)
+
+
+def spaces_near(
+    tangent: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = ZERO
+) -> Iterator[RateSpace | None]:
+    """Yield spaces of rates that agree to second order, those near to wanted ones first; None for what is empty.
+
+    Equations of one sign are used up first. Of the products, that one is decided which the wanted rates decide
+    most clearly; its factor that is nearer to vanishing at them does.
+
+    Parameters
+    ----------
+    tangent : float[J, s]
+        The rates that close to first order: orthonormal columns.
+    quadrics : sequence of Quadric
+    wanted : float[J]
+    zero : float, optional
+        Eigenvalues below this part of the largest are zero.
+
+    Examples
+    --------
+    The creases of a flat vertex, two of them in line, and that line alone:
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> linkage = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> tangent = rates_at(ClosureEquations(linkage), linkage.angles)
+    >>> spaces = list(spaces_near(tangent, quadrics_of(linkage), np.array([1.0, 0.2, 1.0, 0.0])))
+    >>> abs(spaces[0].basis[:, 0] / spaces[0].basis[0, 0]).round(9).tolist(), len(spaces)
+    ([1.0, 0.0, 1.0, 0.0], 2)
+    """
+    stack = _Stack(quadrics, zero)
+    for basis, left in stack.split(tangent, np.arange(len(quadrics)), wanted):
+        yield RateSpace(basis, tuple(quadrics[number] for number in left)) if basis.shape[1] else None
+
+
+class _Stack:
+    """Equations in one array, the joints of each filled up with one that is none."""
+
+    def __init__(self, quadrics: Sequence[Quadric], zero: float) -> None:
+        most = max((len(quadric.joints) for quadric in quadrics), default=0)
+        self._joints = np.full((len(quadrics), most), -1, dtype=np.int64)
+        self._forms = np.zeros((len(quadrics), most, most))
+        for number, quadric in enumerate(quadrics):
+            size = len(quadric.joints)
+            self._joints[number, :size] = quadric.joints
+            self._forms[number, :size, :size] = quadric.form / np.abs(quadric.form).max()
+        self._zero = zero
+
+    def split(self, basis: Floats, left: Ints, wanted: Floats) -> Iterator[tuple[Floats, Ints]]:
+        """Yield bases of spaces within one and the numbers of the equations left there, depth first."""
+        while basis.shape[1]:
+            across, values, vectors = self._on(basis, left)
+            sizes = np.abs(values).max(axis=1, initial=0.0)
+            kept = sizes > self._zero
+            left, across, values, vectors = left[kept], across[kept], values[kept], vectors[kept]
+            there = np.abs(values) > self._zero * sizes[kept, None]
+            positive, negative = (there & (values > 0.0)).sum(axis=1), (there & (values < 0.0)).sum(axis=1)
+            single = np.flatnonzero((positive == 0) | (negative == 0))
+            if len(single):
+                normals = np.concatenate([across[n] @ vectors[n][:, there[n]] for n in single], axis=1)
+                basis = self._part(basis, normals)
+                continue
+            products = np.flatnonzero((positive == 1) & (negative == 1))
+            if not len(products):
+                yield basis, left
+                return
+            for normal in _clearest(across[products], values[products], vectors[products], basis.T @ wanted):
+                yield from self.split(self._part(basis, normal[:, None]), left, wanted)
+            return
+        yield basis, left
+
+    def _on(self, basis: Floats, left: Ints) -> tuple[Floats, Floats, Floats]:
+        """Return, for each equation, coordinates float[n, s, k], eigenvalues and vectors of its form in these."""
+        rows = np.concatenate([basis, np.zeros((1, basis.shape[1]))])[self._joints[left]]
+        across, here = np.linalg.qr(rows.transpose(0, 2, 1))
+        values, vectors = np.linalg.eigh(here @ self._forms[left] @ here.transpose(0, 2, 1))
+        return across, values, vectors
+
+    def _part(self, basis: Floats, normals: Floats) -> Floats:
+        return np.asarray(basis @ scipy.linalg.null_space(normals.T, rcond=self._zero))
+
+
+def _clearest(across: Floats, values: Floats, vectors: Floats, wanted: Floats) -> tuple[Floats, Floats]:
+    """Return the normals of the factors between which wanted rates decide most clearly, the nearer one first.
+
+    Parameters
+    ----------
+    across, values, vectors : float[n, s, k], float[n, k], float[n, k, k]
+        Of products.
+    wanted : float[s]
+    """
+    up = np.sqrt(values[:, -1, None]) * np.einsum("nsk,nk->ns", across, vectors[:, :, -1])
+    down = np.sqrt(-values[:, 0, None]) * np.einsum("nsk,nk->ns", across, vectors[:, :, 0])
+    factors = np.stack([up + down, up - down], axis=1)
+    factors /= np.linalg.norm(factors, axis=2, keepdims=True)
+    off = np.abs(factors @ wanted)
+    best = int((off.min(axis=1) / np.maximum(off.max(axis=1), _EVEN)).argmin())
+    near, far = factors[best][np.argsort(off[best], kind="stable")]
+    return near, far
