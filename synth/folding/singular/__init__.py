@@ -2,7 +2,7 @@
 
 `quadrics` makes an equation of each self-stress, `definite` finds sums of them that are positive, `rigidity`
 proves by these that nothing moves; `flat_vertices` knows the modes of four creases, `sampling` goes along a
-branch. Theory: docs/theory/folding.md.
+branch, `nearest` finds one way of linkages that are too large for all. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
