@@ -134,7 +134,8 @@ def _freedom(number: int) -> str:
 def _ways(told: Told) -> str:
     marked = "" if told.marked is None else _MARKED[told.marked]
     if len(told.ways) < 2:
-        return marked
+        only = told.posed.flat and told.ways and not told.complete and told.marked != "has"
+        return f"{marked}, on the one way that was looked for" if only else marked
     kinds = Counter(way.freedoms for way in told.ways)
     least = "" if told.complete else "at least "
     if len(kinds) == 1:

@@ -77,9 +77,12 @@ def test_where_all_choices_leave_nothing_it_is_rigid(sheet):
 
 def test_large_sheets_are_judged_so(monkeypatch):
     monkeypatch.setattr(preparing, "MOST_JOINTS", 20)
-    verdict = mobility(map_sheet(7, 5), exact=False).verdict
+    sheet = map_sheet(7, 5)
+    unmarked = "".join(letter if letter == "B" else "U" for letter in sheet.assignments)
+    verdict = mobility(replace(sheet, assignments=unmarked), exact=False).verdict
     assert (verdict.freedoms, verdict.certainty) in ((6, "numerical"), (4, "numerical"))
     assert not verdict.exhaustive
+    assert ", on the one way that was looked for; followed to 10 degrees" in verdict.text
     rigid = mobility(bent(map_sheet(5, 5)), exact=False).verdict
     assert (rigid.freedoms, rigid.certainty, rigid.text) == (0, "proved", "Rigid: nothing moves.")
     monkeypatch.undo()
