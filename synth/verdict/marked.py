@@ -5,6 +5,7 @@ Theory: docs/theory/verdict.md.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -12,15 +13,19 @@ from scipy.optimize import linprog
 
 from graphs.arrays import Floats
 from synth.folding.branches import Branch, Branches
-from synth.folding.singular.sampling import rates_towards
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.folding.second_order import RateSpace, rates_at
+from synth.folding.singular.sampling import rates_towards, same_part
 
 __all__ = ["Marked", "MarkedWay", "marked_way"]
 
 Marked = Literal["has", "none has", "none found"]
 
 _STILL = 1e-9
-_STARTS = 40
-"""Starts from which rates with all marks are looked for where equations are left."""
+_STARTS, _LEAST, _TOGETHER = 40, 4, 600
+"""Starts from which rates with all marks are looked for where equations are left: at most and at least on one space,
+and on all together."""
 
 
 class MarkedWay(NamedTuple):
@@ -39,54 +44,61 @@ class MarkedWay(NamedTuple):
     marked: Marked | None
 
 
-def marked_way(found: Branches, tangent: Floats, marks: Floats) -> MarkedWay:
+def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedWay:
     """Return the way that begins with all marked joints as they are marked, or all against it.
 
     Parameters
     ----------
     found : Branches
-    tangent : float[J, s]
-        The rates that close to first order: columns.
+    linkage : PosedLinkage
+        At the pose from which they begin.
     marks : float[J]
         1 for valleys, -1 for mountains, 0 for what is not marked.
 
     Examples
     --------
     >>> from synth.folding.prepared import prepared
-    >>> from synth.folding.second_order import rates_at
     >>> from synth.patterns.creases.tessellations import miura
     >>> pattern = prepared(miura(2, 2, 1.0))
-    >>> tangent = rates_at(pattern.closure, pattern.linkage.angles)
-    >>> marked_way(pattern.branches, tangent, pattern.marks)
+    >>> marked_way(pattern.branches, pattern.linkage, pattern.marks)
     MarkedWay(number=0, marked='has')
-    >>> marked_way(pattern.branches, tangent, abs(pattern.marks))
+    >>> marked_way(pattern.branches, pattern.linkage, abs(pattern.marks))
     MarkedWay(number=None, marked='none has')
     """
     if not marks.any() or not found.branches:
         return MarkedWay(None, None)
-    agree = [number for number, branch in enumerate(found.branches) if _begins(branch, marks)]
+    spaces = {id(branch.space): branch.space for branch in found.branches}
+    starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
+    begun = {number: _marked_rates(space, marks, starts) for number, space in spaces.items()}
+    agree = [number for number, branch in enumerate(found.branches) if _holds(branch, begun[id(branch.space)])]
     if agree:
         return MarkedWay(max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number)), "has")
+    tangent = rates_at(ClosureEquations(linkage), linkage.angles)
     sure = found.exhaustive or _rates_with(tangent, marks) is None
     return MarkedWay(None, "none has" if sure else "none found")
 
 
-def _begins(branch: Branch, marks: Floats) -> bool:
-    """Tell whether rates of a branch with all marks were found; with no equations left, whether there are any."""
-    inside = _rates_with(branch.space.basis, marks)
-    if inside is None or not branch.space.left:
-        return inside is not None
+def _holds(branch: Branch, begun: Sequence[Floats]) -> bool:
+    """Tell whether some of the rates of its space are on the part of it that a branch is."""
+    return any(not branch.space.left or same_part(branch.space, rates, branch.rates) for rates in begun)
+
+
+def _marked_rates(space: RateSpace, marks: Floats, starts: int) -> list[Floats]:
+    """Return rates of a space that have all marks, of every part that a few starts come to; else none."""
+    inside = _rates_with(space.basis, marks)
+    if inside is None or not space.left:
+        return [] if inside is None else [inside]
     chance = np.random.default_rng(len(marks))
-    marked = marks != 0.0
-    largest = np.abs(inside).max()
-    for number in range(_STARTS):
+    marked, largest, found = marks != 0.0, np.abs(inside).max(), list[Floats]()
+    for number in range(starts):
         start = (marks * largest, inside)[number % 2]
         if number > 1:  # other sizes, the same signs
             start = start * chance.uniform(0.0, 2.0, len(marks))
-        rates = rates_towards(branch.space, start) * marks
-        if (rates[marked] > _STILL).all() or (rates[marked] < -_STILL).all():
-            return True
-    return False
+        rates = rates_towards(space, start)
+        turned = (rates * marks)[marked]
+        if (turned > _STILL).all() or (turned < -_STILL).all():
+            found.append(rates)
+    return found
 
 
 def _rates_with(basis: Floats, marks: Floats) -> Floats | None:

@@ -16,11 +16,9 @@ from graphs.ids import JointId
 from graphs.mechanism.precision import Precision
 from synth.folding.beginning import MOST_JOINTS, search_for
 from synth.folding.branches import Branch, Branches, Certainty, branches_of
-from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.repair import doubt_of
 from synth.folding.prepared import Prepared
-from synth.folding.second_order import rates_at
 from synth.verdict.marked import MarkedWay, marked_way
 from synth.verdict.of_large import verdict_of_large
 from synth.verdict.verdict import Basis, Verdict, Way, clusters_of
@@ -88,7 +86,7 @@ def _verdict(posed: Posed, found: Branches, marks: Floats, generic: int | None) 
     still = _common(linkage, ways) if known else ()
     by_marks = MarkedWay(None, None)
     if posed.flat and marks.any() and ways:
-        by_marks = marked_way(found, rates_at(ClosureEquations(linkage), linkage.angles), marks)
+        by_marks = marked_way(found, linkage, marks)
     way = _told_way(ways, by_marks.number)
     if way is None:
         freedoms: int | None = 0 if found.exhaustive else None

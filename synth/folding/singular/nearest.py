@@ -114,63 +114,73 @@ def spaces_near(
 
 
 class _Stack:
-    """Equations in one array, the joints of each filled up with one that is none."""
+    """Equations, those between as many joints in one array each."""
 
     def __init__(self, quadrics: Sequence[Quadric], zero: float) -> None:
-        most = max((len(quadric.joints) for quadric in quadrics), default=0)
-        self._joints = np.full((len(quadrics), most), -1, dtype=np.int64)
-        self._forms = np.zeros((len(quadrics), most, most))
-        for number, quadric in enumerate(quadrics):
-            size = len(quadric.joints)
-            self._joints[number, :size] = quadric.joints
-            self._forms[number, :size, :size] = quadric.form / np.abs(quadric.form).max()
+        sizes = np.array([len(quadric.joints) for quadric in quadrics], dtype=np.int64)
+        self._groups = []
+        for size in np.unique(sizes).tolist():
+            numbers = np.flatnonzero(sizes == size)
+            alike = [quadrics[number] for number in numbers.tolist()]
+            joints = np.array([quadric.joints for quadric in alike], dtype=np.int64)
+            forms = np.array([quadric.form / np.abs(quadric.form).max() for quadric in alike])
+            self._groups.append((numbers, joints, forms))
+        self._most = int(sizes.max(initial=0))
         self._zero = zero
 
     def split(self, basis: Floats, left: Ints, wanted: Floats) -> Iterator[tuple[Floats, Ints]]:
         """Yield bases of spaces within one and the numbers of the equations left there, depth first."""
         while basis.shape[1]:
-            across, values, vectors = self._on(basis, left)
+            values, axes = self._on(basis, left)
             sizes = np.abs(values).max(axis=1, initial=0.0)
             kept = sizes > self._zero
-            left, across, values, vectors = left[kept], across[kept], values[kept], vectors[kept]
+            left, values, axes = left[kept], values[kept], axes[kept]
             there = np.abs(values) > self._zero * sizes[kept, None]
             positive, negative = (there & (values > 0.0)).sum(axis=1), (there & (values < 0.0)).sum(axis=1)
             single = np.flatnonzero((positive == 0) | (negative == 0))
             if len(single):
-                normals = np.concatenate([across[n] @ vectors[n][:, there[n]] for n in single], axis=1)
-                basis = self._part(basis, normals)
+                basis = self._part(basis, np.concatenate([axes[n][:, there[n]] for n in single], axis=1))
                 continue
             products = np.flatnonzero((positive == 1) & (negative == 1))
             if not len(products):
                 yield basis, left
                 return
-            for normal in _clearest(across[products], values[products], vectors[products], basis.T @ wanted):
+            for normal in _clearest(values[products], axes[products], basis.T @ wanted):
                 yield from self.split(self._part(basis, normal[:, None]), left, wanted)
             return
         yield basis, left
 
-    def _on(self, basis: Floats, left: Ints) -> tuple[Floats, Floats, Floats]:
-        """Return, for each equation, coordinates float[n, s, k], eigenvalues and vectors of its form in these."""
-        rows = np.concatenate([basis, np.zeros((1, basis.shape[1]))])[self._joints[left]]
-        across, here = np.linalg.qr(rows.transpose(0, 2, 1))
-        values, vectors = np.linalg.eigh(here @ self._forms[left] @ here.transpose(0, 2, 1))
-        return across, values, vectors
+    def _on(self, basis: Floats, left: Ints) -> tuple[Floats, Floats]:
+        """Return eigenvalues float[n, k] and vectors float[n, s, k] of equations on a space, 0 past their own."""
+        size = basis.shape[1]
+        most = min(self._most, size)
+        values, axes = np.zeros((len(left), most)), np.zeros((len(left), size, most))
+        for numbers, joints, forms in self._groups:
+            here = np.flatnonzero(np.isin(left, numbers))
+            places = np.searchsorted(numbers, left[here])
+            across, local = np.linalg.qr(basis[joints[places]].transpose(0, 2, 1))
+            found, vectors = np.linalg.eigh(local @ forms[places] @ local.transpose(0, 2, 1))
+            values[here, : found.shape[1]] = found
+            axes[here, :, : found.shape[1]] = across @ vectors
+        return values, axes
 
     def _part(self, basis: Floats, normals: Floats) -> Floats:
         return np.asarray(basis @ scipy.linalg.null_space(normals.T, rcond=self._zero))
 
 
-def _clearest(across: Floats, values: Floats, vectors: Floats, wanted: Floats) -> tuple[Floats, Floats]:
+def _clearest(values: Floats, axes: Floats, wanted: Floats) -> tuple[Floats, Floats]:
     """Return the normals of the factors between which wanted rates decide most clearly, the nearer one first.
 
     Parameters
     ----------
-    across, values, vectors : float[n, s, k], float[n, k], float[n, k, k]
-        Of products.
+    values, axes : float[n, k], float[n, s, k]
+        Eigenvalues and eigenvectors of products: one value is positive, one negative.
     wanted : float[s]
     """
-    up = np.sqrt(values[:, -1, None]) * np.einsum("nsk,nk->ns", across, vectors[:, :, -1])
-    down = np.sqrt(-values[:, 0, None]) * np.einsum("nsk,nk->ns", across, vectors[:, :, 0])
+    each = np.arange(len(values))
+    first, last = values.argmin(axis=1), values.argmax(axis=1)
+    up = np.sqrt(values[each, last])[:, None] * axes[each, :, last]
+    down = np.sqrt(-values[each, first])[:, None] * axes[each, :, first]
     factors = np.stack([up + down, up - down], axis=1)
     factors /= np.linalg.norm(factors, axis=2, keepdims=True)
     off = np.abs(factors @ wanted)

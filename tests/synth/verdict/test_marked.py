@@ -15,10 +15,6 @@ from synth.verdict.judged import mobility
 from synth.verdict.marked import marked_way
 
 
-def tangent_of(pattern):
-    return rates_at(ClosureEquations(pattern.linkage), pattern.linkage.angles)
-
-
 def random_signs(sheet, count):
     """Return the signs of rates at which the creases of one vertex close to second order, found by bisection.
 
@@ -50,11 +46,11 @@ def random_signs(sheet, count):
 def test_the_marks_that_a_vertex_can_begin_with_are_those_of_random_rates(headings):
     sheet = fan(np.radians(headings))
     pattern = prepared(sheet)
-    tangent, possible = tangent_of(pattern), random_signs(sheet, 8000)
+    possible = random_signs(sheet, 8000)
     begun = {
         signs
         for signs in product((-1, 1), repeat=len(headings))
-        if marked_way(pattern.branches, tangent, np.array(signs, dtype=float)).marked == "has"
+        if marked_way(pattern.branches, pattern.linkage, np.array(signs, dtype=float)).marked == "has"
     }
     assert begun == possible
     assert 2 <= len(begun) < 2 ** len(headings)
@@ -64,7 +60,7 @@ def test_what_no_rates_have_is_proved_not_to_begin():
     """Valleys on one side and mountains on the other: rates along creases do not even add up to nothing."""
     pattern = prepared(fan(np.radians([0, 60, 120, 180, 240, 300])))
     marks = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
-    assert marked_way(pattern.branches, tangent_of(pattern), marks).marked == "none has"
+    assert marked_way(pattern.branches, pattern.linkage, marks).marked == "none has"
 
 
 def test_what_was_not_found_is_not_said_to_be_impossible():
@@ -79,6 +75,6 @@ def test_of_several_ways_with_all_marks_the_freest_is_chosen():
     branches = pattern.branches.branches
     three = next(number for number, branch in enumerate(branches) if branch.freedoms == 3)
     marks = np.sign(np.where(np.abs(branches[three].rates) > 1e-7, branches[three].rates, 0.0))
-    way = marked_way(pattern.branches, tangent_of(pattern), marks)
+    way = marked_way(pattern.branches, pattern.linkage, marks)
     assert way.marked == "has"
     assert way.number == three
