@@ -24,8 +24,8 @@ Marked = Literal["has", "none has", "none found"]
 
 _STILL = 1e-9
 _STARTS, _LEAST, _TOGETHER = 40, 4, 600
-"""Starts from which rates with all marks are looked for where equations are left: at most and at least on one space,
-and on all together."""
+"""Starts from which rates with all marks are looked for where equations are left: at most and at least on one
+space, and on all together."""
 
 
 class MarkedWay(NamedTuple):
