@@ -1,9 +1,9 @@
-"""Types as things: panels with coordinates, as a flat sheet or as a pose in space.
+"""Types as things: panels with coordinates, as a flat sheet or as a pose in space; linkages on cones.
 
 `realise` takes a type, draws its panels, and says what they look like. Below it: `pattern` (what is to be drawn),
 `starting` (a barycentric drawing), `improving` (its shape, creases to their centres), `drawing` (one try after the
-other), `lifting` (to a pose in space), `figures`, `simplest` (the drawn type of an SC graph). Theory:
-docs/theory/realisation.md.
+other), `lifting` (to a pose in space), `figures`, `simplest` (the drawn type of an SC graph). `realise_on_cone`
+lays a type with one centre round a cone. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -13,7 +13,11 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
+    from synth.realisation.on_cone import OnOneCone as OnOneCone
+    from synth.realisation.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import Realised as Realised
     from synth.realisation.realised import realise as realise
 else:
-    __getattr__, __dir__, __all__ = offered(__name__, {"realised": "Realised realise"})
+    __getattr__, __dir__, __all__ = offered(
+        __name__, {"on_cone": "OnOneCone realise_on_cone", "realised": "Realised realise"}
+    )

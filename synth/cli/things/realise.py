@@ -1,27 +1,37 @@
-"""``synth realise``: a type given coordinates, as a flat sheet or as a pose in space."""
+"""``synth realise``: a type given coordinates, as a flat sheet, as a pose in space, or on a cone."""
 
 from __future__ import annotations
 
+from math import radians
+from typing import TYPE_CHECKING
+
 import click
 
-from synth.cli.output import FORCE, about, check_output, plain, print_json
+from synth.cli.output import FORCE, about, check_output, console, plain, print_json
+
+if TYPE_CHECKING:
+    from graphs.convert.table import Mechanism
+    from synth.realisation.on_cone import OnOneCone
+    from synth.realisation.realised import Realised
 
 __all__ = ["realise"]
 
 
-@click.command(short_help="Give a type coordinates: a flat sheet of panels, or a pose in space.")
+@click.command(short_help="Give a type coordinates: a flat sheet of panels, a pose in space, a place on a cone.")
 @click.argument("file", metavar="FILE")
-@click.option("--as", "kind", type=click.Choice(["sheet", "space"]), default="sheet", show_default=True)
-@click.option("--size", type=float, default=1.0, show_default=True, help="Longer side of the box round it.")
+@click.option("--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True)
+@click.option("--size", type=float, help="Longer side of the box round the panels.  [default: 1]")
+@click.option("--lambda", "cone_angle", type=float, help="Half the apex angle of the cone.  [default: 30]")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Another drawing for each.")
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
-@click.option("-o", "--output", metavar="OUT", help="Write the placed panels: .fold, .obj, .svg ...")
+@click.option("-o", "--output", metavar="OUT", help="Write it: .fold, .obj, .svg ...; on a cone .json.")
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def realise(
     file: str,
     kind: str,
-    size: float,
+    size: float | None,
+    cone_angle: float | None,
     seed: int,
     tries: int,
     output: str | None,
@@ -34,23 +44,55 @@ def realise(
     to the same type. Of a graph without a drawing the simplest is taken, which is told. A flat sheet is drawn
     until there is a way to fold it in which every crease turns; its mountains and valleys are those of that way.
 
+    A type with one centre can lie on a cone, all its axes ruling lines; what is written is a file for synth cone.
+
     \b
     Examples:
       synth realise m1:a-b.ac-.b-d.cd- -o four-bar.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
+      synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
     """
+    from graphs.errors import FileError
     from graphs.files.formats import read, write
-    from synth.realisation.realised import realise as realised
 
+    if kind == "cone" and size is not None:
+        raise click.UsageError("--size is of panels: a linkage on a cone is given by its angles")
+    if kind != "cone" and cone_angle is not None:
+        raise click.UsageError("--lambda is for --as cone")
     check_output(output, force=force)
+    if kind == "cone" and output is not None and not output.lower().endswith(".json"):
+        raise FileError(output, "", "a linkage on a cone in a file of another kind", "a name that ends in .json")
     thing = read(file)
     with about(file):
-        found = realised(thing, kind=kind, size=size, seed=seed, tries=tries)  # type: ignore[arg-type]  # a Choice
+        if kind == "cone":
+            found, made = _on_cone(thing, cone_angle, seed, tries)
+        else:
+            found, made = _as_panels(thing, kind, size, seed, tries)
     if output is not None:
-        write(found.sheet, output, force=force)
+        write(made, output, force=force)
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})
         return
-    click.echo(str(found))
+    for block in found.blocks():
+        console().print(block)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+
+
+def _on_cone(
+    thing: Mechanism, cone_angle: float | None, seed: int, tries: int
+) -> tuple[OnOneCone | Realised, Mechanism]:
+    from synth.realisation.on_cone import CONE_ANGLE, realise_on_cone
+
+    angle = CONE_ANGLE if cone_angle is None else radians(cone_angle)
+    found = realise_on_cone(thing, cone_angle=angle, seed=seed, tries=tries)
+    return found, found.linkage
+
+
+def _as_panels(
+    thing: Mechanism, kind: str, size: float | None, seed: int, tries: int
+) -> tuple[OnOneCone | Realised, Mechanism]:
+    from synth.realisation.realised import realise as realised
+
+    found = realised(thing, kind=kind, size=1.0 if size is None else size, seed=seed, tries=tries)  # type: ignore[arg-type]  # a Choice
+    return found, found.sheet

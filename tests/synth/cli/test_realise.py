@@ -33,3 +33,27 @@ def test_bad_input_is_one_line(words, told):
     output = run("realise", *words, code=2).output
     assert told in output
     assert output.count("\n") == 1
+
+
+def test_on_a_cone_what_is_written_is_a_file_for_synth_cone(data, tmp_path):
+    place, chain = tmp_path / "stephenson.json", data / "wiener" / "stephenson.json"
+    told = run("realise", chain, "--as", "cone", "--lambda", "25", "-o", place).output
+    assert "the arcs alone lead to 1 cone" in told
+    for more in ((), ("--by-angles",)):
+        (cone,) = json.loads(run("cone", "map", place, *more, "--json").output)["cones"]
+        assert cone["lambda_deg"] == pytest.approx(25.0)
+    assert json.loads(run("realise", chain, "--as", "cone", "--json").output)["lambda_deg"] == pytest.approx(30.0)
+
+
+def test_what_is_no_linkage_on_a_cone_is_refused_in_one_line(data, tmp_path):
+    for words, told in (
+        ((data / "wiener" / "hybrid-ten-bar.json",), "1 loop without a centre"),
+        ((data / "wiener" / "watt.json",), "2 centres"),
+        (("k1:Cr", "--lambda", "nan"), "lambda is nan degrees"),
+        (("k1:Cr", "-o", tmp_path / "cone.fold"), ".json"),
+    ):
+        output = run("realise", *words, "--as", "cone", code=2).output
+        assert told in output
+        assert output.count("\n") == 1
+    assert "--size" in run("realise", "k1:Cr", "--as", "cone", "--size", "2", code=2).output
+    assert "--lambda" in run("realise", FOUR_BAR, "--lambda", "20", code=2).output
