@@ -5,12 +5,14 @@ Theory: docs/theory/realisation.md.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any, Literal, get_args
 
 import numpy as np
 
+from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -27,6 +29,7 @@ from synth.realisation.figures import ShapeFigures, figures_of
 from synth.realisation.lifting import lifted
 from synth.realisation.pattern import Pattern, pattern_of
 from synth.realisation.simplest import simplest_drawn
+from synth.realisation.strips import drawn_string, folded_strip, strips
 
 __all__ = ["Kind", "Realised", "realise"]
 
@@ -147,14 +150,20 @@ class Realised:
 
 
 def realise(
-    mechanism: Mechanism, *, kind: Kind = "sheet", size: float = 1.0, seed: int = 0, tries: int = _TRIES
+    mechanism: Mechanism | ChainString,
+    *,
+    kind: Kind = "sheet",
+    size: float = 1.0,
+    seed: int = 0,
+    tries: int = _TRIES,
 ) -> Realised:
     """Give a type coordinates.
 
     Parameters
     ----------
-    mechanism : SCDGraph, or what has one; SCGraph
-        Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told.
+    mechanism : SCDGraph, or what has one; SCGraph; ChainString
+        Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told;
+        of an R/- string a strip of panels.
     kind : {"sheet", "space"}, optional
         A flat sheet, or a pose in space with every crease folded.
     size : float, optional
@@ -183,11 +192,14 @@ def realise(
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
     _check(kind, size, seed, tries)
-    scd, notes = simplest_drawn(mechanism)
-    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes)
+    if isinstance(mechanism, ChainString):
+        (scd, notes), source, raised = drawn_string(mechanism), strips, folded_strip
+    else:
+        (scd, notes), source, raised = simplest_drawn(mechanism), drawings, lifted
+    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, raised)
     best: Realised | None = None
     reasons: dict[str, None] = {}
-    for drawn in drawings(asked.pattern, seed, tries):
+    for drawn in source(asked.pattern, seed, tries):
         try:
             found = _realised(asked, drawn)
         except UnsolvableError as error:
@@ -215,6 +227,8 @@ class _Asked:
     seed: int
     tries: int
     notes: tuple[str, ...]
+    raised: Callable[[Pattern, Floats, np.random.Generator], Floats]
+    """What makes a pose in space of a drawing."""
 
 
 def _realised(asked: _Asked, drawn: Drawn) -> Realised:
@@ -255,7 +269,7 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (asked.size / places.max())
     if asked.kind == "space":
-        places = lifted(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+        places = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
     creases = len(pattern.creases)
     return Sheet(
         pattern.vertices,

@@ -10,6 +10,7 @@ import click
 from synth.cli.output import FORCE, about, check_output, console, plain, print_json
 
 if TYPE_CHECKING:
+    from enumerate.strings.panel_strings import ChainString
     from graphs.convert.table import Mechanism
     from synth.realisation.on_cone import OnOneCone
     from synth.realisation.realised import Realised
@@ -38,10 +39,11 @@ def realise(
     force: bool,
     as_json: bool,
 ) -> None:
-    """Give a type coordinates. FILE is a file, or an id m1:... or k1:...
+    """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
-    to the same type. Of a graph without a drawing the simplest is taken, which is told. A flat sheet is drawn
+    to the same type. Of a graph without a drawing the simplest is taken, which is told; of a string a strip of
+    panels, rectangles between parallel creases. A flat sheet is drawn
     until there is a way to fold it in which every crease turns; its mountains and valleys are those of that way.
 
     A type with one centre can lie on a cone, all its axes ruling lines; what is written is a file for synth cone.
@@ -49,6 +51,7 @@ def realise(
     \b
     Examples:
       synth realise m1:a-b.ac-.b-d.cd- -o four-bar.fold
+      synth realise RR-R-RRR -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
     """
@@ -62,12 +65,13 @@ def realise(
     check_output(output, force=force)
     if kind == "cone" and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone in a file of another kind", "a name that ends in .json")
-    thing = read(file)
+    if kind == "cone" and _is_string(file):
+        raise FileError(file, "", "an R/- string, which has no loop", "a linkage whose axes meet in one centre")
     with about(file):
         if kind == "cone":
-            found, made = _on_cone(thing, cone_angle, seed, tries)
+            found, made = _on_cone(read(file), cone_angle, seed, tries)
         else:
-            found, made = _as_panels(thing, kind, size, seed, tries)
+            found, made = _as_panels(_given(file), kind, size, seed, tries)
     if output is not None:
         write(made, output, force=force)
     if as_json:
@@ -77,6 +81,18 @@ def realise(
         console().print(block)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+
+
+def _is_string(file: str) -> bool:
+    """Tell whether what is given is an R/- string; a file so named has no extension, and would not be read."""
+    return not set(file) - set("R-")
+
+
+def _given(file: str) -> Mechanism | ChainString:
+    from enumerate.strings.panel_strings import ChainString
+    from graphs.files.formats import read
+
+    return ChainString.parse(file) if _is_string(file) else read(file)
 
 
 def _on_cone(
@@ -90,7 +106,7 @@ def _on_cone(
 
 
 def _as_panels(
-    thing: Mechanism, kind: str, size: float | None, seed: int, tries: int
+    thing: Mechanism | ChainString, kind: str, size: float | None, seed: int, tries: int
 ) -> tuple[OnOneCone | Realised, Mechanism]:
     from synth.realisation.realised import realise as realised
 

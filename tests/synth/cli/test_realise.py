@@ -57,3 +57,14 @@ def test_what_is_no_linkage_on_a_cone_is_refused_in_one_line(data, tmp_path):
         assert output.count("\n") == 1
     assert "--size" in run("realise", "k1:Cr", "--as", "cone", "--size", "2", code=2).output
     assert "--lambda" in run("realise", FOUR_BAR, "--lambda", "20", code=2).output
+
+
+def test_a_string_becomes_a_strip_of_panels(tmp_path):
+    told = run("realise", "RR-R-RRR", "-o", tmp_path / "ups.fold").output
+    assert "joints UPS" in told
+    assert "6 first-order freedom(s)" in told
+    assert len(read(tmp_path / "ups.fold").faces) == 7
+    for words, why in ((("RR--R",), "without a crease"), (("RR-R", "--as", "cone"), "has no loop")):
+        output = run("realise", *words, code=2).output
+        assert why in output
+        assert output.count("\n") == 1
