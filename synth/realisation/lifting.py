@@ -24,7 +24,7 @@ _STEEPEST = 0.8
 _STARTS, _ROUNDS = 12, 12
 
 
-def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Floats:
+def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return places in space above a drawing, every crease folded, as evenly as was found.
 
     Parameters
@@ -35,7 +35,9 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Flo
 
     Returns
     -------
-    float[V, 3]
+    places : float[V, 3]
+    turns : float[J]
+        Difference of slope of the panels at each crease; above 0 at valleys, seen from above.
 
     Raises
     ------
@@ -50,8 +52,9 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Flo
         names = ", ".join(shown(pattern.joints[place]) for place in np.flatnonzero(still))
         raise UnsolvableError(f"in every pose above this drawing the panels at joint(s) {names} are one plane")
     weights = _evenly(folds, random)
-    chosen = planes @ weights * (_STEEPEST / np.abs(folds @ weights).max(initial=_STILL))
-    return _above(pattern, places, places - middle, chosen.reshape(-1, 3))
+    weights *= _STEEPEST / np.abs(folds @ weights).max(initial=_STILL)
+    chosen = (planes @ weights).reshape(-1, 3)
+    return _above(pattern, places, places - middle, chosen), folds @ weights
 
 
 def _planes(pattern: Pattern, places: Floats) -> Floats:
@@ -89,7 +92,7 @@ def _evenly(folds: Floats, random: np.random.Generator) -> Floats:
     """
     best: Floats = np.zeros(folds.shape[1])
     weights: Floats
-    most = -1.0
+    most, inverse = -1.0, np.linalg.pinv(folds)
     for _ in range(_STARTS):
         weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
         for _ in range(_ROUNDS):
@@ -97,7 +100,7 @@ def _evenly(folds: Floats, random: np.random.Generator) -> Floats:
             if least > most:
                 best, most = weights, least
             signs = np.where(folds @ weights < 0.0, -1.0, 1.0)
-            weights = np.asarray(np.linalg.lstsq(folds, signs, rcond=None)[0])
+            weights = np.asarray(inverse @ signs, dtype=np.float64)
     return best
 
 

@@ -22,7 +22,6 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
-from synth.folding.linkage import linkage_of_sheet
 from synth.folding.prepared import prepared
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
@@ -227,7 +226,7 @@ class _Asked:
     seed: int
     tries: int
     notes: tuple[str, ...]
-    raised: Callable[[Pattern, Floats, np.random.Generator], Floats]
+    raised: Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
     """What makes a pose in space of a drawing."""
 
 
@@ -236,7 +235,7 @@ def _realised(asked: _Asked, drawn: Drawn) -> Realised:
     sheet = _placed(asked, drawn)
     if map_id(to_scd(sheet)) != asked.code:
         raise UnsolvableError("the axes of a loop meet that the type does not ask to")
-    sheet, folds = _folded(sheet) if asked.kind == "sheet" else (_marked(sheet), None)
+    sheet, folds = _folded(sheet) if asked.kind == "sheet" else (sheet, None)
     pattern = asked.pattern
     return Realised(
         kind=asked.kind,
@@ -268,21 +267,17 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     pattern = asked.pattern
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (asked.size / places.max())
+    creases, turns = len(pattern.creases), None
     if asked.kind == "space":
-        places = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
-    creases = len(pattern.creases)
-    return Sheet(
+        places, turns = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+    sheet = Sheet(
         pattern.vertices,
         tuple((int(a), int(b)) for a, b in pattern.edges),
         "U" * creases + "B" * (len(pattern.edges) - creases),
         pattern.panels,
         tuple(tuple(map(float, row)) for row in places),
     )
-
-
-def _marked(sheet: Sheet) -> Sheet:
-    """Return a sheet in space with mountains and valleys as it is folded."""
-    return _lettered(sheet, linkage_of_sheet(sheet).angles)
+    return sheet if turns is None else _lettered(sheet, turns)
 
 
 def _folded(sheet: Sheet) -> tuple[Sheet, bool]:

@@ -74,7 +74,7 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
         yield Drawn(places, angles, bool((round_border <= np.pi).all()), number)
 
 
-def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) -> Floats:
+def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return a strip with its creases folded up and down by turns, each by an angle of its own: rectangles stay.
 
     Parameters
@@ -86,7 +86,9 @@ def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) 
 
     Returns
     -------
-    float[V, 3]
+    places : float[V, 3]
+    angles : float[J]
+        By which creases are folded, radians; above 0 at valleys, seen from above.
     """
     from scipy.spatial.transform import Rotation
 
@@ -94,12 +96,12 @@ def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) 
     least, most = _FOLDED
     angles = random.uniform(least, most, len(pattern.creases)) * (-1.0) ** np.arange(len(pattern.creases))
     for number in reversed(range(len(pattern.creases))):
-        a, b = pattern.creases[number]
+        a, b = _directed(pattern, number + 1, pattern.creases[number])
         after = sorted({vertex for panel in pattern.panels[number + 1 :] for vertex in panel} - {a, b})
         axis = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
         turn = Rotation.from_rotvec(angles[number] * axis)
         points[after] = points[a] + turn.apply(points[after] - points[a])
-    return points
+    return points, angles
 
 
 def _directed(pattern: Pattern, panel: int, crease: Edge) -> Edge:

@@ -9,6 +9,7 @@ from enumerate.strings.graphs import string_of_chain
 from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.table import to_scd
 from graphs.files.formats import read, write
+from synth.folding.linkage import linkage_of_sheet
 from synth.realisation.figures import crossings
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import realise
@@ -70,3 +71,10 @@ def test_what_a_string_is_is_told():
     found = realise(ChainString.parse("RRR-RRR"), tries=1)
     assert "joints SS, 5 freedoms" in found.notes[0]
     assert "one side" in found.notes[1]
+
+
+def test_letters_in_space_are_those_of_the_pose():
+    sheet = realise(ChainString.parse("RR-R-RRR"), kind="space").sheet
+    turns = linkage_of_sheet(sheet).angles
+    assert "".join("V" if turn > 0 else "M" for turn in turns) == sheet.assignments[:6] == "VMVMVM"
+    assert np.abs(turns).min() > np.radians(29.0)
