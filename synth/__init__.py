@@ -62,7 +62,7 @@ if TYPE_CHECKING:
     from synth.guidance.synthesis import guiding_dyads as guiding_dyads
     from synth.moving.motion import move as move
     from synth.patterns.generated import generate as generate
-    from synth.realisation.on_cone import realise_on_cone as realise_on_cone
+    from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import realise as realise
     from synth.surfaces.cone import map_to_cones as map_to_cones
     from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
@@ -98,7 +98,7 @@ else:
             "synth.guidance.synthesis": "guiding_dyads",
             "synth.moving.motion": "move",
             "synth.patterns.generated": "generate",
-            "synth.realisation.on_cone": "realise_on_cone",
+            "synth.realisation.forms.on_cone": "realise_on_cone",
             "synth.realisation.realised": "realise",
             "synth.surfaces.cone": "map_to_cones",
             "synth.surfaces.cylinder": "map_to_cylinders",

@@ -2,8 +2,9 @@
 
 `realise` takes a type, draws its panels, and says what they look like. Below it: `pattern` (what is to be drawn),
 `starting` (a barycentric drawing), `improving` (its shape, creases to their centres), `drawing` (one try after the
-other), `lifting` (to a pose in space), `figures`, `simplest` (the drawn type of an SC graph). `realise_on_cone`
-lays a type with one centre round a cone. Theory: docs/theory/realisation.md.
+other), `lifting` (to a pose in space), `figures`, `simplest` (the drawn type of an SC graph). `wanted`: drawings
+that are flat-foldable, or symmetric. `forms`: strips of R/- strings; `realise_on_cone` lays a type with one centre
+round a cone. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
-    from synth.realisation.on_cone import OnOneCone as OnOneCone
-    from synth.realisation.on_cone import realise_on_cone as realise_on_cone
+    from synth.realisation.forms.on_cone import OnOneCone as OnOneCone
+    from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import Realised as Realised
     from synth.realisation.realised import realise as realise
 else:
     __getattr__, __dir__, __all__ = offered(
-        __name__, {"on_cone": "OnOneCone realise_on_cone", "realised": "Realised realise"}
+        __name__, {"synth.realisation.forms.on_cone": "OnOneCone realise_on_cone", "realised": "Realised realise"}
     )

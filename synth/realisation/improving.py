@@ -7,8 +7,9 @@ shape (Gauss-Newton, damped). Theory: docs/theory/realisation.md.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern
 from synth.realisation.pointing import off_centres
+from synth.realisation.wanted.conditions import Condition, together
 
 __all__ = ["improved"]
 
@@ -77,13 +79,21 @@ class _Cost:
 
 @dataclass(frozen=True, slots=True)
 class _Wanted:
-    """A convex border, and logarithms of the lengths of edges."""
+    """A convex border, logarithms of the lengths of edges, and what is to be met exactly."""
 
     convex: bool
     lengths: Floats
+    exactly: Condition
 
 
-def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floats | None = None) -> Floats | None:
+def improved(
+    pattern: Pattern,
+    start: Floats,
+    *,
+    convex: bool = True,
+    aims: Floats | None = None,
+    conditions: Sequence[Condition] = (),
+) -> Floats | None:
     """Return a drawing of better shape in which creases point to their centres; None if none was found.
 
     Parameters
@@ -95,13 +105,16 @@ def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floa
         Keep the border convex.
     aims : float[E], optional
         Logarithm of the length that each edge is to have; without it 0, all alike.
+    conditions : sequence of Condition, optional
+        What is to be met exactly, besides that creases point to their centres.
 
     Returns
     -------
     float[V + C + B, 2] or None
         Edges are 1 long in the mean, or as is aimed at.
     """
-    wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims)
+    exactly = together([partial(off_centres, pattern), *conditions])
+    wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
     unknowns, cost = start, _cost(pattern, start, wanted)
     damping = 1e-2
     for _ in range(_ROUNDS):
@@ -109,7 +122,7 @@ def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floa
             return None
         better, lower = None, 10.0
         while better is None and damping < 1e8:
-            trial = _tried(pattern, unknowns, cost, damping)
+            trial = _tried(unknowns, cost, damping, exactly)
             found = _cost(pattern, trial, wanted)
             if found is not None and found.merit < cost.merit:
                 better = found
@@ -121,24 +134,24 @@ def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floa
         unknowns, cost, damping = trial, better, max(damping / lower, 1e-6)
         if gained < (_ENOUGH if np.abs(cost.off).max(initial=0.0) < _NEAR else _NOTHING):
             break
-    return _closed(pattern, unknowns)
+    return _closed(pattern, unknowns, exactly)
 
 
-def _closed(pattern: Pattern, unknowns: Floats) -> Floats | None:
-    """Return the drawing with all creases on their centres, moved as little as possible."""
+def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | None:
+    """Return the drawing with all creases on their centres and all conditions met, moved as little as possible."""
     for _ in range(12):
-        off, by = off_centres(pattern, unknowns)
+        off, by = exactly(unknowns)
         if np.abs(off).max(initial=0.0) <= _CLOSED:
             break
         unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
     angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
-    off, _ = off_centres(pattern, unknowns)
+    off, _ = exactly(unknowns)
     if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_drawn(pattern, angles):
         return None
     return unknowns
 
 
-def _tried(pattern: Pattern, unknowns: Floats, cost: _Cost, damping: float) -> Floats:
+def _tried(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
     """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off.
 
     Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
@@ -151,7 +164,7 @@ def _tried(pattern: Pattern, unknowns: Floats, cost: _Cost, damping: float) -> F
     there = -part * (cost.back @ cost.off)
     within = cost.free @ _least(cost.by_free, cost.residuals + cost.by @ there, damping)
     trial = unknowns + (there - within).reshape(unknowns.shape)
-    missed = off_centres(pattern, trial)[0] - (1.0 - part) * cost.off
+    missed = exactly(trial)[0] - (1.0 - part) * cost.off
     trial -= (cost.back @ missed).reshape(unknowns.shape)
     return trial
 
@@ -186,7 +199,7 @@ def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
     residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
     padded = np.zeros((len(residuals), unknowns.size))
     padded[:, : derivatives.shape[1]] = derivatives
-    off, off_by = off_centres(pattern, unknowns)
+    off, off_by = wanted.exactly(unknowns)
     if not pattern.bent.any():
         return _Cost(residuals, padded, off, off_by)
     seen, by_seen = _seen(pattern, unknowns)

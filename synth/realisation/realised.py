@@ -5,8 +5,8 @@ Theory: docs/theory/realisation.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Any, Literal, get_args
 
@@ -25,10 +25,11 @@ from graphs.rank.pose import pose_mobility
 from synth.folding.prepared import prepared
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
+from synth.realisation.forms.strips import drawn_string, folded_strip, strips
 from synth.realisation.lifting import lifted
 from synth.realisation.pattern import Pattern, pattern_of
 from synth.realisation.simplest import simplest_drawn
-from synth.realisation.strips import drawn_string, folded_strip, strips
+from synth.realisation.wanted.wishes import Kept, Wishes, wishes_for
 
 __all__ = ["Kind", "Realised", "realise"]
 
@@ -64,6 +65,8 @@ class Realised:
         Which try it is, and how many drawings were tried.
     notes : tuple of str
         What was chosen where the input leaves it open.
+    kept : Kept
+        How well the drawing is flat-foldable, and symmetric, where it was to be.
     """
 
     kind: Kind
@@ -78,6 +81,7 @@ class Realised:
     number: int
     tries: int
     notes: tuple[str, ...] = ()
+    kept: Kept = field(default_factory=Kept)
 
     @property
     def rank(self) -> tuple[bool, bool, float]:
@@ -105,6 +109,7 @@ class Realised:
             "try": self.number,
             "tries": self.tries,
             "notes": list(self.notes),
+            **self.kept.to_json(),
         }
 
     def blocks(self) -> list[Block]:
@@ -126,6 +131,7 @@ class Realised:
         told.append(f"mobility {self.mobility}, exact; {self._freedoms()} at this pose")
         if self.folds is not None:
             told.append(self._folding())
+        told += self.kept.lines()
         told.append(f"try {self.number + 1} of {self.tries}")
         return list(told)
 
@@ -155,6 +161,8 @@ def realise(
     size: float = 1.0,
     seed: int = 0,
     tries: int = _TRIES,
+    flat_foldable: bool = False,
+    symmetric: bool = False,
 ) -> Realised:
     """Give a type coordinates.
 
@@ -171,6 +179,12 @@ def realise(
         Other seeds give other drawings; the same gives the same.
     tries : int, optional
         How many drawings are tried at most. The first of good shape that folds is taken, or the best.
+    flat_foldable : bool, optional
+        Of a sheet: every other sector about an inner vertex sums to 180 degrees, and reflections in the creases
+        round a hole close.
+    symmetric : bool, optional
+        Of a sheet: the drawing has the largest group of symmetries of the type with which it folds, or else with
+        which one was found. Each group is tried so many times.
 
     Returns
     -------
@@ -179,7 +193,8 @@ def realise(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no drawing, its panels close to a surface without a border, or nothing was found.
+        If the mechanism has no drawing, its panels close to a surface without a border, it cannot be
+        flat-foldable or symmetric, or nothing was found.
     InvariantError
         If an option is out of its range.
 
@@ -191,27 +206,18 @@ def realise(
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
     _check(kind, size, seed, tries)
+    if kind == "space" and (flat_foldable or symmetric):
+        raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
     if isinstance(mechanism, ChainString):
-        (scd, notes), source, raised = drawn_string(mechanism), strips, folded_strip
-    else:
-        (scd, notes), source, raised = simplest_drawn(mechanism), drawings, lifted
-    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, raised)
-    best: Realised | None = None
-    reasons: dict[str, None] = {}
-    for drawn in source(asked.pattern, seed, tries):
-        try:
-            found = _realised(asked, drawn)
-        except UnsolvableError as error:
-            reasons[str(error)] = None
-            continue
-        if best is None or found.rank > best.rank:
-            best = found
-        if best.good:
-            break
-    if best is None:
-        why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
-        raise UnsolvableError(f"not found in {tries} tries: {why}")
-    return best
+        if flat_foldable or symmetric:
+            raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
+        scd, notes = drawn_string(mechanism)
+        asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, folded_strip)
+        return _best(asked, [(Wishes(), strips(asked.pattern, seed, tries))])
+    scd, notes = simplest_drawn(mechanism)
+    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, lifted)
+    wishes = wishes_for(asked.pattern, flat_foldable=flat_foldable, symmetric=symmetric)
+    return _best(asked, [(one, drawings(asked.pattern, seed, tries, one)) for one in wishes])
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,6 +234,36 @@ class _Asked:
     notes: tuple[str, ...]
     raised: Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
     """What makes a pose in space of a drawing."""
+
+
+def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
+    """Return the best realisation of the first source of drawings that gives one which folds, or else one."""
+    reasons: dict[str, None] = {}
+    first: Realised | None = None
+    for wishes, drawn in sources:
+        best = _best_of(asked, wishes, drawn, reasons)
+        if best is not None and best.folds is not False:
+            return best
+        first = first or best
+    if first is not None:
+        return first
+    why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
+    raise UnsolvableError(f"not found in {asked.tries * len(sources)} tries: {why}")
+
+
+def _best_of(asked: _Asked, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
+    best: Realised | None = None
+    for drawn in tried:
+        try:
+            found = replace(_realised(asked, drawn), kept=wishes.kept(asked.pattern, drawn.places))
+        except UnsolvableError as error:
+            reasons[str(error)] = None
+            continue
+        if best is None or found.rank > best.rank:
+            best = found
+        if best.good:
+            break
+    return best
 
 
 def _realised(asked: _Asked, drawn: Drawn) -> Realised:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from math import radians
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from synth.cli.output import FORCE, about, check_output, console, plain, print_json
 
 if TYPE_CHECKING:
-    from enumerate.strings.panel_strings import ChainString
     from graphs.convert.table import Mechanism
-    from synth.realisation.on_cone import OnOneCone
+    from synth.realisation.forms.on_cone import OnOneCone
     from synth.realisation.realised import Realised
 
 __all__ = ["realise"]
@@ -25,6 +24,8 @@ __all__ = ["realise"]
 @click.option("--lambda", "cone_angle", type=float, help="Half the apex angle of the cone.  [default: 30]")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Another drawing for each.")
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
+@click.option("--flat-foldable", is_flag=True, help="Of a sheet: every other sector sums to 180 degrees.")
+@click.option("--symmetric", is_flag=True, help="Of a sheet: with symmetries of the type.")
 @click.option("-o", "--output", metavar="OUT", help="Write it: .fold, .obj, .svg ...; on a cone .json.")
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
@@ -35,6 +36,8 @@ def realise(
     cone_angle: float | None,
     seed: int,
     tries: int,
+    flat_foldable: bool,
+    symmetric: bool,
     output: str | None,
     force: bool,
     as_json: bool,
@@ -43,8 +46,9 @@ def realise(
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
     to the same type. Of a graph without a drawing the simplest is taken, which is told; of a string a strip of
-    panels, rectangles between parallel creases. A flat sheet is drawn
-    until there is a way to fold it in which every crease turns; its mountains and valleys are those of that way.
+    panels, rectangles between parallel creases. A flat sheet is drawn until there is a way to fold it in which
+    every crease turns; its mountains and valleys are those of that way. It can be asked to be flat-foldable and
+    symmetric.
 
     A type with one centre can lie on a cone, all its axes ruling lines; what is written is a file for synth cone.
 
@@ -56,22 +60,23 @@ def realise(
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
     """
     from graphs.errors import FileError
-    from graphs.files.formats import read, write
+    from graphs.files.formats import write
 
     if kind == "cone" and size is not None:
         raise click.UsageError("--size is of panels: a linkage on a cone is given by its angles")
     if kind != "cone" and cone_angle is not None:
         raise click.UsageError("--lambda is for --as cone")
+    if kind != "sheet" and (flat_foldable or symmetric):
+        raise click.UsageError("--flat-foldable and --symmetric are for --as sheet")
     check_output(output, force=force)
     if kind == "cone" and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone in a file of another kind", "a name that ends in .json")
-    if kind == "cone" and _is_string(file):
-        raise FileError(file, "", "an R/- string, which has no loop", "a linkage whose axes meet in one centre")
     with about(file):
         if kind == "cone":
-            found, made = _on_cone(read(file), cone_angle, seed, tries)
+            found, made = _on_cone(file, cone_angle, seed, tries)
         else:
-            found, made = _as_panels(_given(file), kind, size, seed, tries)
+            options = {"seed": seed, "tries": tries, "flat_foldable": flat_foldable, "symmetric": symmetric}
+            found, made = _as_panels(file, kind, 1.0 if size is None else size, options)
     if output is not None:
         write(made, output, force=force)
     if as_json:
@@ -85,30 +90,28 @@ def realise(
 
 def _is_string(file: str) -> bool:
     """Tell whether what is given is an R/- string; a file so named has no extension, and would not be read."""
-    return not set(file) - set("R-")
+    return bool(file) and set(file) <= set("R-")
 
 
-def _given(file: str) -> Mechanism | ChainString:
-    from enumerate.strings.panel_strings import ChainString
+def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:
+    from graphs.errors import FileError
     from graphs.files.formats import read
+    from synth.realisation.forms.on_cone import CONE_ANGLE, realise_on_cone
 
-    return ChainString.parse(file) if _is_string(file) else read(file)
-
-
-def _on_cone(
-    thing: Mechanism, cone_angle: float | None, seed: int, tries: int
-) -> tuple[OnOneCone | Realised, Mechanism]:
-    from synth.realisation.on_cone import CONE_ANGLE, realise_on_cone
-
+    if _is_string(file):
+        raise FileError(file, "", "an R/- string, which has no loop", "a linkage whose axes meet in one centre")
     angle = CONE_ANGLE if cone_angle is None else radians(cone_angle)
-    found = realise_on_cone(thing, cone_angle=angle, seed=seed, tries=tries)
+    found = realise_on_cone(read(file), cone_angle=angle, seed=seed, tries=tries)
     return found, found.linkage
 
 
 def _as_panels(
-    thing: Mechanism | ChainString, kind: str, size: float | None, seed: int, tries: int
+    file: str, kind: str, size: float, options: dict[str, Any]
 ) -> tuple[OnOneCone | Realised, Mechanism]:
+    from enumerate.strings.panel_strings import ChainString
+    from graphs.files.formats import read
     from synth.realisation.realised import realise as realised
 
-    found = realised(thing, kind=kind, size=1.0 if size is None else size, seed=seed, tries=tries)  # type: ignore[arg-type]  # a Choice
+    thing = ChainString.parse(file) if _is_string(file) else read(file)
+    found = realised(thing, kind=kind, size=size, **options)  # type: ignore[arg-type]  # a Choice
     return found, found.sheet

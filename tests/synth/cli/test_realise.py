@@ -68,3 +68,20 @@ def test_a_string_becomes_a_strip_of_panels(tmp_path):
         output = run("realise", *words, code=2).output
         assert why in output
         assert output.count("\n") == 1
+
+
+def test_flat_foldable_and_symmetric_sheets_are_told(data):
+    ridden = data / "wiener" / "ride-along.json"
+    found = json.loads(run("realise", ridden, "--flat-foldable", "--symmetric", "--tries", "2", "--json").output)
+    assert found["off_flat_folding"] < 1e-12
+    assert found["off_symmetry"] < 1e-12
+    assert "mirror" in found["symmetry"]
+    for words, told in (
+        ((data / "wiener" / "creased-four-bar.json", "--flat-foldable"), "5 creases, an odd number"),
+        ((data / "wiener" / "six-bar.json", "--symmetric"), "no symmetry"),
+        (("RR-R", "--symmetric"), "an R/- string"),
+    ):
+        output = run("realise", *words, code=2).output
+        assert told in output
+        assert output.count("\n") == 1
+    assert "--as sheet" in run("realise", ridden, "--as", "space", "--symmetric", code=2).output
