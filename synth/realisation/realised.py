@@ -25,7 +25,7 @@ from graphs.rank.pose import pose_mobility
 from synth.folding.prepared import prepared
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
-from synth.realisation.forms.strips import drawn_string, folded_strip, strips
+from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips
 from synth.realisation.lifting import lifted
 from synth.realisation.pattern import Pattern, pattern_of
 from synth.realisation.simplest import simplest_drawn
@@ -170,7 +170,7 @@ def realise(
     ----------
     mechanism : SCDGraph, or what has one; SCGraph; ChainString
         Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told;
-        of an R/- string a strip of panels.
+        of an R/- string a strip of panels, and of an open chain of such panels too.
     kind : {"sheet", "space"}, optional
         A flat sheet, or a pose in space with every crease folded.
     size : float, optional
@@ -208,14 +208,12 @@ def realise(
     _check(kind, size, seed, tries)
     if kind == "space" and (flat_foldable or symmetric):
         raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
-    if isinstance(mechanism, ChainString):
-        if flat_foldable or symmetric:
-            raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
-        scd, notes = drawn_string(mechanism)
-        asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, folded_strip)
-        return _best(asked, [(Wishes(), strips(asked.pattern, seed, tries))])
-    scd, notes = simplest_drawn(mechanism)
+    if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
+        raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
+    scd, notes = drawn_string(mechanism) if isinstance(mechanism, ChainString) else simplest_drawn(mechanism)
     asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, lifted)
+    if not (flat_foldable or symmetric) and is_strip(asked.pattern):
+        return _best(replace(asked, raised=folded_strip), [(Wishes(), strips(asked.pattern, seed, tries))])
     wishes = wishes_for(asked.pattern, flat_foldable=flat_foldable, symmetric=symmetric)
     return _best(asked, [(one, drawings(asked.pattern, seed, tries, one)) for one in wishes])
 

@@ -6,6 +6,7 @@ Source: Wiener 2016, sections 5.1.2 and 5.2. Theory: docs/theory/realisation.md,
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from synth.realisation.drawing import Drawn
 from synth.realisation.measures import opened_angles, sums_at
 from synth.realisation.pattern import Pattern
 
-__all__ = ["drawn_string", "folded_strip", "strips"]
+__all__ = ["drawn_string", "folded_strip", "is_strip", "strips"]
 
 _FAN = np.radians(45.0)
 """The angle of a triangle, where strips stay far enough from their own beginning."""
@@ -46,6 +47,31 @@ def drawn_string(chain: ChainString) -> tuple[SCDGraph, tuple[str, ...]]:
     return scd, tuple(notes)
 
 
+def is_strip(pattern: Pattern) -> bool:
+    """Tell whether panels follow each other as those of a string do: triangles, and quadrilaterals between two.
+
+    Parameters
+    ----------
+    pattern : Pattern
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> [is_strip(pattern_of(scd_from_panels(panels)))
+    ...  for panels in ([(0, 1, 2), (0, 2, 3)], [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])]
+    [True, False]
+    """
+    sides = [{frozenset(side) for side in sides_of_face(panel)} for panel in pattern.panels]
+    creases = [frozenset(crease) for crease in pattern.creases]
+    if len(creases) != len(sides) - 1 or not creases:
+        return False
+    in_order = all(crease in sides[i] and crease in sides[i + 1] for i, crease in enumerate(creases))
+    apart = [len(one & other) for one, other in pairwise(creases)]
+    inner = [len(row) for row in sides[1:-1]]
+    return in_order and all((size, met) in ((3, 1), (4, 0)) for size, met in zip(inner, apart, strict=True))
+
+
 def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     """Yield strips: panels between parallel creases are rectangles, creases of a cluster meet in a point.
 
@@ -54,7 +80,7 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     Parameters
     ----------
     pattern : Pattern
-        Of a string, panels and creases in its order.
+        A strip; its first and last panel may have any number of sides.
     seed, tries : int
 
     Examples
@@ -132,12 +158,12 @@ def _placed(pattern: Pattern, fans: Floats, widths: Floats) -> Floats:
     places = np.zeros((pattern.vertices, 2))
     a, b = _directed(pattern, 0, pattern.creases[0])
     places[b] = (0.0, 1.0)
-    _add_rectangle(pattern, 0, (a, b), widths[0], places)
+    _add_panel(pattern, 0, (a, b), widths[0], places)
     for panel in range(1, len(pattern.panels)):
         shared = _directed(pattern, panel, pattern.creases[panel - 1])
         met = _apex(pattern, panel)
         if met is None:
-            _add_rectangle(pattern, panel, shared, widths[panel], places)
+            _add_panel(pattern, panel, shared, widths[panel], places)
             continue
         apex, way = met
         far = shared[1] if apex == shared[0] else shared[0]
@@ -147,11 +173,15 @@ def _placed(pattern: Pattern, fans: Floats, widths: Floats) -> Floats:
     return places
 
 
-def _add_rectangle(pattern: Pattern, panel: int, shared: Edge, width: float, places: Floats) -> None:
-    """Place the other two vertices of a rectangle, which lies on the left of a side."""
+def _add_panel(pattern: Pattern, panel: int, shared: Edge, width: float, places: Floats) -> None:
+    """Place the other vertices of a panel on half an ellipse on the left of a side: of four, a rectangle."""
     around = pattern.panels[panel]
     start = around.index(shared[0])
     along = places[shared[1]] - places[shared[0]]
     off = width * np.array([-along[1], along[0]])
-    places[around[(start + 2) % 4]] = places[shared[1]] + off
-    places[around[(start + 3) % 4]] = places[shared[0]] + off
+    others = len(around) - 2
+    for place in range(others):
+        angle = np.pi * (place + 0.5) / others
+        across, up = np.sqrt(0.5) * np.cos(angle), np.sqrt(2.0) * np.sin(angle)
+        middle = (places[shared[0]] + places[shared[1]]) / 2
+        places[around[(start + 2 + place) % len(around)]] = middle + across * along + up * off

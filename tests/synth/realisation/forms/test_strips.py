@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from enumerate.strings.graphs import string_of_chain
+from enumerate.strings.graphs import chain_scd, string_of_chain
 from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.table import to_scd
 from graphs.files.formats import read, write
@@ -78,3 +78,17 @@ def test_letters_in_space_are_those_of_the_pose():
     turns = linkage_of_sheet(sheet).angles
     assert "".join("V" if turn > 0 else "M" for turn in turns) == sheet.assignments[:6] == "VMVMVM"
     assert np.abs(turns).min() > np.radians(29.0)
+
+
+@pytest.mark.parametrize("ends", [(3, 3), (4, 5), (6, 3)])
+def test_an_open_chain_of_such_panels_is_a_strip(ends):
+    scd = chain_scd(ChainString.parse("RR-R-RRR"), ends=ends)
+    found = realise(scd, tries=1)
+    points = np.array(found.sheet.coordinates)
+    for panel in (2, 3):
+        corners = points[list(found.sheet.faces[panel])]
+        sides = np.roll(corners, -1, axis=0) - corners
+        assert np.abs((sides * np.roll(sides, 1, axis=0)).sum(axis=1)).max() < 1e-12
+    assert tuple(len(found.sheet.faces[place]) for place in (0, -1)) == ends
+    assert found.figures.greatest_angle < np.pi
+    assert crossings(pattern_of(scd), points) == 0
