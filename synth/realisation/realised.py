@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from math import isfinite
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -36,6 +35,8 @@ __all__ = ["Kind", "Realised", "realise"]
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
+_LEAST, _MOST = 1e-50, 1e50
+"""Of sizes: their squares, and the squares of these, are numbers."""
 
 
 @dataclass(frozen=True)
@@ -290,8 +291,8 @@ def _realised(asked: _Asked, drawn: Drawn) -> Realised:
 def _check(kind: str, size: float, seed: int, tries: int) -> None:
     if kind not in get_args(Kind):
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
-    if not (isfinite(size) and size > 0.0):
-        raise InvariantError("size", f"the size is {size:g}", "a number above 0")
+    if not _LEAST <= size <= _MOST:
+        raise InvariantError("size", f"the size is {size:g}", f"a number from {_LEAST:g} to {_MOST:g}")
     if seed < 0 or tries < 1:
         raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
 
@@ -300,7 +301,7 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     """Return the panels with coordinates of the size that is asked for."""
     pattern = asked.pattern
     places = drawn.places - drawn.places.min(axis=0)
-    places = places * (asked.size / places.max())
+    places = places / places.max()
     creases, turns = len(pattern.creases), None
     if asked.kind == "space":
         places, turns = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
@@ -309,7 +310,7 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
         tuple((int(a), int(b)) for a, b in pattern.edges),
         "U" * creases + "B" * (len(pattern.edges) - creases),
         pattern.panels,
-        tuple(tuple(map(float, row)) for row in places),
+        tuple(tuple(map(float, row)) for row in asked.size * places),
     )
     return sheet if turns is None else _lettered(sheet, turns)
 

@@ -85,3 +85,28 @@ def test_flat_foldable_and_symmetric_sheets_are_told(data):
         assert told in output
         assert output.count("\n") == 1
     assert "--as sheet" in run("realise", ridden, "--as", "space", "--symmetric", code=2).output
+
+
+@pytest.mark.parametrize(
+    "words", [(FOUR_BAR, "--symmetric"), (FOUR_BAR, "--as", "space"), ("k1:Cr", "--as", "cone"), ("RR-R",)]
+)
+def test_a_seed_gives_equal_files(words, tmp_path):
+    ending = "json" if "cone" in words else "fold"
+    files = []
+    for number, seed in enumerate((7, 7, 8)):
+        files.append(tmp_path / f"{number}.{ending}")
+        run("realise", *words, "--tries", "1", "--seed", seed, "-o", files[-1])
+    one, again, other = (file.read_bytes() for file in files)
+    assert one == again != other
+
+
+def test_what_no_sheet_can_be_is_refused_in_one_line():
+    for words, told in (
+        (("k1:E]ow",), "not planar"),
+        ((FOUR_BAR, "--size", "0"), "the size is 0"),
+        ((FOUR_BAR, "--size", "-2"), "the size is -2"),
+        ((FOUR_BAR, "--size", "1e308", "--as", "space"), "the size is 1e+308"),
+    ):
+        output = run("realise", *words, code=2).output
+        assert told in output
+        assert output.count("\n") == 1

@@ -99,8 +99,22 @@ def test_size_is_the_longer_side_of_the_box():
     assert np.ptp(np.array(found.sheet.coordinates), axis=0).max() == pytest.approx(70.0)
 
 
+@pytest.mark.parametrize("kind", ["sheet", "space"])
+def test_the_shape_is_that_of_any_size(kind):
+    scd = mechanism_from_map_id(IMPLICIT)
+    of_one = realise(scd, kind=kind, tries=2)
+    for size in (1e-50, 1e-9, 1e50):
+        found = realise(scd, kind=kind, size=size, tries=2)
+        assert np.array(found.sheet.coordinates) / size == pytest.approx(np.array(of_one.sheet.coordinates))
+        assert (found.freedoms, found.sheet.assignments) == (of_one.freedoms, of_one.sheet.assignments)
+
+
+SIZES = [float("nan"), float("inf"), 0.0, -1.0, 1e-60, 1e60, 1e308]
+
+
 @pytest.mark.parametrize(
-    ("options", "what"), [({"size": float("nan")}, "size"), ({"tries": 0}, "tries"), ({"kind": "cone"}, "kind")]
+    ("options", "what"),
+    [*(({"size": size}, "size") for size in SIZES), ({"tries": 0}, "tries"), ({"kind": "cone"}, "kind")],
 )
 def test_options_out_of_range_are_refused(options, what):
     with pytest.raises(InvariantError, match=what):
