@@ -88,7 +88,13 @@ def test_flat_foldable_and_symmetric_sheets_are_told(data):
 
 
 @pytest.mark.parametrize(
-    "words", [(FOUR_BAR, "--symmetric"), (FOUR_BAR, "--as", "space"), ("k1:Cr", "--as", "cone"), ("RR-R",)]
+    "words",
+    [
+        ("m1:a-b.ac-.bde.cef.d-g.fg-", "--symmetric"),
+        (FOUR_BAR, "--as", "space"),
+        ("k1:Cr", "--as", "cone"),
+        ("RR-R",),
+    ],
 )
 def test_a_seed_gives_equal_files(words, tmp_path):
     ending = "json" if "cone" in words else "fold"

@@ -56,8 +56,8 @@ def test_no_two_arcs_are_alike():
     assert np.abs(np.subtract.outer(arcs, arcs))[np.triu_indices(4, 1)].min() > np.radians(0.1)
 
 
-def test_a_seed_gives_the_same_linkage_and_another_gives_another(stephenson):
-    same, again, other = (realise_on_cone(stephenson, seed=seed).linkage.steps for seed in (3, 3, 4))
+def test_a_seed_gives_the_same_linkage_and_another_gives_another():
+    same, again, other = (realise_on_cone(read("k1:Cr"), seed=seed).linkage.steps for seed in (3, 3, 4))
     assert same == again != other
 
 
