@@ -27,11 +27,15 @@ from synth.realisation.lifting import lifted
 from synth.realisation.pattern import Pattern, pattern_of
 from synth.realisation.simplest import simplest_drawn
 
-__all__ = ["Kind", "Realised", "realise"]
+__all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
+
+
+class NotFoundError(UnsolvableError):
+    """None of the drawings that were tried is of the type: more tries, or another seed, may find one."""
 
 
 @dataclass(frozen=True)
@@ -170,7 +174,9 @@ def realise(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no drawing, its panels close to a surface without a border, or nothing was found.
+        If the mechanism has no drawing, or its panels close to a surface without a border.
+    NotFoundError
+        If nothing was found in so many tries.
     InvariantError
         If an option is out of its range.
 
@@ -198,7 +204,7 @@ def realise(
             break
     if best is None:
         why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
-        raise UnsolvableError(f"not found in {tries} tries: {why}")
+        raise NotFoundError(f"not found in {tries} tries: {why}")
     return best
 
 
