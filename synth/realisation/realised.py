@@ -20,7 +20,9 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
-from synth.folding.prepared import prepared
+from synth.folding.beginning import search_for
+from synth.folding.branches import first_branch
+from synth.folding.linkage import linkage_of_sheet
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
 from synth.realisation.lifting import lifted
@@ -32,6 +34,8 @@ __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
+_STILL = 1e-7
+"""Creases that begin to fold no faster than this, by the fastest, do not fold."""
 
 
 class NotFoundError(UnsolvableError):
@@ -274,11 +278,14 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
 
 def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
     """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any."""
-    found = prepared(sheet).branches
-    for branch in found.branches if found is not None else ():
-        if branch.certainty != "not known" and "0" not in branch.signs:
-            return _lettered(sheet, branch.rates), True
-    return sheet, False
+    linkage = linkage_of_sheet(sheet)
+    joints = len(linkage.graph.joints)
+    way = first_branch(linkage, _turns_all, search_for(joints, np.ones(joints)))
+    return (sheet, False) if way is None else (_lettered(sheet, way.rates), True)
+
+
+def _turns_all(rates: Floats) -> bool:
+    return bool(np.abs(rates).min(initial=1.0) > _STILL)
 
 
 def _lettered(sheet: Sheet, turns: Floats) -> Sheet:
