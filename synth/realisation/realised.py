@@ -27,6 +27,7 @@ from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
 from synth.realisation.lifting import lifted
 from synth.realisation.pattern import Pattern, pattern_of
+from synth.realisation.refusing import check_holes
 from synth.realisation.simplest import simplest_drawn
 
 __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
@@ -178,7 +179,7 @@ def realise(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no drawing, or its panels close to a surface without a border.
+        If the mechanism has no drawing, its panels close to a surface without a border, or it has no flat sheet.
     NotFoundError
         If nothing was found in so many tries.
     InvariantError
@@ -194,6 +195,8 @@ def realise(
     _check(kind, size, seed, tries)
     scd, notes = simplest_drawn(mechanism)
     asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes)
+    if kind == "sheet":
+        check_holes(asked.pattern)
     best: Realised | None = None
     reasons: dict[str, None] = {}
     for drawn in drawings(asked.pattern, seed, tries):
