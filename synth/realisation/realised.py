@@ -25,10 +25,11 @@ from synth.folding.branches import first_branch
 from synth.folding.linkage import linkage_of_sheet
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
-from synth.realisation.lifting import lifted
-from synth.realisation.pattern import Pattern, pattern_of
+from synth.realisation.pattern import Pattern, Pointing, pattern_of
 from synth.realisation.refusing import check_holes
 from synth.realisation.simplest import simplest_drawn
+from synth.realisation.space.lifting import lifted
+from synth.realisation.space.receding import receded, with_finite_centres
 
 __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 
@@ -194,9 +195,13 @@ def realise(
     """
     _check(kind, size, seed, tries)
     scd, notes = simplest_drawn(mechanism)
-    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes)
+    pattern = pattern_of(scd)
+    receding = tuple(one for one in pattern.pointings if one.infinite)
     if kind == "sheet":
-        check_holes(asked.pattern)
+        check_holes(pattern)
+    elif receding:
+        pattern = with_finite_centres(pattern)
+    asked = _Asked(kind, scd, pattern, receding, map_id(scd), size, seed, tries, notes)
     best: Realised | None = None
     reasons: dict[str, None] = {}
     for drawn in drawings(asked.pattern, seed, tries):
@@ -217,11 +222,12 @@ def realise(
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """What is to be realised, and how."""
+    """What is to be realised, and how; in space, `receding` are the centres at infinity, drawn as points."""
 
     kind: Kind
     scd: SCDGraph
     pattern: Pattern
+    receding: tuple[Pointing, ...]
     code: str
     size: float
     seed: int
@@ -267,8 +273,11 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (asked.size / places.max())
     creases, turns = len(pattern.creases), None
-    if asked.kind == "space":
-        places, turns = lifted(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+    random = np.random.default_rng((asked.seed, drawn.number))
+    if asked.kind == "space" and asked.receding:
+        places = receded(pattern, asked.receding, places, random) * asked.size
+    elif asked.kind == "space":
+        places, turns = lifted(pattern, places, random)
     sheet = Sheet(
         pattern.vertices,
         tuple((int(a), int(b)) for a, b in pattern.edges),
@@ -276,6 +285,8 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
         pattern.panels,
         tuple(tuple(map(float, row)) for row in places),
     )
+    if asked.receding and asked.kind == "space":
+        turns = linkage_of_sheet(sheet).angles
     return sheet if turns is None else _lettered(sheet, turns)
 
 

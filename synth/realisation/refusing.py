@@ -1,8 +1,8 @@
 """Types that no flat sheet has: creases round a hole cannot all be parallel if its panels have few sides.
 
 Round a hole the directions in which creases leave it turn once. A panel whose creases are parallel lets them turn
-by at most k - 1 half turns, k being its sides between the two away from the hole: one exterior angle at each of k + 1
-corners, each less than half a turn, the sum a whole number of half turns, and half a turn of it is the panel's own.
+by at most k - 1 half turns, k being its sides between the two away from the hole: one exterior angle at each of
+k + 1 corners, each less than half a turn, the sum a whole number of half turns, half a turn of it the panel's own.
 Theory: docs/theory/realisation.md.
 """
 
@@ -34,8 +34,8 @@ def check_holes(pattern: Pattern) -> None:
     >>> check_holes(pattern_of(mechanism_from_map_id("m1:a-b-.a-c-.b-d-.c-d-;i")))
     Traceback (most recent call last):
     ...
-    graphs.errors.UnsolvableError: flat, the directions of creases would turn by 2 half turns round the hole between \
-panel(s) 0, 1, 2, 3; parallel creases can turn by 0 there: by 0 + 0 + 0 + 0
+    graphs.errors.UnsolvableError: flat, the directions of creases would turn by 2 half turns round the hole \
+between panel(s) 0, 1, 2, 3; parallel creases can turn by 0 there: by 0 + 0 + 0 + 0
     """
     for one in pattern.pointings:
         for hole in one.holes if one.infinite else ():
