@@ -25,7 +25,7 @@ __all__ = ["COLUMNS", "Outcome", "RealisationJob", "summary_of"]
 
 Outcome = Literal["realised", "not found", "refused"]
 
-_TYPES = 8
+_TYPES = 4
 """Types of a unit."""
 _WEIGHT = 1000
 """Of a type: it takes as long as so many rows of a list."""

@@ -37,20 +37,20 @@ def _list_of(codes, place):
 
 
 def test_a_stopped_run_goes_on_and_gives_equal_files(tmp_path):
-    codes = [row["code"] for row in islice(scd_rows(4, 1, 5), 10)]
+    codes = [row["code"] for row in islice(scd_rows(4, 1, 4), 6)]
     source, things = _list_of(codes, tmp_path / "types.jsonl"), tmp_path / "things"
     with pytest.raises(KeyboardInterrupt):
         run(RealisationJob(source, OPTIONS), _StoppedAfterOne(things))
-    assert len(list(things.iterdir())) == 8
+    assert len(list(things.iterdir())) == 4
     (things / "0000002.fold").unlink()
     progress = run(RealisationJob(source, OPTIONS), FolderOfThings(things, resume=True))
     assert progress.rows == 2
-    for place in (2, 10):
+    for place in (2, 6):
         found = realise(mechanism_from_map_id(codes[place - 1]), **dict(OPTIONS))
         assert (things / f"{place:07d}.fold").read_text() == fold_text(found.sheet)
     rows = [row_as_dict(COLUMNS, row) for row in read_rows(store_beside(things))]
     assert [row["code"] for row in rows] == codes
-    assert summary_of(rows)["realised"] == 10
+    assert summary_of(rows)["realised"] == 6
 
 
 def test_other_types_or_options_are_another_run(tmp_path):
