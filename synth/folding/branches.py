@@ -8,7 +8,7 @@ the sign of all rates together; farther off, two branches may be one curve. Theo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import degrees, inf
 from time import monotonic
@@ -27,7 +27,7 @@ from synth.folding.singular.quadrics import ZERO, Quadric, all_quadrics
 from synth.folding.singular.rigidity import Rigidity, rigidity_of
 from synth.folding.singular.sampling import Followed, followed, general_rates, in_half_tangents
 
-__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of"]
+__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of", "first_branch"]
 
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
@@ -196,6 +196,40 @@ def branches_of(
     return Branches(branches, all_told and looking.complete, regular, looking.complete, method)
 
 
+def first_branch(
+    linkage: PosedLinkage, admitted: Callable[[Floats], bool], search: Search | None = None
+) -> Branch | None:
+    """Return the first branch in which a linkage can move from its pose that begins at rates that will do.
+
+    Only such branches are followed, until one moves: a flat sheet may have a hundred others.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    admitted : callable
+        Takes rates, float[J], the largest 1 or -1; tells whether they will do.
+    search : Search, optional
+        Where it ends.
+
+    Examples
+    --------
+    Four creases that meet in a point, flat; the first two are to fold alike:
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, 0), (-.5, -.7))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> linkage = linkage_of_sheet(Sheet(5, (), "", faces, corners))
+    >>> first_branch(linkage, lambda rates: rates[0] * rates[1] > 0.0).signs
+    '--+-'
+    >>> first_branch(linkage, lambda rates: abs(rates).min() > 1.0)
+    """
+    looking = _Looking(linkage, ClosureEquations(linkage), search or Search())
+    ways = looking.branches(looking.spaces(), proved=False, admitted=admitted)
+    return next((way for way in ways if way.certainty != "not known"), None)
+
+
 class _Looking:
     """A search for branches: what it needs to know, and whether it came to its end."""
 
@@ -250,13 +284,15 @@ class _Looking:
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), _ERROR).rank == self.closure.rows
 
-    def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
-        """Yield the branches of all spaces; the first is followed in any case."""
+    def branches(
+        self, spaces: list[RateSpace], *, proved: bool, admitted: Callable[[Floats], bool] = lambda rates: True
+    ) -> Iterator[Branch]:
+        """Yield the branches of all spaces, at rates that will do; the first is followed in any case."""
         begun = 0
         for space in spaces:
             parts, whole = general_rates(space, self.search.most, self.search.towards, self._late)
             self.complete = self.complete and whole
-            for rates in parts:
+            for rates in filter(admitted, parts):
                 late = begun > 0 and (self._late() or begun == self.search.follow)
                 begun += not late
                 self.complete = self.complete and not late

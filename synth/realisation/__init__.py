@@ -2,9 +2,10 @@
 
 `realise` takes a type, draws its panels, and says what they look like. Below it: `pattern` (what is to be drawn),
 `starting` (a barycentric drawing), `improving` (its shape, creases to their centres), `drawing` (one try after the
-other), `lifting` (to a pose in space), `figures`, `simplest` (the drawn type of an SC graph). `wanted`: drawings
-that are flat-foldable, or symmetric. `forms`: strips of R/- strings; `realise_on_cone` lays a type with one centre
-round a cone. Theory: docs/theory/realisation.md.
+other), `space` (to a pose in space), `figures`, `refusing` (what no flat sheet has), `simplest` (the drawn type of
+an SC graph), `many` (stores and folders at once). `wanted`: drawings that are flat-foldable, or symmetric.
+`forms`: strips of R/- strings; `realise_on_cone` lays a type with one centre round a cone. Theory:
+docs/theory/realisation.md.
 """
 
 from __future__ import annotations

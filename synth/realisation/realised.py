@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -21,22 +22,36 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
-from synth.folding.prepared import prepared
+from synth.folding.beginning import search_for
+from synth.folding.branches import first_branch
+from synth.folding.linkage import linkage_of_sheet
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
 from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips
-from synth.realisation.lifting import lifted
 from synth.realisation.pattern import Pattern, pattern_of
+from synth.realisation.refusing import check_holes
 from synth.realisation.simplest import simplest_drawn
+from synth.realisation.space.lifting import lifted
+from synth.realisation.space.receding import receded, with_finite_centres
 from synth.realisation.wanted.wishes import Kept, Wishes, wishes_for
 
-__all__ = ["Kind", "Realised", "realise"]
+__all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
 _LEAST, _MOST = 1e-50, 1e50
 """Of sizes: their squares, and the squares of these, are numbers."""
+_STILL = 1e-7
+"""Creases that begin to fold no faster than this, by the fastest, do not fold."""
+
+
+class NotFoundError(UnsolvableError):
+    """None of the drawings that were tried is of the type: more tries, or another seed, may find one."""
+
+
+Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats | None]]
+"""What makes a pose in space of a drawing: places, and by which letters creases are folded, where it knows."""
 
 
 @dataclass(frozen=True)
@@ -194,8 +209,10 @@ def realise(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no drawing, its panels close to a surface without a border, it cannot be
-        flat-foldable or symmetric, or nothing was found.
+        If the mechanism has no drawing, its panels close to a surface without a border, it has no flat sheet, or
+        it cannot be flat-foldable or symmetric.
+    NotFoundError
+        If nothing was found in so many tries.
     InvariantError
         If an option is out of its range.
 
@@ -212,7 +229,13 @@ def realise(
     if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
         raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
     scd, notes = drawn_string(mechanism) if isinstance(mechanism, ChainString) else simplest_drawn(mechanism)
-    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes, lifted)
+    pattern = pattern_of(scd)
+    raised: Raised = lifted
+    if kind == "sheet":
+        check_holes(pattern)
+    elif any(one.infinite for one in pattern.pointings):
+        pattern, raised = with_finite_centres(pattern), partial(_receded, pattern)
+    asked = _Asked(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised)
     if not (flat_foldable or symmetric) and is_strip(asked.pattern):
         return _best(replace(asked, raised=folded_strip), [(Wishes(), strips(asked.pattern, seed, tries))])
     wishes = wishes_for(asked.pattern, flat_foldable=flat_foldable, symmetric=symmetric)
@@ -221,7 +244,7 @@ def realise(
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """What is to be realised, and how."""
+    """What is to be realised, and how; in space, centres at infinity are drawn as points."""
 
     kind: Kind
     scd: SCDGraph
@@ -231,8 +254,12 @@ class _Asked:
     seed: int
     tries: int
     notes: tuple[str, ...]
-    raised: Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
-    """What makes a pose in space of a drawing."""
+    raised: Raised
+
+
+def _receded(given: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, None]:
+    """Return a pose in which centres that were drawn as points are at infinity, as they are in what is given."""
+    return receded(pattern, tuple(one for one in given.pointings if one.infinite), places, random), None
 
 
 def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
@@ -247,7 +274,7 @@ def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> R
     if first is not None:
         return first
     why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
-    raise UnsolvableError(f"not found in {asked.tries * len(sources)} tries: {why}")
+    raise NotFoundError(f"not found in {asked.tries * len(sources)} tries: {why}")
 
 
 def _best_of(asked: _Asked, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
@@ -301,7 +328,7 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     """Return the panels with coordinates of the size that is asked for."""
     pattern = asked.pattern
     places = drawn.places - drawn.places.min(axis=0)
-    places = places / places.max()
+    places = places * (1.0 / places.max())
     creases, turns = len(pattern.creases), None
     if asked.kind == "space":
         places, turns = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
@@ -312,16 +339,21 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
         pattern.panels,
         tuple(tuple(map(float, row)) for row in asked.size * places),
     )
+    if asked.kind == "space" and turns is None:
+        turns = linkage_of_sheet(sheet).angles
     return sheet if turns is None else _lettered(sheet, turns)
 
 
 def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
     """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any."""
-    found = prepared(sheet).branches
-    for branch in found.branches if found is not None else ():
-        if branch.certainty != "not known" and "0" not in branch.signs:
-            return _lettered(sheet, branch.rates), True
-    return sheet, False
+    linkage = linkage_of_sheet(sheet)
+    joints = len(linkage.graph.joints)
+    way = first_branch(linkage, _turns_all, search_for(joints, np.ones(joints)))
+    return (sheet, False) if way is None else (_lettered(sheet, way.rates), True)
+
+
+def _turns_all(rates: Floats) -> bool:
+    return bool(np.abs(rates).min(initial=1.0) > _STILL)
 
 
 def _lettered(sheet: Sheet, turns: Floats) -> Sheet:

@@ -1,4 +1,4 @@
-"""``synth realise``: a type given coordinates, as a flat sheet, as a pose in space, or on a cone."""
+"""``synth realise``: types given coordinates, as flat sheets, as poses in space, or on cones."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from synth.cli.output import FORCE, about, check_output, console, plain, print_json
+from synth.cli.runner import RunOptions
+from synth.cli.things.realise_many import realise_many
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
@@ -26,7 +28,12 @@ __all__ = ["realise"]
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
 @click.option("--flat-foldable", is_flag=True, help="Of a sheet: every other sector sums to 180 degrees.")
 @click.option("--symmetric", is_flag=True, help="Of a sheet: with symmetries of the type.")
-@click.option("-o", "--output", metavar="OUT", help="Write it: .fold, .obj, .svg ...; on a cone .json.")
+@click.option(
+    "-o", "--output", metavar="OUT", help="Write it: .fold, .obj, .svg ...; .json on a cone; or a folder."
+)
+@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Of many types: processes; one a core.")
+@click.option("--resume", is_flag=True, help="Of many types: go on with what a stopped run left.")
+@click.option("--quiet", is_flag=True, help="Of many types: show no progress.")
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def realise(
@@ -39,10 +46,16 @@ def realise(
     flat_foldable: bool,
     symmetric: bool,
     output: str | None,
+    workers: int | None,
+    resume: bool,
+    quiet: bool,
     force: bool,
     as_json: bool,
 ) -> None:
     """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
+
+    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder every type is realised: OUT is a folder
+    of .fold files, with a store of what became of each beside it, or a store alone.
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
     to the same type. Of a graph without a drawing the simplest is taken, which is told; of a string a strip of
@@ -58,9 +71,11 @@ def realise(
       synth realise RR-R-RRR -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
+      synth realise types.sqlite --as space -o things
     """
     from graphs.errors import FileError
     from graphs.files.formats import write
+    from synth.drawing.catalogue.entries import is_catalogue
 
     if kind == "cone" and size is not None:
         raise click.UsageError("--size is of panels: a linkage on a cone is given by its angles")
@@ -68,15 +83,22 @@ def realise(
         raise click.UsageError("--lambda is for --as cone")
     if kind != "sheet" and (flat_foldable or symmetric):
         raise click.UsageError("--flat-foldable and --symmetric are for --as sheet")
+    options = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
+    options |= {"flat_foldable": True} if flat_foldable else {}
+    options |= {"symmetric": True} if symmetric else {}
+    if is_catalogue(file):
+        if kind == "cone":
+            raise click.UsageError("--as cone is for one type at a time")
+        running = RunOptions(output, workers, None, resume, quiet, as_json=False, force=force)
+        realise_many(file, running, options, as_json=as_json)
+        return
+    if workers or resume:
+        raise click.UsageError("--workers and --resume are for many types: a store, a list or a folder")
     check_output(output, force=force)
     if kind == "cone" and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone in a file of another kind", "a name that ends in .json")
     with about(file):
-        if kind == "cone":
-            found, made = _on_cone(file, cone_angle, seed, tries)
-        else:
-            options = {"seed": seed, "tries": tries, "flat_foldable": flat_foldable, "symmetric": symmetric}
-            found, made = _as_panels(file, kind, 1.0 if size is None else size, options)
+        found, made = _on_cone(file, cone_angle, seed, tries) if kind == "cone" else _as_panels(file, options)
     if output is not None:
         write(made, output, force=force)
     if as_json:
@@ -105,13 +127,10 @@ def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tupl
     return found, found.linkage
 
 
-def _as_panels(
-    file: str, kind: str, size: float, options: dict[str, Any]
-) -> tuple[OnOneCone | Realised, Mechanism]:
+def _as_panels(file: str, options: dict[str, Any]) -> tuple[OnOneCone | Realised, Mechanism]:
     from enumerate.strings.panel_strings import ChainString
     from graphs.files.formats import read
     from synth.realisation.realised import realise as realised
 
-    thing = ChainString.parse(file) if _is_string(file) else read(file)
-    found = realised(thing, kind=kind, size=size, **options)  # type: ignore[arg-type]  # a Choice
+    found = realised(ChainString.parse(file) if _is_string(file) else read(file), **options)
     return found, found.sheet

@@ -25,6 +25,22 @@ def test_json_in_space():
     assert found["freedoms"] == found["mobility"] == 1
 
 
+def test_a_list_is_realised_into_a_folder(tmp_path):
+    source = tmp_path / "types.jsonl"
+    source.write_text(json.dumps({"code": FOUR_BAR}) + "\n")
+    words = ("realise", source, "--as", "space", "--tries", "1", "-o", tmp_path / "things")
+    assert "1 type: 1 realised, 0 not found, 0 refused" in run(*words).output
+    assert FOUR_BAR in run("id", tmp_path / "things" / "0000001.fold").output
+    assert "folders are not replaced" in run(*words, code=2).output
+    found = json.loads(run(*words, "--resume", "--json").output)
+    assert (found["realised"], found["types"][0]["code"]) == (1, FOUR_BAR)
+
+
+@pytest.mark.parametrize(("words", "told"), [((), "need a place"), (("-o", "things.fold"), "a folder or a store")])
+def test_many_types_need_a_folder_or_a_store(words, told, tmp_path):
+    assert told in run("realise", tmp_path, *words, code=2).output
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [((FOUR_BAR, "--size", "nan"), "the size is nan"), (("m1:a.a",), "no drawing"), (("m1:ab",), "joint")],
