@@ -60,7 +60,7 @@ def test_realised_mechanisms_keep_their_type_and_the_numbers_of_their_paper(ever
         assert chain_id(to_sc(sheet)) == chain_id(to_sc(given))
         assert mobility_report(to_scd(sheet)).mobility == row["mobility"] == of_paper[row["of"]], row["file"]
         assert pose_mobility(sheet).dof == row["freedoms"]
-        assert set(sheet.assignments) <= ({*"MVB"} if row["folds"] else {*"UB"})
+        assert set(sheet.assignments) <= ({*"UB"} if row["folds"] is False else {*"MVB"})
 
 
 @pytest.mark.slow
@@ -70,7 +70,8 @@ def test_the_sheets_are_what_the_script_makes(tmp_path, data):
     for row in realised_rows(data):
         made, kept = read(tmp_path / row["file"]), read(data / "realised" / row["file"])
         assert (made.edges, made.faces) == (kept.edges, kept.faces)
-        assert np.abs(np.array(made.coordinates) - np.array(kept.coordinates)).max() < 1e-9
+        if row["kind"] == "sheet":
+            assert np.abs(np.array(made.coordinates) - np.array(kept.coordinates)).max() < 1e-9
 
 
 def test_golden_values_are_those_of_the_owner(golden):
