@@ -232,7 +232,7 @@ def _about_one_centre(sc: SCGraph) -> SCGraph:
 def _placements(chain: SCGraph, seed: int, tries: int) -> Iterator[Floats]:
     """Yield azimuths of the joints: those of each loop in turn, then in random orders.
 
-    Gaps are never all alike: links of equal arcs are a special linkage, with motions that its type has not.
+    Gaps are never all alike: a loop of equal arcs is special, and changes branches where it folds together.
     """
     number = {joint: place for place, joint in enumerate(chain.joints)}
     along = dict.fromkeys(number[joint] for loop in chain.loops for joint in loop.joints)

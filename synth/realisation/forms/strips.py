@@ -27,7 +27,8 @@ _TURNED = np.radians(150.0)
 """A strip turns by less, from any part of it to any other."""
 _VARIED = 0.2
 _FOLDED = (float(np.radians(30.0)), float(np.radians(60.0)))
-"""In space creases are folded by angles between these, up and down by turns."""
+"""In space creases are folded by angles between these, up and down by turns. Where all fold by one angle, the
+bodies of RR-RR-RR have five freedoms, not six."""
 
 
 def drawn_string(chain: ChainString) -> tuple[SCDGraph, tuple[str, ...]]:
@@ -75,7 +76,7 @@ def is_strip(pattern: Pattern) -> bool:
 def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     """Yield strips: panels between parallel creases are rectangles, creases of a cluster meet in a point.
 
-    Widths and angles are never all alike: the bodies of such a strip may have fewer freedoms than its string.
+    The first has panels that are all alike, every other has its own widths and angles.
 
     Parameters
     ----------
@@ -93,7 +94,8 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     fan = _fan_angle(pattern)
     for number in range(tries):
         random = np.random.default_rng((seed, number))
-        parts = np.exp(-_VARIED * random.random(len(pattern.panels)))
+        spread = _VARIED if number or seed else 0.0
+        parts = np.exp(-spread * random.random(len(pattern.panels)))
         places = _placed(pattern, fan * parts, parts)
         angles, _ = opened_angles(pattern, places)
         round_border = sums_at(pattern, np.array(pattern.outer)) @ angles
