@@ -117,3 +117,10 @@ def test_the_largest_group_is_that_of_a_search(links, most):
         orders.append(groups[0].turns + groups[0].mirrors if groups else 1)
         assert orders[-1] == _automorphisms(scd), map_id(scd)
     assert len(set(orders)) > 2
+
+
+def test_parallel_creases_leave_half_turns_and_mirrors():
+    """Six panels round a hole: with a centre in a point the symmetries of a hexagon, of a rectangle without."""
+    ring = "m1:a-b-.a-c-.b-d-.c-e-.d-f-.e-f-"
+    largest = [symmetries(pattern_of(mechanism_from_map_id(code)))[0] for code in (ring, ring + ";i", ring + ";s")]
+    assert [(one.turns, one.mirrors) for one in largest] == [(6, 6), (2, 2), (6, 6)]
