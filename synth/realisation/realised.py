@@ -50,8 +50,8 @@ class NotFoundError(UnsolvableError):
     """None of the drawings that were tried is of the type: more tries, or another seed, may find one."""
 
 
-Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats | None]]
-"""What makes a pose in space of a drawing: places, and by which letters creases are folded, where it knows."""
+Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
+"""What makes a pose in space of a drawing: places, and numbers above 0 at valleys."""
 
 
 @dataclass(frozen=True)
@@ -257,9 +257,11 @@ class _Asked:
     raised: Raised
 
 
-def _receded(given: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, None]:
+def _receded(
+    given: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator
+) -> tuple[Floats, Floats]:
     """Return a pose in which centres that were drawn as points are at infinity, as they are in what is given."""
-    return receded(pattern, tuple(one for one in given.pointings if one.infinite), places, random), None
+    return receded(pattern, tuple(one for one in given.pointings if one.infinite), places, random)
 
 
 def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
@@ -339,8 +341,6 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
         pattern.panels,
         tuple(tuple(map(float, row)) for row in asked.size * places),
     )
-    if asked.kind == "space" and turns is None:
-        turns = linkage_of_sheet(sheet).angles
     return sheet if turns is None else _lettered(sheet, turns)
 
 
