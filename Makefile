@@ -71,6 +71,7 @@ check: $(STAMP)
 
 data: $(STAMP)
 	$(BIN)/python data/make.py
+	$(BIN)/python data/realised.py
 
 pictures: $(STAMP)
 	@BIN=$(BIN) sh docs/pictures.sh

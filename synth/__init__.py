@@ -14,9 +14,9 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `reduce`, `convert`; edits are in `graphs.edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
-`four_bars`. A type as a thing: `realise`, panels with coordinates. Motion: `fold`, a crease pattern with rigid
-panels, frame by frame; `move`, any linkage. Known patterns and linkages: `generate`, by their parameters.
-Pictures: `draw`, of any mechanism; a notebook shows them, `synth.drawing.save_scene` writes them.
+`four_bars`. A type as a thing: `realise`, panels with coordinates; `realise_on_cone`. Motion: `fold`, a crease
+pattern with rigid panels, frame by frame; `move`, any linkage. Known patterns and linkages: `generate`, by their
+parameters. Pictures: `draw`, of any mechanism; a notebook shows them, `synth.drawing.save_scene` writes them.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from synth.guidance.synthesis import guiding_dyads as guiding_dyads
     from synth.moving.motion import move as move
     from synth.patterns.generated import generate as generate
+    from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import realise as realise
     from synth.surfaces.cone import map_to_cones as map_to_cones
     from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
@@ -97,6 +98,7 @@ else:
             "synth.guidance.synthesis": "guiding_dyads",
             "synth.moving.motion": "move",
             "synth.patterns.generated": "generate",
+            "synth.realisation.forms.on_cone": "realise_on_cone",
             "synth.realisation.realised": "realise",
             "synth.surfaces.cone": "map_to_cones",
             "synth.surfaces.cylinder": "map_to_cylinders",

@@ -5,7 +5,18 @@ import json
 from pathlib import Path
 
 import make
+import numpy as np
 import pytest
+import realised
+
+from graphs.answer.identity import identify
+from graphs.convert.table import to_sc, to_scd
+from graphs.count.report import mobility_report
+from graphs.files.formats import read
+from graphs.identity.chains import chain_id
+from graphs.identity.drawings import map_id
+from graphs.mechanism.scd import SCDGraph
+from graphs.rank.pose import pose_mobility
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -14,7 +25,7 @@ def test_the_data_are_what_the_script_makes(tmp_path, data):
     make.main(tmp_path)
     made = {path.relative_to(tmp_path): path.read_text() for path in tmp_path.rglob("*.*") if path.is_file()}
     kept = {path.relative_to(data): path.read_text() for sub in data.iterdir() if sub.is_dir()
-            and sub.name != "__pycache__" for path in sub.iterdir()}  # fmt: skip
+            and sub.name not in ("realised", "__pycache__") for path in sub.iterdir()}  # fmt: skip
     kept[Path("index.json")] = (data / "index.json").read_text()
     assert made == kept
 
@@ -24,8 +35,43 @@ def test_the_index_names_every_mechanism(data):
     assert sorted(row["file"] for row in rows) == sorted(
         str(p.relative_to(data))
         for p in data.glob("*/*.*")
-        if p.parent.name not in ("patterns", "surfaces", "orientations", "linkages", "__pycache__")
+        if p.parent.name not in ("patterns", "surfaces", "orientations", "linkages", "realised", "__pycache__")
     )
+
+
+def realised_rows(data):
+    return json.loads((data / "realised" / "index.json").read_text(encoding="utf-8"))
+
+
+def test_what_is_realised_is_all_that_has_panels(data):
+    rows = realised_rows(data)
+    assert [row["of"] for row in rows] == [entry.file for entry in realised.sources()]
+    assert {row["file"] for row in rows} == {path.name for path in (data / "realised").glob("*.fold")}
+
+
+@pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
+def test_realised_mechanisms_keep_their_type_and_the_numbers_of_their_paper(every, data):
+    of_paper = {row["file"]: row["M"] for row in json.loads((data / "index.json").read_text(encoding="utf-8"))}
+    for row in realised_rows(data)[::every]:
+        given, sheet = read(data / row["of"]), read(data / "realised" / row["file"])
+        assert identify(sheet).drawing == row["drawing"]
+        if isinstance(given, SCDGraph):
+            assert map_id(given) == row["drawing"]
+        assert chain_id(to_sc(sheet)) == chain_id(to_sc(given))
+        assert mobility_report(to_scd(sheet)).mobility == row["mobility"] == of_paper[row["of"]], row["file"]
+        assert pose_mobility(sheet).dof == row["freedoms"]
+        assert set(sheet.assignments) <= ({*"UB"} if row["folds"] is False else {*"MVB"})
+
+
+@pytest.mark.slow
+def test_the_sheets_are_what_the_script_makes(tmp_path, data):
+    realised.main(tmp_path)
+    assert json.loads((tmp_path / "index.json").read_text()) == realised_rows(data)
+    for row in realised_rows(data):
+        made, kept = read(tmp_path / row["file"]), read(data / "realised" / row["file"])
+        assert (made.edges, made.faces) == (kept.edges, kept.faces)
+        if row["kind"] == "sheet":
+            assert np.abs(np.array(made.coordinates) - np.array(kept.coordinates)).max() < 1e-9
 
 
 def test_golden_values_are_those_of_the_owner(golden):

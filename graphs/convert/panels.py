@@ -23,7 +23,7 @@ from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
-__all__ = ["oriented_panels", "scd_from_panels", "scd_of_placed_panels"]
+__all__ = ["oriented_panels", "ring_area", "scd_from_panels", "scd_of_placed_panels"]
 
 Panel = tuple[Any, ...]
 
@@ -253,11 +253,22 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
             rings.append(ring)
     if len(rings) < 2:
         return None
-    widest = max(rings, key=lambda ring: float(np.linalg.norm(_area(places[ring]))))
+    widest = max(rings, key=lambda ring: float(np.linalg.norm(ring_area(places[ring]))))
     return widest[0], widest[1]
 
 
-def _area(ring: Floats) -> Floats:
+def ring_area(ring: Floats) -> Floats:
+    """Return the area that a closed polygon goes round, as a vector across it.
+
+    Parameters
+    ----------
+    ring : float[n, 3]
+
+    Examples
+    --------
+    >>> ring_area(np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]])).tolist()
+    [0.0, 0.0, 2.0]
+    """
     around = ring - ring.mean(axis=0)
     area: Floats = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0) / 2
     return area

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from enumerate.runner.columns import Column
     from enumerate.runner.job import Job, Progress, Row, Sink
 
-__all__ = ["LimitsType", "RunOptions", "cores", "run_count", "run_rows", "runner_options"]
+__all__ = ["LimitsType", "RunOptions", "cores", "run_count", "run_resumable", "run_rows", "runner_options"]
 
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
@@ -161,14 +161,20 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
     printer.finish()
 
 
-def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter) -> Progress:
+def run_resumable(job: Job, made: Callable[..., Sink], options: RunOptions) -> None:
+    """Run a job into a sink that keeps what is done: ``made`` takes where to tell of a store, and to look."""
+    meter = _Meter.of(options)
+    _run(job, made(tell=meter.tell, looking=meter.look), options, meter, stored=True)
+
+
+def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:
     from enumerate.runner.running import Interrupted, run
 
     try:
         return run(job, sink, workers=options.workers, scheduler=options.scheduler, report=meter.show)
     except Interrupted as stop:
         meter.clear()
-        stored = options.output is not None and options.output.lower().endswith(".sqlite")
+        stored = stored or (options.output is not None and options.output.lower().endswith(".sqlite"))
         click.echo("stopped; go on with --resume" if stored else "stopped; nothing was written", err=True)
         sys.exit(stop.status)
     finally:

@@ -8,7 +8,7 @@ the sign of all rates together; farther off, two branches may be one curve. Theo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from math import degrees, inf
@@ -36,7 +36,7 @@ from synth.folding.singular.sampling import (
     same_part,
 )
 
-__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of"]
+__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of", "first_branch"]
 
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
@@ -207,6 +207,41 @@ def branches_of(
     return Branches(branches, all_told and looking.complete, regular, looking.complete, method)
 
 
+def first_branch(
+    linkage: PosedLinkage, admitted: Callable[[Floats], bool], search: Search | None = None
+) -> Branch | None:
+    """Return the first branch in which a linkage can move from its pose that begins at rates that will do.
+
+    Only such branches are followed, until one moves: a flat sheet may have a hundred others.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    admitted : callable
+        Takes rates, float[J], the largest 1 or -1; tells whether they will do.
+    search : Search, optional
+        Where it ends.
+
+    Examples
+    --------
+    Four creases that meet in a point, flat; the first two are to fold alike:
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, 0), (-.5, -.7))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> linkage = linkage_of_sheet(Sheet(5, (), "", faces, corners))
+    >>> first_branch(linkage, lambda rates: rates[0] * rates[1] > 0.0).signs
+    '--+-'
+    >>> first_branch(linkage, lambda rates: abs(rates).min() > 1.0)
+    """
+    looking = _Looking(linkage, ClosureEquations(linkage), search or Search())
+    parts = ((space, rates) for space, rates in looking.parts(looking.spaces()) if admitted(rates))
+    ways = (looking.branch(space, rates, proved=False, late=False) for space, rates in parts)
+    return next((way for way in ways if way.certainty != "not known"), None)
+
+
 class _Looking:
     """A search for branches: what it needs to know, and whether it came to its end."""
 
@@ -263,20 +298,23 @@ class _Looking:
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), _ERROR).rank == self.closure.rows
 
-    def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
-        """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
-        parts: list[tuple[RateSpace, Floats]] = []
+    def parts(self, spaces: list[RateSpace]) -> Iterator[tuple[RateSpace, Floats]]:
+        """Yield general rates of each part of all spaces, with the space."""
         for space in spaces:
             here, whole = general_rates(space, self.search.most, self.search.towards, self._late)
             self.complete = self.complete and whole
-            parts += [(space, rates) for rates in here]
+            yield from ((space, rates) for rates in here)
+
+    def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
+        """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
+        parts = list(self.parts(spaces))
         nearest = self._nearest(parts)
         begun = 0
         for number, (space, rates) in enumerate(parts):
             late = number != nearest and (self._late() or begun == self.search.follow)
             begun += not late
             self.complete = self.complete and not late
-            yield self._branch(space, rates, proved, late)
+            yield self.branch(space, rates, proved=proved, late=late)
 
     def _nearest(self, parts: Sequence[tuple[RateSpace, Floats]]) -> int:
         """Return the number of the part on which most joints go as is wanted."""
@@ -290,7 +328,8 @@ class _Looking:
             agree.append(abs(float(np.sign(np.where(np.abs(there) > _STILL, there, 0.0)) @ towards)))
         return int(np.argmax(agree))
 
-    def _branch(self, space: RateSpace, rates: Floats, proved: bool, late: bool) -> Branch:
+    def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
+        """Return a branch that begins at some rates, followed unless it is late."""
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
         linear = self.vertices.linear and not space.left
         if linear:

@@ -17,6 +17,7 @@ from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern
 from synth.realisation.pointing import first_unknowns
 from synth.realisation.starting import barycentric_start
+from synth.realisation.wanted.wishes import Wishes
 
 __all__ = ["Drawn", "drawings"]
 
@@ -47,7 +48,10 @@ class Drawn:
     number: int
 
 
-def drawings(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
+_NONE = Wishes()
+
+
+def drawings(pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE) -> Iterator[Drawn]:
     """Yield drawings without crossings, each panel strictly convex where it can be, creases to their centres.
 
     The first is as even as possible, every other aims at random lengths. The border is convex; where creases point
@@ -57,6 +61,8 @@ def drawings(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     ----------
     pattern : Pattern
     seed, tries : int
+    wishes : Wishes, optional
+        What they are to be besides.
 
     Examples
     --------
@@ -66,17 +72,23 @@ def drawings(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     >>> [drawn.convex for drawn in drawings(fan, 0, 2)]
     [True, True]
     """
+    conditions, symmetry = wishes.conditions(pattern), wishes.symmetry
     for number in range(tries):
         random = np.random.default_rng((seed, number))
         convex = not pattern.pointings or number % 3 < 2
-        start = barycentric_start(pattern, random if number else None)
+        start = barycentric_start(pattern, random if number and symmetry is None else None)
         aims = _VARIED * random.standard_normal(len(pattern.edges)) if number or seed else None
-        found = improved(pattern, first_unknowns(pattern, *start), convex=convex, aims=aims)
+        if aims is not None and symmetry is not None:
+            aims = symmetry.evened(aims)
+        unknowns = first_unknowns(pattern, *start)
+        found = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions)
         if found is None:
             continue
         places = found[: pattern.vertices]
         if crossings(pattern, places) or not _are_apart(pattern, found):
             continue
+        if symmetry is not None:
+            places = symmetry.upright(places)
         yield Drawn(places, opened_angles(pattern, places)[0], convex, number)
 
 

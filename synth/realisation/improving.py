@@ -7,7 +7,9 @@ shape (Gauss-Newton, damped). Theory: docs/theory/realisation.md.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern
 from synth.realisation.pointing import off_centres
+from synth.realisation.wanted.conditions import Condition, together
 
 __all__ = ["improved"]
 
@@ -32,10 +35,13 @@ _SEEN = np.radians(6.0)
 """Sides of bent panels that are seen from the hub under less than this cost more than they should."""
 _CLOSED = 1e-14
 _ENOUGH = 1e-3
-"""A step that gains less than this part is the last."""
+"""A step that gains less than this part is the last, where creases are near to their centres."""
+_NEAR = 1e-4
+_NOTHING = 1e-5
+"""Where they are not, a step that gains less than this is the last."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Cost:
     """Residuals at a drawing, and by how much creases miss their centres."""
 
@@ -48,16 +54,46 @@ class _Cost:
     def merit(self) -> float:
         return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
 
+    @property
+    def back(self) -> Floats:
+        """The shortest step by which each crease turns to its centre."""
+        return self._split[0]
+
+    @property
+    def free(self) -> Floats:
+        """Steps, in columns, by which no crease turns off its centre."""
+        return self._split[1]
+
+    @cached_property
+    def by_free(self) -> Floats:
+        """Derivatives of the residuals along these."""
+        free: Floats = self.by @ self.free
+        return free
+
+    @cached_property
+    def _split(self) -> tuple[Floats, Floats]:
+        u, singular, vt = np.linalg.svd(self.off_by)
+        rank = int((singular > 1e-9 * singular[0]).sum())
+        return (vt[:rank].T / singular[:rank]) @ u[:, :rank].T, vt[rank:].T
+
 
 @dataclass(frozen=True, slots=True)
 class _Wanted:
-    """A convex border, and logarithms of the lengths of edges."""
+    """A convex border, logarithms of the lengths of edges, and what is to be met exactly."""
 
     convex: bool
     lengths: Floats
+    exactly: Condition
 
 
-def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floats | None = None) -> Floats | None:
+def improved(
+    pattern: Pattern,
+    start: Floats,
+    *,
+    convex: bool = True,
+    aims: Floats | None = None,
+    conditions: Sequence[Condition] = (),
+) -> Floats | None:
     """Return a drawing of better shape in which creases point to their centres; None if none was found.
 
     Parameters
@@ -69,66 +105,74 @@ def improved(pattern: Pattern, start: Floats, *, convex: bool = True, aims: Floa
         Keep the border convex.
     aims : float[E], optional
         Logarithm of the length that each edge is to have; without it 0, all alike.
+    conditions : sequence of Condition, optional
+        What is to be met exactly, besides that creases point to their centres.
 
     Returns
     -------
     float[V + C + B, 2] or None
         Edges are 1 long in the mean, or as is aimed at.
     """
-    wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims)
+    exactly = together([partial(off_centres, pattern), *conditions])
+    wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
     unknowns, cost = start, _cost(pattern, start, wanted)
     damping = 1e-2
     for _ in range(_ROUNDS):
         if cost is None:
             return None
-        better = None
+        better, lower = None, 10.0
         while better is None and damping < 1e8:
-            trial = unknowns + _step(cost, damping).reshape(unknowns.shape)
+            trial = _tried(unknowns, cost, damping, exactly)
             found = _cost(pattern, trial, wanted)
             if found is not None and found.merit < cost.merit:
                 better = found
             else:
-                damping *= 6.0
+                damping, lower = damping * 6.0, 2.0
         if better is None:
             break
         gained = (cost.merit - better.merit) / cost.merit
-        unknowns, cost, damping = trial, better, max(damping / 10.0, 1e-6)
-        if gained < _ENOUGH and np.abs(cost.off).max(initial=0.0) < 1e-6:
+        unknowns, cost, damping = trial, better, max(damping / lower, 1e-6)
+        if gained < (_ENOUGH if np.abs(cost.off).max(initial=0.0) < _NEAR else _NOTHING):
             break
-    return _closed(pattern, unknowns)
+    return _closed(pattern, unknowns, exactly)
 
 
-def _closed(pattern: Pattern, unknowns: Floats) -> Floats | None:
-    """Return the drawing with all creases on their centres, moved as little as possible."""
+def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | None:
+    """Return the drawing with all creases on their centres and all conditions met, moved as little as possible."""
     for _ in range(12):
-        off, by = off_centres(pattern, unknowns)
+        off, by = exactly(unknowns)
         if np.abs(off).max(initial=0.0) <= _CLOSED:
             break
         unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
     angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
-    off, _ = off_centres(pattern, unknowns)
+    off, _ = exactly(unknowns)
     if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_drawn(pattern, angles):
         return None
     return unknowns
 
 
-def _step(cost: _Cost, damping: float) -> Floats:
-    """Return the step to where nothing is off, and in what that leaves free to the least cost."""
-    size = cost.by.shape[1]
+def _tried(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
+    """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off.
+
+    Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
+    gain in shape would have to outweigh it, and steps would be short.
+    """
     if not len(cost.off):
-        matrix = cost.by.T @ cost.by + damping * np.eye(size)
-        step: Floats = -np.asarray(np.linalg.solve(matrix, cost.by.T @ cost.residuals), dtype=np.float64)
-        return step
-    u, singular, vt = np.linalg.svd(cost.off_by)
-    rank = int((singular > 1e-9 * singular[0]).sum())
-    there: Floats = np.asarray(-vt[:rank].T @ ((u[:, :rank].T @ cost.off) / singular[:rank]))
-    free = vt[rank:].T
-    by = cost.by @ free
-    matrix = by.T @ by + damping * np.eye(free.shape[1])
+        step = -_least(cost.by, cost.residuals, damping)
+        return unknowns + step.reshape(unknowns.shape)
     part = 1.0 / (1.0 + damping)
-    within: Floats = free @ np.linalg.solve(matrix, by.T @ (cost.residuals + part * (cost.by @ there)))
-    step = part * there - within
-    return step
+    there = -part * (cost.back @ cost.off)
+    within = cost.free @ _least(cost.by_free, cost.residuals + cost.by @ there, damping)
+    trial = unknowns + (there - within).reshape(unknowns.shape)
+    missed = exactly(trial)[0] - (1.0 - part) * cost.off
+    trial -= (cost.back @ missed).reshape(unknowns.shape)
+    return trial
+
+
+def _least(by: Floats, residuals: Floats, damping: float) -> Floats:
+    """Return the damped solution of least squares."""
+    matrix = by.T @ by + damping * np.eye(by.shape[1])
+    return np.asarray(np.linalg.solve(matrix, by.T @ residuals), dtype=np.float64)
 
 
 def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
@@ -155,7 +199,7 @@ def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
     residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
     padded = np.zeros((len(residuals), unknowns.size))
     padded[:, : derivatives.shape[1]] = derivatives
-    off, off_by = off_centres(pattern, unknowns)
+    off, off_by = wanted.exactly(unknowns)
     if not pattern.bent.any():
         return _Cost(residuals, padded, off, off_by)
     seen, by_seen = _seen(pattern, unknowns)

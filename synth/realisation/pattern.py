@@ -115,6 +115,24 @@ class Pattern:
         return np.array([*self.creases, *borders], np.int64)
 
     @cached_property
+    def aims(self) -> Ints:
+        """int64[A, 4]: the ends of each crease that points to a centre, the centre, whether it is infinite.
+
+        Centres that are no vertices are numbered on from these.
+        """
+        rows, free = [], self.vertices
+        for one in self.pointings:
+            centre = free if one.vertex is None else one.vertex
+            free += one.vertex is None
+            rows += [(*self.creases[crease], centre, one.infinite) for crease in one.creases]
+        return np.array(rows, np.int64).reshape(-1, 4)
+
+    @cached_property
+    def directions(self) -> Ints:
+        """int64[D]: the numbers of the infinite centres."""
+        return np.unique(self.aims[self.aims[:, 3] == 1, 2])
+
+    @cached_property
     def inner(self) -> Ints:
         """int64[I]: the vertices with panels all round."""
         border = {vertex for ring in (self.outer, *self.holes) for vertex in ring}

@@ -13,6 +13,9 @@ from synth.realisation.pattern import Pattern, Pointing
 
 __all__ = ["first_unknowns", "off_centres"]
 
+_LEFT, _RIGHT = np.array([-1.0, 1.0]), np.array([1.0, -1.0])
+"""Signs of (y, x), by which a vector (x, y) is turned to the left, to the right."""
+
 
 def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels: Floats) -> Floats:
     """Return the unknowns of a drawing: vertices, a point for each centre that is no vertex, hubs of bent panels.
@@ -51,42 +54,26 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
 
     Returns
     -------
-    off : float[P]
-        Then, for each infinite centre, by how much its direction is longer than 1.
-    derivatives : float[P, 2 (V + C + B)]
+    off : float[A + D]
+        For each row of ``Pattern.aims``; then by how much the direction of each infinite centre is longer than 1.
+    derivatives : float[A + D, 2 (V + C + B)]
     """
-    values: list[float] = []
-    rows: list[Floats] = []
-    free = pattern.vertices
-    for one in pattern.pointings:
-        centre = free if one.vertex is None else one.vertex
-        free += one.vertex is None
-        for crease in one.creases:
-            value, row = _off(unknowns, pattern.creases[crease], centre, one.infinite)
-            values.append(value)
-            rows.append(row)
-        if one.infinite:
-            row = np.zeros_like(unknowns)
-            row[centre] = unknowns[centre]
-            values.append((unknowns[centre] @ unknowns[centre] - 1.0) / 2)
-            rows.append(row)
-    return np.array(values), np.array(rows).reshape(len(rows), unknowns.size)
-
-
-def _off(unknowns: Floats, crease: tuple[int, int], centre: int, infinite: bool) -> tuple[float, Floats]:
-    a, b = crease
+    a, b, centre, infinite = pattern.aims.T
     along = unknowns[b] - unknowns[a]
-    to = unknowns[centre] if infinite else unknowns[centre] - (unknowns[a] + unknowns[b]) / 2
-    scale = float(np.linalg.norm(along) * np.linalg.norm(to))
-    by_along, by_to = np.array([to[1], -to[0]]) / scale, np.array([-along[1], along[0]]) / scale
-    row = np.zeros_like(unknowns)
-    row[b] += by_along
-    row[a] -= by_along
-    row[centre] += by_to
-    if not infinite:
-        row[a] -= by_to / 2
-        row[b] -= by_to / 2
-    return float(along[0] * to[1] - along[1] * to[0]) / scale, row.ravel()
+    reach = (1 - infinite)[:, None] / 2
+    to = unknowns[centre] - reach * (unknowns[a] + unknowns[b])
+    scale = np.sqrt((along**2).sum(axis=1) * (to**2).sum(axis=1))
+    by_along, by_to = to[:, ::-1] * _RIGHT / scale[:, None], along[:, ::-1] * _LEFT / scale[:, None]
+    half = reach * by_to
+    rows, directions = np.arange(len(pattern.aims)), pattern.directions
+    derivatives = np.zeros((len(rows) + len(directions), *unknowns.shape))
+    derivatives[rows, b] = by_along - half
+    derivatives[rows, a] = -by_along - half
+    derivatives[rows, centre] += by_to
+    derivatives[len(rows) + np.arange(len(directions)), directions] = unknowns[directions]
+    off = (along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / scale
+    longer = ((unknowns[directions] ** 2).sum(axis=1) - 1.0) / 2
+    return np.concatenate([off, longer]), derivatives.reshape(len(derivatives), unknowns.size)
 
 
 def _common_direction(pattern: Pattern, places: Floats, one: Pointing) -> Floats:

@@ -5,12 +5,14 @@ Theory: docs/theory/realisation.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import isfinite
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Literal, get_args
 
 import numpy as np
 
+from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -20,19 +22,36 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, html_of, text_of
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
+from synth.folding.beginning import search_for
+from synth.folding.branches import first_branch
 from synth.folding.linkage import linkage_of_sheet
-from synth.folding.prepared import prepared
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
-from synth.realisation.lifting import lifted
+from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips
 from synth.realisation.pattern import Pattern, pattern_of
+from synth.realisation.refusing import check_holes
 from synth.realisation.simplest import simplest_drawn
+from synth.realisation.space.lifting import lifted
+from synth.realisation.space.receding import receded, with_finite_centres
+from synth.realisation.wanted.wishes import Kept, Wishes, wishes_for
 
-__all__ = ["Kind", "Realised", "realise"]
+__all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
+_LEAST, _MOST = 1e-50, 1e50
+"""Of sizes: their squares, and the squares of these, are numbers."""
+_STILL = 1e-7
+"""Creases that begin to fold no faster than this, by the fastest, do not fold."""
+
+
+class NotFoundError(UnsolvableError):
+    """None of the drawings that were tried is of the type: more tries, or another seed, may find one."""
+
+
+Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
+"""What makes a pose in space of a drawing: places, and numbers above 0 at valleys."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +81,8 @@ class Realised:
         Which try it is, and how many drawings were tried.
     notes : tuple of str
         What was chosen where the input leaves it open.
+    kept : Kept
+        How well the drawing is flat-foldable, and symmetric, where it was to be.
     """
 
     kind: Kind
@@ -76,6 +97,7 @@ class Realised:
     number: int
     tries: int
     notes: tuple[str, ...] = ()
+    kept: Kept = field(default_factory=Kept)
 
     @property
     def rank(self) -> tuple[bool, bool, float]:
@@ -103,6 +125,7 @@ class Realised:
             "try": self.number,
             "tries": self.tries,
             "notes": list(self.notes),
+            **self.kept.to_json(),
         }
 
     def blocks(self) -> list[Block]:
@@ -124,6 +147,7 @@ class Realised:
         told.append(f"mobility {self.mobility}, exact; {self._freedoms()} at this pose")
         if self.folds is not None:
             told.append(self._folding())
+        told += self.kept.lines()
         told.append(f"try {self.number + 1} of {self.tries}")
         return list(told)
 
@@ -147,14 +171,22 @@ class Realised:
 
 
 def realise(
-    mechanism: Mechanism, *, kind: Kind = "sheet", size: float = 1.0, seed: int = 0, tries: int = _TRIES
+    mechanism: Mechanism | ChainString,
+    *,
+    kind: Kind = "sheet",
+    size: float = 1.0,
+    seed: int = 0,
+    tries: int = _TRIES,
+    flat_foldable: bool = False,
+    symmetric: bool = False,
 ) -> Realised:
     """Give a type coordinates.
 
     Parameters
     ----------
-    mechanism : SCDGraph, or what has one; SCGraph
-        Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told.
+    mechanism : SCDGraph, or what has one; SCGraph; ChainString
+        Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told;
+        of an R/- string a strip of panels, and of an open chain of such panels too.
     kind : {"sheet", "space"}, optional
         A flat sheet, or a pose in space with every crease folded.
     size : float, optional
@@ -163,6 +195,12 @@ def realise(
         Other seeds give other drawings; the same gives the same.
     tries : int, optional
         How many drawings are tried at most. The first of good shape that folds is taken, or the best.
+    flat_foldable : bool, optional
+        Of a sheet: every other sector about an inner vertex sums to 180 degrees, and reflections in the creases
+        round a hole close.
+    symmetric : bool, optional
+        Of a sheet: the drawing has the largest group of symmetries of the type with which it folds, or else with
+        which one was found. Each group is tried so many times.
 
     Returns
     -------
@@ -171,7 +209,10 @@ def realise(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no drawing, its panels close to a surface without a border, or nothing was found.
+        If the mechanism has no drawing, its panels close to a surface without a border, it has no flat sheet, or
+        it cannot be flat-foldable or symmetric.
+    NotFoundError
+        If nothing was found in so many tries.
     InvariantError
         If an option is out of its range.
 
@@ -183,29 +224,27 @@ def realise(
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
     _check(kind, size, seed, tries)
-    scd, notes = simplest_drawn(mechanism)
-    asked = _Asked(kind, scd, pattern_of(scd), map_id(scd), size, seed, tries, notes)
-    best: Realised | None = None
-    reasons: dict[str, None] = {}
-    for drawn in drawings(asked.pattern, seed, tries):
-        try:
-            found = _realised(asked, drawn)
-        except UnsolvableError as error:
-            reasons[str(error)] = None
-            continue
-        if best is None or found.rank > best.rank:
-            best = found
-        if best.good:
-            break
-    if best is None:
-        why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
-        raise UnsolvableError(f"not found in {tries} tries: {why}")
-    return best
+    if kind == "space" and (flat_foldable or symmetric):
+        raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
+    if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
+        raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
+    scd, notes = drawn_string(mechanism) if isinstance(mechanism, ChainString) else simplest_drawn(mechanism)
+    pattern = pattern_of(scd)
+    raised: Raised = lifted
+    if kind == "sheet":
+        check_holes(pattern)
+    elif any(one.infinite for one in pattern.pointings):
+        pattern, raised = with_finite_centres(pattern), partial(_receded, pattern)
+    asked = _Asked(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised)
+    if not (flat_foldable or symmetric) and is_strip(asked.pattern):
+        return _best(replace(asked, raised=folded_strip), [(Wishes(), strips(asked.pattern, seed, tries))])
+    wishes = wishes_for(asked.pattern, flat_foldable=flat_foldable, symmetric=symmetric)
+    return _best(asked, [(one, drawings(asked.pattern, seed, tries, one)) for one in wishes])
 
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """What is to be realised, and how."""
+    """What is to be realised, and how; in space, centres at infinity are drawn as points."""
 
     kind: Kind
     scd: SCDGraph
@@ -215,6 +254,44 @@ class _Asked:
     seed: int
     tries: int
     notes: tuple[str, ...]
+    raised: Raised
+
+
+def _receded(
+    given: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator
+) -> tuple[Floats, Floats]:
+    """Return a pose in which centres that were drawn as points are at infinity, as they are in what is given."""
+    return receded(pattern, tuple(one for one in given.pointings if one.infinite), places, random)
+
+
+def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
+    """Return the best realisation of the first source of drawings that gives one which folds, or else one."""
+    reasons: dict[str, None] = {}
+    first: Realised | None = None
+    for wishes, drawn in sources:
+        best = _best_of(asked, wishes, drawn, reasons)
+        if best is not None and best.folds is not False:
+            return best
+        first = first or best
+    if first is not None:
+        return first
+    why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
+    raise NotFoundError(f"not found in {asked.tries * len(sources)} tries: {why}")
+
+
+def _best_of(asked: _Asked, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
+    best: Realised | None = None
+    for drawn in tried:
+        try:
+            found = replace(_realised(asked, drawn), kept=wishes.kept(asked.pattern, drawn.places))
+        except UnsolvableError as error:
+            reasons[str(error)] = None
+            continue
+        if best is None or found.rank > best.rank:
+            best = found
+        if best.good:
+            break
+    return best
 
 
 def _realised(asked: _Asked, drawn: Drawn) -> Realised:
@@ -222,7 +299,7 @@ def _realised(asked: _Asked, drawn: Drawn) -> Realised:
     sheet = _placed(asked, drawn)
     if map_id(to_scd(sheet)) != asked.code:
         raise UnsolvableError("the axes of a loop meet that the type does not ask to")
-    sheet, folds = _folded(sheet) if asked.kind == "sheet" else (_marked(sheet), None)
+    sheet, folds = _folded(sheet) if asked.kind == "sheet" else (sheet, None)
     pattern = asked.pattern
     return Realised(
         kind=asked.kind,
@@ -243,8 +320,8 @@ def _realised(asked: _Asked, drawn: Drawn) -> Realised:
 def _check(kind: str, size: float, seed: int, tries: int) -> None:
     if kind not in get_args(Kind):
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
-    if not (isfinite(size) and size > 0.0):
-        raise InvariantError("size", f"the size is {size:g}", "a number above 0")
+    if not _LEAST <= size <= _MOST:
+        raise InvariantError("size", f"the size is {size:g}", f"a number from {_LEAST:g} to {_MOST:g}")
     if seed < 0 or tries < 1:
         raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
 
@@ -253,31 +330,30 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     """Return the panels with coordinates of the size that is asked for."""
     pattern = asked.pattern
     places = drawn.places - drawn.places.min(axis=0)
-    places = places * (asked.size / places.max())
+    places = places * (1.0 / places.max())
+    creases, turns = len(pattern.creases), None
     if asked.kind == "space":
-        places = lifted(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
-    creases = len(pattern.creases)
-    return Sheet(
+        places, turns = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+    sheet = Sheet(
         pattern.vertices,
         tuple((int(a), int(b)) for a, b in pattern.edges),
         "U" * creases + "B" * (len(pattern.edges) - creases),
         pattern.panels,
-        tuple(tuple(map(float, row)) for row in places),
+        tuple(tuple(map(float, row)) for row in asked.size * places),
     )
-
-
-def _marked(sheet: Sheet) -> Sheet:
-    """Return a sheet in space with mountains and valleys as it is folded."""
-    return _lettered(sheet, linkage_of_sheet(sheet).angles)
+    return sheet if turns is None else _lettered(sheet, turns)
 
 
 def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
     """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any."""
-    found = prepared(sheet).branches
-    for branch in found.branches if found is not None else ():
-        if branch.certainty != "not known" and "0" not in branch.signs:
-            return _lettered(sheet, branch.rates), True
-    return sheet, False
+    linkage = linkage_of_sheet(sheet)
+    joints = len(linkage.graph.joints)
+    way = first_branch(linkage, _turns_all, search_for(joints, np.ones(joints)))
+    return (sheet, False) if way is None else (_lettered(sheet, way.rates), True)
+
+
+def _turns_all(rates: Floats) -> bool:
+    return bool(np.abs(rates).min(initial=1.0) > _STILL)
 
 
 def _lettered(sheet: Sheet, turns: Floats) -> Sheet:

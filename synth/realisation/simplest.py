@@ -5,6 +5,8 @@ Theory: docs/theory/realisation.md.
 
 from __future__ import annotations
 
+import networkx as nx
+
 from enumerate.scd.graphs import mechanism_of, scd_graphs_of
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import UnsolvableError, numbered
@@ -41,6 +43,8 @@ def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
     """
     if isinstance(mechanism, SCDGraph) or not isinstance(mechanism, SCGraph):
         return to_scd(mechanism), ()
+    if not nx.check_planarity(nx.Graph(mechanism))[0]:
+        raise UnsolvableError("the chain is not planar: its panels cannot be drawn without crossings")
     widest = max(dict(mechanism.degree).values())
     for most in range(max(3, widest), widest + _MORE_SIDES + 1):
         mechanism_of(mechanism, most)  # which says what stands in the way

@@ -1,56 +1,136 @@
-"""``synth realise``: a type given coordinates, as a flat sheet or as a pose in space."""
+"""``synth realise``: types given coordinates, as flat sheets, as poses in space, or on cones."""
 
 from __future__ import annotations
 
+from math import radians
+from typing import TYPE_CHECKING, Any
+
 import click
 
-from synth.cli.output import FORCE, about, check_output, plain, print_json
+from synth.cli.output import FORCE, about, check_output, console, plain, print_json
+from synth.cli.runner import RunOptions
+from synth.cli.things.realise_many import realise_many
+
+if TYPE_CHECKING:
+    from graphs.convert.table import Mechanism
+    from synth.realisation.forms.on_cone import OnOneCone
+    from synth.realisation.realised import Realised
 
 __all__ = ["realise"]
 
 
-@click.command(short_help="Give a type coordinates: a flat sheet of panels, or a pose in space.")
+@click.command(short_help="Give a type coordinates: a flat sheet of panels, a pose in space, a place on a cone.")
 @click.argument("file", metavar="FILE")
-@click.option("--as", "kind", type=click.Choice(["sheet", "space"]), default="sheet", show_default=True)
-@click.option("--size", type=float, default=1.0, show_default=True, help="Longer side of the box round it.")
+@click.option("--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True)
+@click.option("--size", type=float, help="Longer side of the box round the panels.  [default: 1]")
+@click.option("--lambda", "cone_angle", type=float, help="Half the apex angle of the cone.  [default: 30]")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Another drawing for each.")
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
-@click.option("-o", "--output", metavar="OUT", help="Write the placed panels: .fold, .obj, .svg ...")
+@click.option("--flat-foldable", is_flag=True, help="Of a sheet: every other sector sums to 180 degrees.")
+@click.option("--symmetric", is_flag=True, help="Of a sheet: with symmetries of the type.")
+@click.option(
+    "-o", "--output", metavar="OUT", help="Write it: .fold, .obj, .svg ...; .json on a cone; or a folder."
+)
+@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Of many types: processes; one a core.")
+@click.option("--resume", is_flag=True, help="Of many types: go on with what a stopped run left.")
+@click.option("--quiet", is_flag=True, help="Of many types: show no progress.")
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def realise(
     file: str,
     kind: str,
-    size: float,
+    size: float | None,
+    cone_angle: float | None,
     seed: int,
     tries: int,
+    flat_foldable: bool,
+    symmetric: bool,
     output: str | None,
+    workers: int | None,
+    resume: bool,
+    quiet: bool,
     force: bool,
     as_json: bool,
 ) -> None:
-    """Give a type coordinates. FILE is a file, or an id m1:... or k1:...
+    """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
+
+    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder every type is realised: OUT is a folder
+    of .fold files, with a store of what became of each beside it, or a store alone.
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
-    to the same type. Of a graph without a drawing the simplest is taken, which is told. A flat sheet is drawn
-    until there is a way to fold it in which every crease turns; its mountains and valleys are those of that way.
+    to the same type. Of a graph without a drawing the simplest is taken, which is told; of a string a strip of
+    panels, rectangles between parallel creases. A flat sheet is drawn until there is a way to fold it in which
+    every crease turns; its mountains and valleys are those of that way. It can be asked to be flat-foldable and
+    symmetric.
+
+    A type with one centre can lie on a cone, all its axes ruling lines; what is written is a file for synth cone.
 
     \b
     Examples:
       synth realise m1:a-b.ac-.b-d.cd- -o four-bar.fold
+      synth realise RR-R-RRR -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
+      synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
+      synth realise types.sqlite --as space -o things
     """
-    from graphs.files.formats import read, write
-    from synth.realisation.realised import realise as realised
+    from graphs.errors import FileError
+    from graphs.files.formats import write
+    from synth.drawing.catalogue.entries import is_catalogue
 
+    if kind == "cone" and size is not None:
+        raise click.UsageError("--size is of panels: a linkage on a cone is given by its angles")
+    if kind != "cone" and cone_angle is not None:
+        raise click.UsageError("--lambda is for --as cone")
+    if kind != "sheet" and (flat_foldable or symmetric):
+        raise click.UsageError("--flat-foldable and --symmetric are for --as sheet")
+    options = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
+    options |= {"flat_foldable": True} if flat_foldable else {}
+    options |= {"symmetric": True} if symmetric else {}
+    if is_catalogue(file):
+        if kind == "cone":
+            raise click.UsageError("--as cone is for one type at a time")
+        running = RunOptions(output, workers, None, resume, quiet, as_json=False, force=force)
+        realise_many(file, running, options, as_json=as_json)
+        return
+    if workers or resume:
+        raise click.UsageError("--workers and --resume are for many types: a store, a list or a folder")
     check_output(output, force=force)
-    thing = read(file)
+    if kind == "cone" and output is not None and not output.lower().endswith(".json"):
+        raise FileError(output, "", "a linkage on a cone in a file of another kind", "a name that ends in .json")
     with about(file):
-        found = realised(thing, kind=kind, size=size, seed=seed, tries=tries)  # type: ignore[arg-type]  # a Choice
+        found, made = _on_cone(file, cone_angle, seed, tries) if kind == "cone" else _as_panels(file, options)
     if output is not None:
-        write(found.sheet, output, force=force)
+        write(made, output, force=force)
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})
         return
-    click.echo(str(found))
+    for block in found.blocks():
+        console().print(block)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+
+
+def _is_string(file: str) -> bool:
+    """Tell whether what is given is an R/- string; a file so named has no extension, and would not be read."""
+    return bool(file) and set(file) <= set("R-")
+
+
+def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:
+    from graphs.errors import FileError
+    from graphs.files.formats import read
+    from synth.realisation.forms.on_cone import CONE_ANGLE, realise_on_cone
+
+    if _is_string(file):
+        raise FileError(file, "", "an R/- string, which has no loop", "a linkage whose axes meet in one centre")
+    angle = CONE_ANGLE if cone_angle is None else radians(cone_angle)
+    found = realise_on_cone(read(file), cone_angle=angle, seed=seed, tries=tries)
+    return found, found.linkage
+
+
+def _as_panels(file: str, options: dict[str, Any]) -> tuple[OnOneCone | Realised, Mechanism]:
+    from enumerate.strings.panel_strings import ChainString
+    from graphs.files.formats import read
+    from synth.realisation.realised import realise as realised
+
+    found = realised(ChainString.parse(file) if _is_string(file) else read(file), **options)
+    return found, found.sheet

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
-from synth.folding.branches import branches_of
+from synth.folding.branches import branches_of, first_branch
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import linkage_of_sheet
 from synth.folding.newton import corrected
@@ -113,3 +113,11 @@ def test_rates_near_marks_agree_to_second_order():
     assert (np.sign(rates) == marks).all()
     halves = 2.0 * np.arctan(rates)
     assert closure.error(halves) < 1e-10  # linear in the tangent of half a fold
+
+
+def test_the_first_branch_that_will_do_is_one_of_all():
+    linkage = linkage_of_sheet(miura(3, 3, np.radians(60)))
+    signs = [branch.signs for branch in branches_of(linkage).branches]
+    found = first_branch(linkage, lambda rates: bool(np.abs(rates).min() > 1e-7))
+    assert found.signs == next(row for row in signs if "0" not in row)
+    assert first_branch(linkage, lambda rates: False) is None

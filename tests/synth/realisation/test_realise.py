@@ -1,12 +1,15 @@
 """Types given coordinates: they read back to the same type, move as the type does, and have a shape."""
 
+import networkx as nx
 import numpy as np
 import pytest
 
 from enumerate.scd.graphs import scd_graphs
 from graphs.answer.identity import identify
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
+from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
@@ -96,8 +99,22 @@ def test_size_is_the_longer_side_of_the_box():
     assert np.ptp(np.array(found.sheet.coordinates), axis=0).max() == pytest.approx(70.0)
 
 
+@pytest.mark.parametrize("kind", ["sheet", "space"])
+def test_the_shape_is_that_of_any_size(kind):
+    scd = mechanism_from_map_id(FOUR_BAR)
+    of_one = realise(scd, kind=kind, tries=1)
+    for size in (1e-50, 1e-9, 1e50):
+        found = realise(scd, kind=kind, size=size, tries=1)
+        assert np.array(found.sheet.coordinates) / size == pytest.approx(np.array(of_one.sheet.coordinates))
+        assert (found.freedoms, found.sheet.assignments) == (of_one.freedoms, of_one.sheet.assignments)
+
+
+SIZES = [float("nan"), float("inf"), 0.0, -1.0, 1e-60, 1e60, 1e308]
+
+
 @pytest.mark.parametrize(
-    ("options", "what"), [({"size": float("nan")}, "size"), ({"tries": 0}, "tries"), ({"kind": "cone"}, "kind")]
+    ("options", "what"),
+    [*(({"size": size}, "size") for size in SIZES), ({"tries": 0}, "tries"), ({"kind": "cone"}, "kind")],
 )
 def test_options_out_of_range_are_refused(options, what):
     with pytest.raises(InvariantError, match=what):
@@ -117,3 +134,17 @@ def test_a_closed_surface_is_refused():
 def test_every_type_of_a_size_is_drawn(links, most):
     for scd in scd_graphs(links, 1, most):
         assert next(drawings(pattern_of(scd), 0, 12), None) is not None, map_id(scd)
+
+
+def test_a_chain_that_is_not_planar_is_refused():
+    with pytest.raises(UnsolvableError, match="not planar"):
+        realise(sc_from_link_joint_graph(nx.complete_bipartite_graph(3, 3)))
+
+
+@pytest.mark.parametrize("code", ["k1:E`hW", "m1:ab.ac.bde.cfg.dg.ef"])
+def test_ids_that_rows_hold_are_realised(code, tmp_path):
+    """Read back, the panels are of the chain, with as many centres."""
+    given, found = read(code), realise(read(code), tries=1)
+    again = mechanism_from_map_id(_read_back(found, tmp_path))
+    assert chain_id(again) == chain_id(given)
+    assert len(again.centre_classes()) == len(given.centre_classes())

@@ -15,7 +15,7 @@ from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, shown
 from synth.realisation.pattern import Pattern
 
-__all__ = ["lifted"]
+__all__ = ["evenly_folded", "folds_of", "lifted", "planes_over"]
 
 _ZERO = 1e-9
 _STILL = 1e-6
@@ -24,7 +24,7 @@ _STEEPEST = 0.8
 _STARTS, _ROUNDS = 12, 12
 
 
-def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Floats:
+def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return places in space above a drawing, every crease folded, as evenly as was found.
 
     Parameters
@@ -35,7 +35,9 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Flo
 
     Returns
     -------
-    float[V, 3]
+    places : float[V, 3]
+    turns : float[J]
+        Difference of slope of the panels at each crease; above 0 at valleys, seen from above.
 
     Raises
     ------
@@ -43,18 +45,19 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> Flo
         If creases stay straight in every lift.
     """
     middle = places.mean(axis=0)
-    planes = _planes(pattern, places - middle)
-    folds = _folds(pattern, places, planes)
+    planes = planes_over(pattern, places - middle)
+    folds = folds_of(pattern, places, planes)
     still = np.abs(folds).max(axis=1, initial=0.0) <= _STILL
     if still.any():
         names = ", ".join(shown(pattern.joints[place]) for place in np.flatnonzero(still))
         raise UnsolvableError(f"in every pose above this drawing the panels at joint(s) {names} are one plane")
-    weights = _evenly(folds, random)
-    chosen = planes @ weights * (_STEEPEST / np.abs(folds @ weights).max(initial=_STILL))
-    return _above(pattern, places, places - middle, chosen.reshape(-1, 3))
+    weights = evenly_folded(folds, random)
+    weights *= _STEEPEST / np.abs(folds @ weights).max(initial=_STILL)
+    chosen = (planes @ weights).reshape(-1, 3)
+    return _above(pattern, places, places - middle, chosen), folds @ weights
 
 
-def _planes(pattern: Pattern, places: Floats) -> Floats:
+def planes_over(pattern: Pattern, places: Floats) -> Floats:
     """Return float[3 N, K]: planes of the panels that agree along creases, the first panel level."""
     panel_at = {(a, b): i for i, p in enumerate(pattern.panels) for a, b in zip(p, (*p[1:], p[0]), strict=True)}
     matrix = np.zeros((2 * len(pattern.creases), 3 * len(pattern.panels)))
@@ -70,7 +73,7 @@ def _planes(pattern: Pattern, places: Floats) -> Floats:
     return vt[rank:].T
 
 
-def _folds(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
+def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
     """Return float[J, K]: across each crease, the difference of slope of its panels, for each lift."""
     panel_at = {(a, b): i for i, p in enumerate(pattern.panels) for a, b in zip(p, (*p[1:], p[0]), strict=True)}
     slopes = planes.reshape(len(pattern.panels), 3, -1)[:, :2]
@@ -82,14 +85,14 @@ def _folds(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
     return np.array(rows).reshape(len(pattern.creases), -1)
 
 
-def _evenly(folds: Floats, random: np.random.Generator) -> Floats:
+def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
     """Return weights of the lifts with which the crease folded least is folded most, of some that are tried.
 
     From random weights the folds are brought near to 1 or -1, as their signs are, in the mean of squares.
     """
     best: Floats = np.zeros(folds.shape[1])
     weights: Floats
-    most = -1.0
+    most, inverse = -1.0, np.linalg.pinv(folds)
     for _ in range(_STARTS):
         weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
         for _ in range(_ROUNDS):
@@ -97,7 +100,7 @@ def _evenly(folds: Floats, random: np.random.Generator) -> Floats:
             if least > most:
                 best, most = weights, least
             signs = np.where(folds @ weights < 0.0, -1.0, 1.0)
-            weights = np.asarray(np.linalg.lstsq(folds, signs, rcond=None)[0])
+            weights = np.asarray(inverse @ signs, dtype=np.float64)
     return best
 
 

@@ -1,0 +1,283 @@
+"""A type with one centre as a linkage on a right cone: where its joint axes lie round it, the arcs of its links.
+
+Theory: docs/theory/realisation.md, docs/theory/multiloop.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import degrees, isfinite, pi, radians
+from typing import Any
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.table import Mechanism, to_sc
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.loops.loop import Centre
+from graphs.mechanism.conical import ConicalLinkage, Pair
+from graphs.mechanism.sc import SCGraph
+from graphs.plain_text import plain
+from graphs.printing import Block, TableBlock, html_of, text_of
+from graphs.rank.generic import exact_mobility
+from synth.conformed.rates import ConformedChain, first_order
+from synth.surfaces.circuit import wrapped
+from synth.surfaces.linkages import by_angles, map_linkage
+from synth.surfaces.several_loops import link_pairs, loop_steps
+
+__all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
+
+CONE_ANGLE = radians(30.0)
+"""Half the apex angle, unless one is asked for."""
+
+_VARIED = 0.35
+_CLEAR = radians(15.0)
+"""A step within a link is aimed to be so far at least from nothing and from half a turn, which has no sign."""
+_MAPPED = 8
+"""Links of a loop whose cones are looked for at most: sign patterns double with each."""
+_SAME = 1e-6
+"""Cones, in radians, that are one: a cone that two roots nearly share is found to the root of rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class OnOneCone:
+    """A type with one centre, its joint axes ruling lines of a cone.
+
+    Attributes
+    ----------
+    linkage : ConicalLinkage
+        Given by steps and lambda, as ``synth cone`` takes it.
+    clear : float
+        How near a step between two joints of a link comes to nothing or to half a turn, radians.
+    circuits : tuple of {"open", "crossed"}
+        Of each loop.
+    mobility : int
+        Exact generic mobility of the type.
+    freedoms : int or None
+        First-order freedoms at this position; None where singular values do not tell.
+    cones : int or None
+        How many cones the link arcs alone lead to, this one among them; None where that was not looked for.
+    number, tries : int
+        Which try it is, and how many were asked for at most.
+    """
+
+    linkage: ConicalLinkage
+    clear: float
+    circuits: tuple[str, ...]
+    mobility: int
+    freedoms: int | None
+    cones: int | None
+    number: int
+    tries: int
+
+    @property
+    def cone_angle(self) -> float:
+        """lambda, radians."""
+        return self.linkage.cone_angle or 0.0
+
+    @property
+    def arcs(self) -> dict[Pair, float]:
+        """The arc of each link between two of its joints, radians."""
+        return dict(by_angles(self.linkage).angles or {})
+
+    @property
+    def rank(self) -> tuple[bool, float, int]:
+        """What it is chosen by: whether it moves as the type, how clear its steps are, how many loops are open."""
+        return self.freedoms == self.mobility, min(self.clear, _CLEAR), self.circuits.count("open")
+
+    @property
+    def good(self) -> bool:
+        """Whether no better one need be looked for."""
+        return self.rank == (True, _CLEAR, len(self.circuits))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        chain = self.linkage.chain
+        return {
+            "kind": "cone",
+            "lambda_deg": degrees(self.cone_angle),
+            "steps_deg": [[str(a), str(b), degrees(x)] for (a, b), x in (self.linkage.steps or {}).items()],
+            "link_angles_deg": [[str(a), str(b), degrees(x)] for (a, b), x in self.arcs.items()],
+            "loops": [list(map(str, loop.joints)) for loop in chain.loops],
+            "circuit": list(self.circuits),
+            "clear_deg": degrees(self.clear),
+            "mobility": self.mobility,
+            "freedoms": self.freedoms,
+            "cones_by_link_angles": self.cones,
+            "try": self.number,
+            "tries": self.tries,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        chain = self.linkage.chain
+        azimuths = zip(chain.joints, self.linkage.places(), strict=True)
+        link_of = link_pairs(chain)
+        rows = [(plain(link_of[pair]), _names(pair), f"{degrees(arc):.6g}") for pair, arc in self.arcs.items()]
+        told = "an unknown number of" if self.freedoms is None else str(self.freedoms)
+        return [
+            f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees, half its apex angle: {chain}",
+            "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
+            TableBlock(("link", "joints", "arc (deg)"), rows, numbers=["arc (deg)"]),
+            "circuits " + ", ".join(self.circuits) + f"; steps of links {degrees(self.clear):.3g} degrees or more "
+            "from nothing and from half a turn",
+            f"mobility {self.mobility}, exact; {told} first-order freedom(s) at this position",
+            self._mapped(),
+            f"try {self.number + 1} of {self.tries}",
+        ]
+
+    def _mapped(self) -> str:
+        if self.cones is None:
+            return f"not looked for: the cones of the arcs alone, where a loop has more than {_MAPPED} links"
+        return f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them"
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<OnOneCone: lambda {degrees(self.cone_angle):.6g} degrees, {self.linkage.chain!r}>"
+
+
+def realise_on_cone(
+    mechanism: Mechanism, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
+) -> OnOneCone:
+    """Lay the joint axes of a type with one centre round a right cone.
+
+    Parameters
+    ----------
+    mechanism : anything that has an SC graph
+        All its loops about one finite centre.
+    cone_angle : float, optional
+        lambda, half the apex angle, radians.
+    seed : int, optional
+        Other seeds give other linkages; the same gives the same.
+    tries : int, optional
+        How many linkages are tried at most. The first in which all loops are open, that moves as its type does, is
+        taken, or the best.
+
+    Returns
+    -------
+    OnOneCone
+
+    Raises
+    ------
+    UnsolvableError
+        If the type has no loop, a spatial one, or not one finite centre.
+    InvariantError
+        If an option is out of its range.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> found = realise_on_cone(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> found.circuits, found.freedoms, len(found.arcs)
+    (('open',), 1, 4)
+    """
+    _check(cone_angle, seed, tries)
+    chain = _about_one_centre(to_sc(mechanism))
+    conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility
+    best: OnOneCone | None = None
+    for number, places in enumerate(_placements(chain, seed, tries)):
+        motion = first_order(conformed, places)
+        found = OnOneCone(
+            linkage=_linkage(chain, places, cone_angle),
+            clear=_clear(chain, places),
+            circuits=tuple(str(loop.circuits.names()) for loop in loop_steps(chain, places)),
+            mobility=mobility,
+            freedoms=None if motion.undecided else int(motion.freedoms),
+            cones=None,
+            number=number,
+            tries=tries,
+        )
+        if best is None or found.rank > best.rank:
+            best = found
+        if best.good:
+            break
+    assert best is not None
+    return replace(best, cones=_cones(best.linkage))
+
+
+def _check(cone_angle: float, seed: int, tries: int) -> None:
+    if not (isfinite(cone_angle) and 0.0 < cone_angle < pi / 2):
+        raise InvariantError(
+            "cone angle", f"lambda is {degrees(cone_angle):.6g} degrees", "more than 0 and less than 90"
+        )
+    if seed < 0 or tries < 1:
+        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
+
+
+def _about_one_centre(sc: SCGraph) -> SCGraph:
+    """Return the chain with its loops; refuse one whose axes do not all meet in a point."""
+    if not sc.loops:
+        raise UnsolvableError("no loops: expected a linkage whose axes meet in one centre")
+    if sc.spatial_loops:
+        raise UnsolvableError(
+            f"{numbered(sc.spatial_loops, 'loop')} without a centre: expected all axes to meet in one centre"
+        )
+    centres = sc.centre_classes()
+    if len(centres) > 1:
+        raise UnsolvableError(
+            f"{len(centres)} centres: expected one, as the spherical analogue has (synth convert --form spherical)"
+        )
+    if centres[0].centre is Centre.INFINITE:
+        raise UnsolvableError("its centre is at infinity, its axes lie on a cylinder: expected a finite centre")
+    return SCGraph(list(sc), sc.joints, sc.loops, ground=sc.ground)
+
+
+def _placements(chain: SCGraph, seed: int, tries: int) -> Iterator[Floats]:
+    """Yield azimuths of the joints: those of each loop in turn, then in random orders.
+
+    Gaps are never all alike: a loop of equal arcs is special, and changes branches where it folds together.
+    """
+    number = {joint: place for place, joint in enumerate(chain.joints)}
+    along = dict.fromkeys(number[joint] for loop in chain.loops for joint in loop.joints)
+    order = np.array([*along, *(place for place in number.values() if place not in along)])
+    for attempt in range(tries):
+        random = np.random.default_rng((seed, attempt))
+        gaps = np.exp(_VARIED * random.standard_normal(len(order)))
+        places = np.zeros(len(order))
+        places[random.permutation(order) if attempt else order] = np.cumsum([0.0, *gaps[:-1]])
+        yield 2.0 * np.pi * places / gaps.sum()
+
+
+def _clear(chain: SCGraph, places: Floats) -> float:
+    """Return how near steps between joints of a link come to nothing or to half a turn, at the least."""
+    at = dict(zip(chain.joints, places.tolist(), strict=True))
+    steps = np.abs(wrapped([at[b] - at[a] for a, b in link_pairs(chain)]))
+    return float(np.minimum(steps, np.pi - steps).min())
+
+
+def _linkage(chain: SCGraph, places: Floats, cone_angle: float) -> ConicalLinkage:
+    """Return the linkage by the steps from each joint to the next."""
+    joints = list(chain.joints)
+    steps = wrapped(np.diff(places))
+    pairs = pairwise(joints)
+    return ConicalLinkage(
+        chain, steps={pair: float(step) for pair, step in zip(pairs, steps, strict=True)}, cone_angle=cone_angle
+    )
+
+
+def _cones(linkage: ConicalLinkage) -> int | None:
+    """Return on how many cones the link arcs alone lie; None if that is too many to look for.
+
+    Raises
+    ------
+    UnsolvableError
+        If the cone that they were laid on is none of these.
+    """
+    if max(len(loop.joints) for loop in linkage.chain.loops) > _MAPPED:
+        return None
+    found = map_linkage(by_angles(linkage)).cones
+    angle = linkage.cone_angle or 0.0
+    if not any(abs(cone.cone_angle - angle) < _SAME for cone in found):
+        raise UnsolvableError(f"the link arcs do not lead back to lambda {degrees(angle):.6g} degrees")
+    return len({round(cone.cone_angle / _SAME) for cone in found})
+
+
+def _names(pair: Pair) -> str:
+    return plain(" ".join(map(str, pair)))

@@ -1,0 +1,83 @@
+"""Many types realised at once: runs go on where they were stopped, and every type is accounted for."""
+
+import json
+from itertools import islice
+
+import pytest
+
+from enumerate.runner.columns import row_as_dict
+from enumerate.runner.running import run
+from enumerate.runner.store import read_rows
+from enumerate.scd.graphs import scd_rows
+from graphs.convert.panels import scd_from_panels
+from graphs.errors import StoreError
+from graphs.files.formats import write
+from graphs.files.patterns.fold import fold_text
+from graphs.identity.drawings import mechanism_from_map_id
+from synth.realisation.many.folder import FolderOfThings, store_beside
+from synth.realisation.many.job import COLUMNS, RealisationJob, summary_of
+from synth.realisation.realised import realise
+
+CUBE = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
+OPTIONS = (("kind", "space"), ("tries", 1))
+
+
+class _StoppedAfterOne(FolderOfThings):
+    """A run that is stopped when one unit is there."""
+
+    def take(self, number, rows, seconds):
+        if number:
+            raise KeyboardInterrupt
+        super().take(number, rows, seconds)
+
+
+def _list_of(codes, place):
+    place.write_text("".join(json.dumps({"code": code}) + "\n" for code in codes))
+    return str(place)
+
+
+def test_a_stopped_run_goes_on_and_gives_equal_files(tmp_path):
+    codes = [row["code"] for row in islice(scd_rows(4, 1, 4), 6)]
+    source, things = _list_of(codes, tmp_path / "types.jsonl"), tmp_path / "things"
+    with pytest.raises(KeyboardInterrupt):
+        run(RealisationJob(source, OPTIONS), _StoppedAfterOne(things))
+    assert len(list(things.iterdir())) == 4
+    (things / "0000002.fold").unlink()
+    progress = run(RealisationJob(source, OPTIONS), FolderOfThings(things, resume=True))
+    assert progress.rows == 2
+    for place in (2, 6):
+        found = realise(mechanism_from_map_id(codes[place - 1]), **dict(OPTIONS))
+        assert (things / f"{place:07d}.fold").read_text() == fold_text(found.sheet)
+    rows = [row_as_dict(COLUMNS, row) for row in read_rows(store_beside(things))]
+    assert [row["code"] for row in rows] == codes
+    assert summary_of(rows)["realised"] == 6
+
+
+def test_other_types_or_options_are_another_run(tmp_path):
+    source = _list_of(["m1:a-b.ac-.b-d.cd-"], tmp_path / "types.jsonl")
+    run(RealisationJob(source, OPTIONS), FolderOfThings(tmp_path / "things"))
+    with pytest.raises(StoreError, match="another run"):
+        run(RealisationJob(source), FolderOfThings(tmp_path / "things", resume=True))
+
+
+def test_what_is_not_realised_is_told_with_its_reason(tmp_path):
+    folder = tmp_path / "types"
+    folder.mkdir()
+    write(scd_from_panels(CUBE), folder / "cube.json")
+    (folder / "broken.json").write_text("{")
+    job = RealisationJob(str(folder))
+    [row] = [row_as_dict(COLUMNS, row) for unit in job.units() for row in job.work(unit.payload)]
+    assert (row["name"], row["outcome"], row["mechanism"]) == ("cube.json", "refused", None)
+    assert "without a border" in row["reason"]
+    [failure] = job.failures
+    assert "broken.json" in failure
+
+
+@pytest.mark.slow
+def test_two_processes_give_what_one_gives(tmp_path):
+    codes = [row["code"] for row in islice(scd_rows(4, 1, 5), 20)]
+    job = RealisationJob(_list_of(codes, tmp_path / "types.jsonl"), OPTIONS)
+    for workers in (1, 2):
+        run(job, FolderOfThings(tmp_path / f"by-{workers}"), workers=workers)
+    one, two = (list(read_rows(tmp_path / f"by-{workers}.sqlite")) for workers in (1, 2))
+    assert one == two
