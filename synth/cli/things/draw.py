@@ -59,8 +59,8 @@ def draw(
     or cone (a linkage round a cone, on the first of its cones). Numbers are those that messages and JSON use; in
     SVG, shapes carry them as data-link and data-joint.
 
-    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder a catalogue is made, 24 pictures a
-    page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
+    Of a store (.sqlite), of rows (.jsonl, .parquet), of a graph6 file or of a folder a catalogue is made, 24
+    pictures a page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
 
     \b
     Examples:

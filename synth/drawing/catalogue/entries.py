@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from enumerate.chains.names import name_of
-from enumerate.runner.columns import row_as_dict
 from enumerate.runner.limits import Limits
-from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
+from synth.drawing.catalogue.rows import ROWS, rows_of_file
 
 __all__ = ["CatalogueEntry", "catalogue_entries", "is_catalogue"]
 
-_STORES = (".sqlite", ".db")
-_LISTS = (*_STORES, ".jsonl", ".g6")
+_LISTS = (*ROWS, ".g6")
 _IDS = ("code", "mechanism", "chain")
 """Columns that may hold an id, the one that says most first."""
 
@@ -59,7 +56,7 @@ def is_catalogue(path: str | Path) -> bool:
 def catalogue_entries(
     path: str | Path, where: Mapping[str, Limits | str] | None = None, failures: list[str] | None = None
 ) -> Iterator[CatalogueEntry]:
-    """Yield the mechanisms of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder, in order.
+    """Yield the mechanisms of rows (.sqlite, .jsonl, .parquet), of a graph6 file or of a folder, in order.
 
     Parameters
     ----------
@@ -84,13 +81,13 @@ def catalogue_entries(
     graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
     """
     place = Path(path)
-    if place.suffix.lower() in (*_STORES, ".jsonl") and not place.is_dir():
-        for number, row in enumerate(_rows(place), start=1):
+    if place.suffix.lower() in ROWS and not place.is_dir():
+        for number, row in enumerate(rows_of_file(place), start=1):
             if all(_admits(row, column, asked) for column, asked in (where or {}).items()):
                 yield _entry_of_row(place, number, row)
         return
     if where:
-        raise InvariantError("filter", f"{shown(str(path))} has no columns", "a store or rows, .sqlite or .jsonl")
+        raise InvariantError("filter", f"{shown(str(path))} has no columns", f"rows: {', '.join(ROWS)}")
     files = sorted(one for one in place.iterdir() if one.is_file()) if place.is_dir() else [place]
     number = 0
     for file in files:
@@ -102,25 +99,6 @@ def catalogue_entries(
             if failures is None or not place.is_dir():
                 raise
             failures.append(str(error))
-
-
-def _rows(place: Path) -> Iterator[dict[str, Any]]:
-    if place.suffix.lower() in _STORES:
-        columns = read_meta(place)["columns"]
-        for row in read_rows(place):
-            yield row_as_dict(columns, row)
-        return
-    try:
-        with place.open(encoding="utf-8") as lines:
-            for number, line in enumerate(lines, start=1):
-                row = json.loads(line)
-                if not isinstance(row, dict):
-                    raise FileError(place, f"line {number}", f"{shown(row)} is no object", "an object a line")
-                yield row
-    except OSError as error:
-        raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
-    except (ValueError, RecursionError) as error:
-        raise FileError(place, "", f"is not JSON: {error}", "an object a line") from None
 
 
 def _admits(row: Mapping[str, Any], column: str, asked: Limits | str) -> bool:
