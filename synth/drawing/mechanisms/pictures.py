@@ -17,10 +17,11 @@ from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
 from synth.drawing.mechanisms.sc_graphs import sc_scene
-from synth.drawing.mechanisms.space import folded_scene, model_scene
+from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
 from synth.drawing.mechanisms.strips import strip_scene
 from synth.drawing.scene.frame import COLUMN
 from synth.drawing.scene.shapes import Scene
@@ -65,11 +66,12 @@ def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **l
 
     Parameters
     ----------
-    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString, networkx graph
-    kind : {"pattern", "folded", "chain", "graph", "model", "cone"}, optional
+    thing : Mechanism, ChainString or networkx graph
+        What a file may hold; a string; a plain link-joint graph.
+    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
-        the centres, vertices and rods, a linkage on its circle and cone. Without it what suits the thing: a sheet
-        is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
+        the centres, vertices and rods, solids in space, a linkage on its circle and cone. Without it what suits
+        the thing: a sheet is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
     **look
         Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
@@ -112,6 +114,8 @@ def _suiting(thing: object) -> str:
         return "pattern" if lies_flat(thing) else "folded"
     if isinstance(thing, PolyhedronModel):
         return "model"
+    if isinstance(thing, HingedSolids):
+        return "solids"
     if isinstance(thing, SCDGraph):
         return "graph"
     assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
@@ -167,6 +171,12 @@ def _cone(thing: Any, look: Look) -> Scene:
     return draw_conformed(chain, places, cones[0].cone_angle, title)
 
 
+def _solids(thing: Any, look: Look) -> Scene:
+    if not isinstance(thing, HingedSolids):
+        raise UnsolvableError(f"only solids hinged at edges can be drawn so, and this is {thing!r}")
+    return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
+
+
 def _graph_of(thing: Any) -> Any:
     if isinstance(thing, ConicalLinkage):
         return thing.chain
@@ -188,6 +198,14 @@ def _sheet(thing: object) -> Sheet:
 
 
 KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
-    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model, "cone": _cone}
+    {
+        "pattern": _pattern,
+        "folded": _folded,
+        "chain": _chain,
+        "graph": _sc_graph,
+        "model": _model,
+        "solids": _solids,
+        "cone": _cone,
+    }
 )
 """Name of a kind of picture to what makes it."""
