@@ -13,6 +13,7 @@ from graphs.files.formats import read
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.reduce import reduce
 from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
 from synth.drawing.scene.shapes import Disc, Line
 from synth.drawing.scene.svg import svg_text
@@ -90,6 +91,25 @@ def test_signs_of_centres():
     assert [type(shape) for shape in signs[Centre.FINITE]] == [Disc, Disc]
     assert [type(shape) for shape in signs[Centre.INFINITE]] == [Line, Line]
     assert signs[Centre.NONE] == ()
+
+
+def test_ride_alongs_lie_on_bands():
+    """Those that `synth reduce` takes off, and no others; a four-bar has none."""
+    fortune_teller = read(DATA / "wiener" / "fortune-teller.json")
+    steps = reduce(fortune_teller).steps
+    scene = draw(fortune_teller)
+    below, joints, discs = (
+        next(layer for layer in scene.layers if layer.name == name).shapes
+        for name in ("ride-alongs", "joints", "links")
+    )
+    rows = {tuple(shape.points) for shape in below if isinstance(shape, Line)}
+    off = {dict(shape.data)["joint"] for shape in joints if tuple(shape.points) in rows}
+    assert off == {str(joint) for step in steps for joint in step.joints}
+    spots = {shape.centre for shape in below if isinstance(shape, Disc)}
+    taken = {dict(shape.data)["link"] for shape in discs if isinstance(shape, Disc) and shape.centre in spots}
+    assert taken == {str(link) for step in steps for link in step.removed}
+    assert any("4 ride-alongs (yellow band); without, 8 links stay" in label.text for label in scene.labels())
+    assert draw(read("k1:Cr"), "graph").layers[0].shapes == ()
 
 
 def test_open_edges_are_stubs():
