@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["draw"]
 
-_KINDS = ("pattern", "folded", "chain", "graph", "model", "solids", "cone")
+_KINDS = ("pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle")
 _PATIENCE = 2.0
 """Seconds between two words on how far a catalogue has come."""
 _COLOURS = ("letters", "verdict", "branch", "centres", "none")
@@ -56,8 +56,9 @@ def draw(
 
     KIND is pattern (a crease pattern in its plane), folded (a folded sheet in space), chain (links as bodies,
     joints as small circles), graph (an SC or SCD graph, with the signs of the centres), model (vertices and
-    rods), solids (hinged at edges, in space) or cone (a linkage round a cone, on the first of its cones). Numbers
-    are those that messages and JSON use; in SVG, shapes carry them as data-link and data-joint.
+    rods), solids (hinged at edges, in space), cone (a linkage round a cone, on the first of its cones) or circle
+    (the order of its joints round a cone). Numbers are those that messages and JSON use; in SVG, shapes carry
+    them as data-link and data-joint.
 
     Of a store (.sqlite), of rows (.jsonl, .parquet), of a graph6 file or of a folder a catalogue is made, 24
     pictures a page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.

@@ -12,7 +12,9 @@ from enumerate.runner.limits import Limits
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
-from synth.drawing.catalogue.rows import ROWS, rows_of_file
+from graphs.mechanism.sc import SCGraph
+from synth.drawing.catalogue.rows import ROWS, Row, order_of_row, rows_of_file
+from synth.drawing.mechanisms.orders import OrderOnCircle
 
 __all__ = ["CatalogueEntry", "catalogue_entries", "is_catalogue"]
 
@@ -101,7 +103,7 @@ def catalogue_entries(
             failures.append(str(error))
 
 
-def _admits(row: Mapping[str, Any], column: str, asked: Limits | str) -> bool:
+def _admits(row: Row, column: str, asked: Limits | str) -> bool:
     if column not in row:
         raise InvariantError("filter", f"there is no column {shown(column)}", ", ".join(map(str, row)))
     value = row[column]
@@ -111,7 +113,7 @@ def _admits(row: Mapping[str, Any], column: str, asked: Limits | str) -> bool:
     return text == asked
 
 
-def _entry_of_row(place: Path, number: int, row: Mapping[str, Any]) -> CatalogueEntry:
+def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
     if isinstance(row.get("string"), str):
         return CatalogueEntry(number, ChainString.parse(row["string"]), row["string"], _said(row))
     for column in _IDS:
@@ -119,14 +121,25 @@ def _entry_of_row(place: Path, number: int, row: Mapping[str, Any]) -> Catalogue
         if isinstance(code, str) and is_id(code):
             name = row.get("name") or name_of(str(row.get("chain", code)))
             told = f"{name}, {_said(row)}" if name else _said(row)
-            return CatalogueEntry(number, mechanism_of_id(code), code, told)
+            chain = mechanism_of_id(code)
+            thing = chain if "order" not in row else _on_circle(place, number, row, chain)
+            return CatalogueEntry(number, thing, code, told)
     raise FileError(place, f"row {number}", "has no id", f"an id in one of the columns {', '.join(_IDS)}")
 
 
-def _said(row: Mapping[str, Any]) -> str:
+def _on_circle(place: Path, number: int, row: Row, chain: SCGraph) -> OrderOnCircle:
+    """Return the order of joints round a cone that a row of conical candidates tells."""
+    try:
+        return order_of_row(row, chain)
+    except (KeyError, TypeError, ValueError) as error:
+        told = f"has an order that is none: {type(error).__name__} {error}"
+        raise FileError(place, f"row {number}", told, "columns order, loops, and slots or azimuths_deg") from None
+
+
+def _said(row: Row) -> str:
     """Return freedoms, centres and symmetry of a row, those that it has."""
     words = []
-    if isinstance(row.get("order"), list):  # of the joints round a cone: the picture shows the chain alone
+    if isinstance(row.get("order"), list):  # of the joints round a cone
         words.append("order " + " ".join(map(str, row["order"])))
     freedoms = row.get("exact_dof", row.get("dof"))
     if freedoms is not None:

@@ -1,17 +1,20 @@
-"""Rows of what an enumeration wrote: a store, JSON lines or Parquet, one by one."""
+"""Rows of what an enumeration wrote: a store, JSON lines or Parquet, one by one; what a conical one says."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from math import pi, radians
 from pathlib import Path
 from typing import Any
 
 from enumerate.runner.columns import row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from graphs.errors import FileError, UnsolvableError, shown
+from graphs.mechanism.sc import SCGraph
+from synth.drawing.mechanisms.orders import OrderOnCircle
 
-__all__ = ["ROWS", "Row", "rows_of_file"]
+__all__ = ["ROWS", "Row", "order_of_row", "rows_of_file"]
 
 Row = Mapping[str, Any]
 """Column to value."""
@@ -80,3 +83,58 @@ def _rows_of_parquet(place: Path) -> Iterator[Row]:
         raise FileError(place, "", f"is not Parquet: {error}", "rows that an enumeration wrote") from None
     except OSError as error:
         raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
+
+
+def order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
+    """Return the order of joints of a row of conical candidates, at its azimuths, or evenly spaced.
+
+    Names of joints are those of the file of the chain, which the id does not know: which of them a link has beside
+    each other is read from the loops.
+
+    Parameters
+    ----------
+    row : mapping
+        ``order``, ``loops``, and ``azimuths_deg`` or ``slots``: azimuths are in the order of the chain's joints,
+        and ``order`` names joints as they follow each other; a point opposite to one has a prime.
+    chain : SCGraph
+        The chain of the row's id.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError
+        If the row is of something else.
+
+    Examples
+    --------
+    >>> from graphs.files.formats import mechanism_of_id
+    >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
+    >>> order = order_of_row(row, mechanism_of_id("k1:Cr"))
+    >>> order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs
+    (['0', '1', '2', '3'], [0.0, 1.25, 0.75, 0.5], [(0, 1), (0, 2), (1, 3), (2, 3)])
+    """
+    azimuths = _azimuths(row)
+    primed = "azimuths_deg" not in row and _has_opposites(row)
+    turn = pi if primed else 2 * pi
+    names = [""] * len(azimuths)
+    ranked = sorted(range(len(azimuths)), key=lambda joint: azimuths[joint] % turn)
+    for joint, name in zip(ranked, row["order"], strict=True):
+        names[joint] = str(name).removesuffix("'") if primed else str(name)
+    place = {name: joint for joint, name in enumerate(names)}
+    pairs = {
+        (min(place[a], place[b]), max(place[a], place[b]))
+        for loop in row["loops"]
+        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True)
+    }
+    return OrderOnCircle(chain, names, azimuths, sorted(pairs))
+
+
+def _azimuths(row: Row) -> list[float]:
+    if "azimuths_deg" in row:
+        return [radians(angle) for angle in row["azimuths_deg"]]
+    slots = row["slots"]
+    return [slot * pi / len(slots) * (1 if _has_opposites(row) else 2) for slot in slots]
+
+
+def _has_opposites(row: Row) -> bool:
+    """Tell whether orders are those of joints and of points opposite to them: others tell the most layers too."""
+    return "most_layers" not in row

@@ -20,6 +20,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
+from synth.drawing.mechanisms.orders import OrderOnCircle, order_of_linkage, order_scene
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
 from synth.drawing.mechanisms.strips import strip_scene
@@ -61,17 +62,18 @@ class Look:
     caption: str | None = ""
 
 
-def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
+def draw(thing: Mechanism | ChainString | OrderOnCircle | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
     """Return a picture of a mechanism.
 
     Parameters
     ----------
-    thing : Mechanism, ChainString or networkx graph
-        What a file may hold; a string; a plain link-joint graph.
-    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone"}, optional
+    thing : Mechanism, ChainString, OrderOnCircle or networkx graph
+        What a file may hold; a string; an order of joints round a cone; a plain link-joint graph.
+    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
-        the centres, vertices and rods, solids in space, a linkage on its circle and cone. Without it what suits
-        the thing: a sheet is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
+        the centres, vertices and rods, solids in space, a linkage on its circle and cone, the order of joints
+        round a cone. Without it what suits the thing: a sheet is a pattern or folded, as it lies; a graph whose
+        centres nobody gave is a chain.
     **look
         Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
@@ -118,6 +120,8 @@ def _suiting(thing: object) -> str:
         return "solids"
     if isinstance(thing, SCDGraph):
         return "graph"
+    if isinstance(thing, OrderOnCircle) or (isinstance(thing, ConicalLinkage) and thing.steps is not None):
+        return "circle"
     assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
     return "chain" if assumed else "graph"
 
@@ -177,8 +181,16 @@ def _solids(thing: Any, look: Look) -> Scene:
     return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
 
 
+def _circle(thing: Any, look: Look) -> Scene:
+    if isinstance(thing, ConicalLinkage) and thing.steps is not None:
+        thing = order_of_linkage(thing)
+    if not isinstance(thing, OrderOnCircle):
+        raise UnsolvableError(f"only joints in their order round a cone can be drawn so, and this is {thing!r}")
+    return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
+
+
 def _graph_of(thing: Any) -> Any:
-    if isinstance(thing, ConicalLinkage):
+    if isinstance(thing, ConicalLinkage | OrderOnCircle):
         return thing.chain
     return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
 
@@ -206,6 +218,7 @@ KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
         "model": _model,
         "solids": _solids,
         "cone": _cone,
+        "circle": _circle,
     }
 )
 """Name of a kind of picture to what makes it."""
