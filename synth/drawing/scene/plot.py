@@ -46,6 +46,7 @@ class Plot:
 
         Examples
         --------
+        >>> import numpy as np
         >>> Plot(0, 0, 10, 10, (0, 1), (0, 2)).row(np.array([0, 1]), np.array([0, 1]))
         [(0.0, 10.0), (10.0, 5.0)]
         """
