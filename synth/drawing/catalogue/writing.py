@@ -7,9 +7,8 @@ from itertools import chain
 from pathlib import Path
 
 from graphs.files.atomic import Beside
-from synth.drawing.figure import check_picture
 from synth.drawing.scene.shapes import Scene
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.writing import check_picture, save_scene
 
 __all__ = ["write_catalogue"]
 
