@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 import networkx as nx
 
@@ -26,9 +26,12 @@ from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_sce
 from synth.drawing.mechanisms.strips import strip_scene
 from synth.drawing.scene.frame import COLUMN
 from synth.drawing.scene.shapes import Scene
+from synth.guidance.orientations import Orientations
 
-__all__ = ["COLOURINGS", "KINDS", "Look", "draw"]
+__all__ = ["COLOURINGS", "KINDS", "Drawable", "Look", "draw"]
 
+
+Drawable: TypeAlias = Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
 
 _SMALL = 200.0
 """Points of width and height below which a chain has smaller joints, without numbers."""
@@ -62,18 +65,18 @@ class Look:
     caption: str | None = ""
 
 
-def draw(thing: Mechanism | ChainString | OrderOnCircle | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
+def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     """Return a picture of a mechanism.
 
     Parameters
     ----------
-    thing : Mechanism, ChainString, OrderOnCircle or networkx graph
+    thing : Mechanism, Orientations, ChainString, OrderOnCircle or networkx graph
         What a file may hold; a string; an order of joints round a cone; a plain link-joint graph.
-    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle"}, optional
+    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle", "sphere"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
         the centres, vertices and rods, solids in space, a linkage on its circle and cone, the order of joints
-        round a cone. Without it what suits the thing: a sheet is a pattern or folded, as it lies; a graph whose
-        centres nobody gave is a chain.
+        round a cone, the sphere by the order of orientations. Without it what suits the thing: a sheet is a
+        pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
     **look
         Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
@@ -120,6 +123,8 @@ def _suiting(thing: object) -> str:
         return "solids"
     if isinstance(thing, SCDGraph):
         return "graph"
+    if isinstance(thing, Orientations):
+        return "sphere"
     if isinstance(thing, OrderOnCircle) or (isinstance(thing, ConicalLinkage) and thing.steps is not None):
         return "circle"
     assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
@@ -189,6 +194,14 @@ def _circle(thing: Any, look: Look) -> Scene:
     return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
 
 
+def _sphere(thing: Any, look: Look) -> Scene:
+    if not isinstance(thing, Orientations):
+        raise UnsolvableError(f"only orientations of a body can be drawn so, and this is {thing!r}")
+    from synth.drawing.order_map import draw_map
+
+    return draw_map(thing)
+
+
 def _graph_of(thing: Any) -> Any:
     if isinstance(thing, ConicalLinkage | OrderOnCircle):
         return thing.chain
@@ -219,6 +232,7 @@ KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
         "solids": _solids,
         "cone": _cone,
         "circle": _circle,
+        "sphere": _sphere,
     }
 )
 """Name of a kind of picture to what makes it."""

@@ -177,6 +177,15 @@ def test_a_linkage_round_a_cone_lies_on_it():
         draw(read("k1:Cr"), "cone")
 
 
+@pytest.mark.parametrize("name", ["tipparthi", "crank-rocker"])
+def test_files_of_orientations_are_drawn_as_maps_of_the_sphere(tmp_path, name):
+    run("draw", DATA / "orientations" / f"{name}.json", "-o", tmp_path / "a.svg")
+    root = ElementTree.parse(tmp_path / "a.svg").getroot()
+    assert {"regions", "axes"} <= values(root, "class")
+    with pytest.raises(UnsolvableError, match="only orientations"):
+        draw(read("k1:Cr"), "sphere")
+
+
 def test_the_command_knows_all_kinds(tmp_path):
     from synth.cli.things import draw as command
 
