@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import hypot
 
+from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
@@ -76,7 +77,7 @@ def _places(layout: Layout) -> list[list[Point]]:
 
 
 def _said(chain: SCGraph, layout: Layout) -> str:
-    said = f"{len(chain)} links, {len(chain.joints)} joints"
+    said = f"{numbered(len(chain), 'link')}, {numbered(len(chain.joints), 'joint')}"
     if not layout.plane:
         return said + "; not planar: lines cross"
     return said + ("; drawn with a mirror" if layout.mirror else "")

@@ -14,7 +14,7 @@ from math import atan2, cos, hypot, inf, pi, sin
 
 import numpy as np
 
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered
 from graphs.identity.drawings import drawing_of
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
@@ -232,9 +232,10 @@ def _open_angles(sides: Sequence[JointId | None], angle_of: Callable[[JointId], 
 def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop]) -> list[str]:
     """Return lines that say what is seen, and which loops are not."""
     classes = sc.centre_classes()
-    said = f"{len(sc)} links, {len(sc.joints)} joints, {len(classes)} centre{'s' * (len(classes) != 1)}"
+    counts = [(len(sc), "link"), (len(sc.joints), "joint"), (len(classes), "centre")]
     if sc.spatial_loops:
-        said += f", {sc.spatial_loops} spatial loop{'s' * (sc.spatial_loops != 1)}"
+        counts.append((sc.spatial_loops, "spatial loop"))
+    said = ", ".join(numbered(number, word) for number, word in counts)
     lines = [said + ("" if layout.plane else "; not planar: lines cross")]
     numbers = class_numbers(sc)
     every = [*sc.loops, *sc.closing]

@@ -58,6 +58,21 @@ def test_letters_differ_in_colour_and_dash():
     assert lines[("joint", "5"),].dash != lines[("joint", "6"),].dash
 
 
+def test_dashes_of_cuts_shrink_as_those_of_creases_do():
+    """On a dense pattern a valley and a cut of one length have about as many dashes as on one that is not."""
+    shrunk = {}
+    for wide in (2, 40):
+        places = tuple((x, y) for y in (0, 1) for x in range(wide + 1))
+        faces = tuple((i, i + 1, i + wide + 2, i + wide + 1) for i in range(wide))
+        edges = [(i, i + wide + 1) for i in range(1, wide)]
+        scene = draw(
+            Sheet(len(places), (*edges[1:], edges[0]), "V" * (wide - 2) + "C", faces, places), numbers=False
+        )
+        dashes = [shape.dash for shape in scene.shapes() if isinstance(shape, Line) and shape.colour == "cut"]
+        shrunk[wide] = dashes[0][0]
+    assert shrunk[40] == pytest.approx(0.6 * shrunk[2])
+
+
 def test_creases_by_centre_class_have_the_colours_of_their_ends():
     sheet = read(DATA / "patterns" / "bird-base.fold")
     scene = draw(sheet, colour="centres", graph=True)
