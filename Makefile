@@ -9,12 +9,13 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow check data pictures clean help
+.PHONY: demo test test-slow test-web check data pictures clean help
 
 help:
 	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
+	@echo "make test-web   what is shown in a notebook, which is run (installs the extra web)"
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
 	@echo "make pictures   make the pictures of README.md and docs/ anew"
@@ -54,6 +55,10 @@ test: $(STAMP) $(COMPILED)
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest $(PARALLEL)
+
+test-web: $(STAMP)
+	$(BIN)/python -m pip install --quiet -e '.[web]'
+	$(BIN)/python -m pytest -m web
 
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers

@@ -16,7 +16,8 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
 `four_bars`. A type as a thing: `realise`, panels with coordinates; `realise_on_cone`. Motion: `fold`, a crease
 pattern with rigid panels, frame by frame; `move`, any linkage. Known patterns and linkages: `generate`, by their
-parameters. Pictures: `draw`, of any mechanism; a notebook shows them, `synth.drawing.save_scene` writes them.
+parameters. Pictures: `draw`, of any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms
+show themselves.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
@@ -27,6 +28,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from graphs.lazy import offered
+from synth.notebook import show_in_this_notebook
 
 if TYPE_CHECKING:
     from enumerate.chains.kinematic import chains as chains
@@ -61,6 +63,7 @@ if TYPE_CHECKING:
     from synth.guidance.orientations import Orientations as Orientations
     from synth.guidance.synthesis import guiding_dyads as guiding_dyads
     from synth.moving.motion import move as move
+    from synth.notebook import load_ipython_extension as load_ipython_extension
     from synth.patterns.generated import generate as generate
     from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import realise as realise
@@ -97,6 +100,7 @@ else:
             "synth.guidance.orientations": "Orientations",
             "synth.guidance.synthesis": "guiding_dyads",
             "synth.moving.motion": "move",
+            "synth.notebook": "load_ipython_extension",
             "synth.patterns.generated": "generate",
             "synth.realisation.forms.on_cone": "realise_on_cone",
             "synth.realisation.realised": "realise",
@@ -105,3 +109,5 @@ else:
             "synth.surfaces.linkages": "map_linkage",
         },
     )
+
+show_in_this_notebook()

@@ -73,9 +73,9 @@ def check_output(path: str | None, *, force: bool) -> None:
 def check_picture(path: str | None, *, force: bool) -> None:
     """Refuse a picture that cannot be written before anything is computed for it; None is no picture."""
     if path is not None:
-        from synth.drawing import figure
+        from synth.drawing.scene import writing
 
-        figure.check_picture(path, force=force)
+        writing.check_picture(path, force=force)
 
 
 def tell_lost(lost: Sequence[str]) -> None:

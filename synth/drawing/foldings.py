@@ -1,19 +1,23 @@
-"""Foldings as files: FOLD with a frame for each pose, a series of OBJ files, a strip of pictures, a moving one."""
+"""Foldings and motions as files: FOLD with a frame for each pose, OBJ files, a strip of pictures, a moving one."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from graphs.errors import FileError
+from graphs.convert.table import Mechanism
+from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import check_place, write_text
 from graphs.files.patterns.fold_poses import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
+from graphs.mechanism.solids import HingedSolids
 from synth.drawing.scene.raster import check_matplotlib
 from synth.drawing.scene.writing import save_scene
+from synth.drawing.space.bodies import bodies_of, places_of_hinges
 from synth.drawing.space.poses import save_moving_poses, strip_of_poses
 from synth.folding.motion import Folding
+from synth.moving.motion import Motion
 
-__all__ = ["check_output", "write_folding"]
+__all__ = ["check_motion_output", "check_output", "write_folding", "write_motion"]
 
 _STRIPS = (".png", ".svg")
 _PIXELS = (".gif", ".png")
@@ -81,6 +85,53 @@ def write_folding(folding: Folding, path: str | Path, *, force: bool = False) ->
     for place, pose in zip(places, poses, strict=True):
         write_text(place, obj_text(pose), force=force)
     return places
+
+
+def check_motion_output(thing: Mechanism, path: str | Path) -> None:
+    """Refuse to write the motion of what has no panels, but pictures of solids.
+
+    Raises
+    ------
+    UnsolvableError
+        If the thing is no solids hinged at edges, or the file is to have panels.
+    """
+    if not isinstance(thing, HingedSolids) or Path(path).suffix.lower() not in (*_STRIPS, ".gif"):
+        can = "solids are drawn as .png, .svg, .gif; " if isinstance(thing, HingedSolids) else ""
+        raise UnsolvableError(f"there are no panels to write: {can}--json gives the joint angles of each frame")
+
+
+def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> list[Path]:
+    """Draw the motion of solids hinged at edges.
+
+    Parameters
+    ----------
+    motion : Motion
+        Of `synth.moving.motion.move`.
+    path : str or Path
+        ``.gif``: a moving picture. ``.png``, ``.svg``: a strip of at most twelve poses.
+    force : bool, optional
+        Replace files that are there.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be written or is there already.
+    UnsolvableError
+        If it is of pixels (.gif, .png), and matplotlib is not installed.
+    """
+    path = Path(path)
+    panels, _ = bodies_of(motion.linkage)
+    places = places_of_hinges(motion.linkage, motion.path.angles)
+    if path.suffix.lower() == ".gif":
+        save_moving_poses(panels, places, path, force=force)
+    else:
+        save_scene(strip_of_poses(panels, places), path, force=force)
+    return [path]
 
 
 def _of_series(path: Path, number: int) -> Path:

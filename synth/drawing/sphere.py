@@ -1,43 +1,44 @@
-"""Pictures of orientations: the design sphere with its hoop, and maps of the sphere by verdict.
+"""The design sphere with orientations, relative axes, the hoop and what it crosses.
 
-As Figs. 3 to 6 of Tipparthi and Larochelle 2011: orientations, relative axes, the hoop and its crossings. The
-sphere is seen from far away (orthographic); the maps show all of it, equal areas as equal areas (Hammer).
-:func:`synth.drawing.figure.save_figure` writes the pictures.
+As Figs. 3 to 5 of Tipparthi and Larochelle 2011. The sphere is seen from far away (orthographic); what is on its
+far side is dashed or open. Below it the crossings lie along the angle of the hoop.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from itertools import groupby
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
-from synth.drawing.figure import new_figure
 from synth.drawing.labels import spread
-from synth.guidance.dyads import Dyad
-from synth.guidance.four import AxisCurve
+from synth.drawing.scene.frame import Frame, page_of
+from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
+from synth.drawing.scene.plot import Plot
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.space.view import View, view_from
 from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
-from synth.guidance.order import order_verdicts
 from synth.guidance.orientations import Orientations, unit_vector
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+__all__ = ["draw_hoop"]
 
-__all__ = ["draw_hoop", "draw_map", "hammer", "hammer_inverse"]
-
-CCW, CW, NEITHER = "#3b75af", "#e08214", "#e9e9e9"
-INK, PALE, NEEDED, BODY = "#222222", "#c8c8c8", "#b2182b", ("#b2182b", "#1b7837", "#2166ac")
+NEEDED = "mountain"
+_BODY = ("mountain", "cut", "valley")
+"""Colours of the x, y and z axes of the body."""
+_RADIUS, _SIDE = 140.0, 320.0
+"""Of the sphere, and of the square that it takes, points."""
+_STRIP = 76.0
 _FINE = 181
 _MOST_LABELLED = 7
-"""Orientations; of more only the axes that decide are shown, on a map none."""
+"""Orientations; of more only the axes that decide are shown."""
 _MOST_DRAWN = 15
+_FAR = (2.0, 2.0)
 
 
-def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Figure:
+def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Scene:
     """Return a picture of the design sphere with orientations, relative axes, the hoop and what it crosses.
 
     Parameters
@@ -51,253 +52,162 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Fi
     Raises
     ------
     UnsolvableError
-        If matplotlib is not installed, or if there are more than 15 orientations.
+        If there are more than 15 orientations.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> from synth.guidance.hoop_method import hoop
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> given = Orientations.from_rotation(body)
+    >>> [layer.name for layer in draw_hoop(given, (0, 0, 1), hoop(given, (0, 0, 1))).layers]
+    ['sphere', 'hoop', 'orientations', 'axes', 'angles', 'caption']
     """
     g = unit_vector(axis, "fixed axis")
     if len(orientations) > _MOST_DRAWN:
         raise UnsolvableError(
             f"a picture of {len(orientations)} orientations shows nothing; {_MOST_DRAWN} at most"
         )
-    figure: Figure = new_figure(8.0, 9.6)
-    sphere, strip = figure.subplots(2, 1, height_ratios=[5, 1])
     start = orientations.relative_axis(1, 2)
     start = start - (start @ g) * g
     start /= np.linalg.norm(start)
     across = np.cross(g, start) * (1.0 if hoop.direction == "ccw" else -1.0)
-    view = _View(0.75 * across + 0.45 * g + 0.25 * start)
-    _draw_globe(sphere, view)
     needed = set(hoop.required)
-    half = np.linspace(0.0, np.pi, _FINE)[:, None]
-    for angle, style in [
-        (0.0, (INK, 2.2)),
-        *((c.angle, (NEEDED, 1.0)) for c in hoop.crossings if c.pair in needed),
-    ]:
-        side = np.cos(angle) * start + np.sin(angle) * across
-        _draw_curve(sphere, view, np.cos(half) * g + np.sin(half) * side, *style)
-    _draw_bodies(sphere, view, orientations)
-    marks = [
-        (np.copysign(1.0, orientations.relative_axis(1, 2) @ start) * orientations.relative_axis(1, 2), "S12", INK)
-    ]
     shown = [c for c in hoop.crossings if c.pair in needed or len(orientations) <= _MOST_LABELLED]
-    for crossing in shown:
-        s = orientations.relative_axis(*crossing.pair)
-        end = s * np.copysign(1.0, s @ (np.cos(crossing.angle) * start + np.sin(crossing.angle) * across))
-        marks.append((end, pair_name(crossing.pair), NEEDED if crossing.pair in needed else INK))
-    marks.append((g, "G", INK))
-    _draw_marks(sphere, view, marks)
-    _draw_strip(strip, [c for c in shown if c.pair in needed], [c for c in shown if c.pair not in needed])
-    verdict = "order kept" if hoop.in_order else "order defect"
-    sphere.set_title(f"Hoop about G, turning {direction_words(hoop.direction)}: {verdict}", fontsize=12)
-    key = "blue: the body's z axis at each orientation; red, green: towards its x, y; open or dashed: far side"
-    sphere.text(0.0, -1.13, key, fontsize=8, ha="center", va="top", color=INK)
-    return figure
-
-
-def draw_map(
-    orientations: Orientations,
-    dyads: Iterable[Dyad] = (),
-    curves: Iterable[AxisCurve] = (),
-    width: int = 1800,
-) -> Figure:
-    """Return a map of the sphere: the order-defect verdict of each fixed axis, with relative axes and dyads.
-
-    Parameters
-    ----------
-    orientations : Orientations
-    dyads : iterable of Dyad, optional
-        Their fixed axes are marked and numbered from 1.
-    curves : iterable of AxisCurve, optional
-        Curves of fixed axes, where there are four orientations.
-    width : int, optional
-        Points across the map.
-
-    Raises
-    ------
-    UnsolvableError
-        If matplotlib is not installed.
-    """
-    from matplotlib.colors import to_rgba
-    from matplotlib.patches import Patch
-
-    figure: Figure = new_figure(10.0, 6.0)
-    plane = figure.subplots()
-    x = np.linspace(-2.0 * np.sqrt(2.0), 2.0 * np.sqrt(2.0), width)
-    y = np.linspace(-np.sqrt(2.0), np.sqrt(2.0), width // 2)
-    points, inside = hammer_inverse(*np.meshgrid(x, y))
-    colours = np.array([to_rgba(CW), to_rgba(NEITHER), to_rgba(CCW)])
-    picture = colours[order_verdicts(orientations, points.reshape(-1, 3)) + 1].reshape(*inside.shape, 4)
-    picture[~inside] = (1.0, 1.0, 1.0, 0.0)  # clear, and no dark rim where it is mixed with what is inside
-    # colours, not verdicts, are mixed at the borders of regions, which else are steps
-    plane.imshow(
-        picture, extent=(x[0], x[-1], y[0], y[-1]), origin="lower", interpolation="bilinear",
-        interpolation_stage="rgba",
-    )  # fmt: skip
-    _draw_graticule(plane)
-    for curve in curves:
-        for ends in (curve.fixed, -curve.fixed):
-            _draw_flat_curve(plane, ends)
-    axes = orientations.relative_axes() if len(orientations) <= _MOST_LABELLED else {}
-    lines = [(end, pair_name(pair), INK) for pair, s in axes.items() for end in (s, -s)]
-    numbered = [(end, str(k), NEEDED) for k, d in enumerate(dyads, start=1) for end in (d.fixed, -d.fixed)]
-    _draw_flat_marks(plane, lines, numbered)
-    legend = [
-        Patch(color=CCW, label="in order, crank counter-clockwise"),
-        Patch(color=CW, label="in order, crank clockwise"),
-        Patch(color=NEITHER, label="order defect"),
+    globe = _Globe(unit_vector(0.75 * across + 0.45 * g + 0.25 * start))
+    ends = _ends(orientations, g, start, across, shown, needed)
+    layers = [
+        Layer("sphere", tuple(globe.graticule())),
+        Layer("hoop", tuple(_hoops(globe, g, start, across, hoop))),
+        Layer("orientations", tuple(_bodies(globe, orientations))),
+        Layer("axes", tuple(_marks(globe, ends, orientations))),
+        Layer("angles", tuple(_strip(shown, needed))),
     ]
-    plane.legend(handles=legend, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, frameon=False)
-    plane.set_title(f"Order of {len(orientations)} orientations by fixed axis", fontsize=12)
-    plane.set_aspect("equal")
-    plane.axis("off")
-    return figure
+    verdict = "the order is kept" if hoop.in_order else "the order is not kept"
+    said = [
+        f"hoop about G, turning {direction_words(hoop.direction)} from S12: {verdict}; red: the axes that decide",
+        "blue: the body's z axis at each orientation; red, green: towards its x, y; open or dashed: far side",
+    ]
+    return page_of(Frame(1, 0, 0, 0, 0, _SIDE, _SIDE + _STRIP), layers, said)
 
 
-def hammer(points: Floats) -> tuple[Floats, Floats]:
-    """Return points of the sphere on the Hammer map: x and y, |x| <= 2 sqrt 2, |y| <= sqrt 2; z points up.
-
-    Examples
-    --------
-    >>> [round(float(c[0]), 6) for c in hammer(np.array([[1.0, 0.0, 0.0]]))]
-    [0.0, 0.0]
-    """
-    east, north = np.arctan2(points[:, 1], points[:, 0]), np.arcsin(np.clip(points[:, 2], -1.0, 1.0))
-    scale = np.sqrt(2.0 / (1.0 + np.cos(north) * np.cos(east / 2.0)))
-    return 2.0 * scale * np.cos(north) * np.sin(east / 2.0), scale * np.sin(north)
-
-
-def hammer_inverse(x: Floats, y: Floats) -> tuple[Floats, npt.NDArray[np.bool_]]:
-    """Return what the Hammer map shows at x, y: points of the sphere, float[..., 3], and whether there is one."""
-    inside = x * x / 8.0 + y * y / 2.0 <= 1.0
-    z = np.sqrt(np.maximum(1.0 - (x / 4.0) ** 2 - (y / 2.0) ** 2, 0.5))
-    east = 2.0 * np.arctan2(z * x, 2.0 * (2.0 * z * z - 1.0))
-    north = np.arcsin(np.clip(z * y, -1.0, 1.0))
-    return np.stack([np.cos(north) * np.cos(east), np.cos(north) * np.sin(east), np.sin(north)], axis=-1), inside
-
-
-class _View:
-    """A look at the sphere from far away, in a direction; G's axis is not tilted to a side."""
+class _Globe:
+    """The sphere as it is seen; G's axis is not tilted to a side."""
 
     def __init__(self, towards: Floats) -> None:
-        self.out = unit_vector(towards)
-        up = np.array([0.0, 0.0, 1.0]) if abs(self.out[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
-        self.right = unit_vector(np.cross(up, self.out))
-        self.up = np.cross(self.out, self.right)
+        upright = np.array([0.0, 0.0, 1.0]) if abs(towards[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
+        self._view: View = view_from(towards, upright)
 
-    def flat(self, points: Floats) -> tuple[Floats, Floats, npt.NDArray[np.bool_]]:
-        """Return x, y, and whether each point is on the near side."""
-        return points @ self.right, points @ self.up, points @ self.out >= 0.0
+    def row(self, points: Floats) -> list[Point]:
+        """Return where points of the sphere lie on the page."""
+        return [self.on_page(place) for place in self._view.places(points)]
+
+    def on_page(self, place: Floats) -> Point:
+        """Return where a place of the view lies."""
+        return _SIDE / 2 + _RADIUS * float(place[0]), _SIDE / 2 - _RADIUS * float(place[1])
+
+    def flat(self, points: Floats) -> tuple[Floats, list[bool]]:
+        """Return places in the view, and whether points are on the near side."""
+        return self._view.places(points), (self._view.near(points) >= 0.0).tolist()
+
+    def curve(self, points: Floats, colour: str, width: float, *, far: bool = True) -> list[Shape]:
+        """Return a curve, its pieces on the far side dashed, or left out."""
+        row, (_, near) = self.row(points), self.flat(points)
+        shapes: list[Shape] = []
+        for here, run in groupby(range(len(row)), key=near.__getitem__):
+            places = list(run)
+            piece = row[max(places[0] - 1, 0) : places[-1] + 1]
+            if here and len(piece) > 1:
+                shapes.append(Line(piece, colour, width))
+            elif far and len(piece) > 1:
+                shapes.append(Line(piece, colour, 0.6 * width, _FAR))
+        return shapes
+
+    def graticule(self) -> list[Shape]:
+        """Return the sphere with circles of 30 degrees on its near side."""
+        turn = np.linspace(0.0, 2.0 * np.pi, 2 * _FINE - 1)
+        shapes: list[Shape] = [Disc((_SIDE / 2, _SIDE / 2), _RADIUS, "front", "ink", NORMAL)]
+        for north in np.radians(np.arange(-60, 61, 30)):
+            ring = [np.cos(north) * np.cos(turn), np.cos(north) * np.sin(turn), np.full(len(turn), np.sin(north))]
+            shapes += self.curve(np.stack(ring, 1), "faint", FINE, far=False)
+        for east in np.radians(np.arange(0, 180, 30)):
+            ring = [np.sin(turn) * np.cos(east), np.sin(turn) * np.sin(east), np.cos(turn)]
+            shapes += self.curve(np.stack(ring, 1), "faint", FINE, far=False)
+        return shapes
 
 
-def _draw_globe(axes: Axes, view: _View) -> None:
-    turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    axes.fill(np.cos(turn), np.sin(turn), facecolor="#fafafa", edgecolor=INK, linewidth=1.0, zorder=0)
-    for north in np.radians(np.arange(-60, 61, 30)):
-        ring = np.stack(
-            [np.cos(north) * np.cos(turn), np.cos(north) * np.sin(turn), np.full(361, np.sin(north))], 1
-        )
-        _draw_curve(axes, view, ring, PALE, 0.5, far=False)
-    for east in np.radians(np.arange(0, 180, 30)):
-        ring = np.stack([np.sin(turn) * np.cos(east), np.sin(turn) * np.sin(east), np.cos(turn)], 1)
-        _draw_curve(axes, view, ring, PALE, 0.5, far=False)
-    axes.set_aspect("equal")
-    axes.set_xlim(-1.25, 1.25)
-    axes.set_ylim(-1.12, 1.12)
-    axes.axis("off")
+def _hoops(globe: _Globe, g: Floats, start: Floats, across: Floats, hoop: Hoop) -> list[Shape]:
+    """Return the hoop where it starts, and where it crosses the axes that decide."""
+    needed = set(hoop.required)
+    half = np.linspace(0.0, np.pi, _FINE)[:, None]
+    turned = [(0.0, "ink", STRONG), *((c.angle, NEEDED, NORMAL) for c in hoop.crossings if c.pair in needed)]
+    shapes: list[Shape] = []
+    for angle, colour, width in turned:
+        side = np.cos(angle) * start + np.sin(angle) * across
+        shapes += globe.curve(np.cos(half) * g + np.sin(half) * side, colour, width)
+    return shapes
 
 
-def _draw_curve(axes: Axes, view: _View, points: Floats, colour: str, width: float, far: bool = True) -> None:
-    x, y, near = view.flat(points)
-    axes.plot(np.where(near, x, np.nan), np.where(near, y, np.nan), color=colour, linewidth=width)
-    if far:
-        hidden = np.where(near, np.nan, x), np.where(near, np.nan, y)
-        axes.plot(*hidden, color=colour, linewidth=0.6 * width, linestyle=(0, (2, 2)))
-
-
-def _draw_bodies(axes: Axes, view: _View, orientations: Orientations) -> None:
-    """Draw each orientation where the body's z axis meets the sphere, with short arcs towards its x and y axes."""
+def _bodies(globe: _Globe, orientations: Orientations) -> list[Shape]:
+    """Return orientations where the body's z axis meets the sphere, with short arcs towards its x and y axes."""
     reach = np.linspace(0.0, np.radians(11.0), 9)[:, None]
+    shapes: list[Shape] = []
     for number, m in enumerate(orientations.matrices, start=1):
         for k in (0, 1):
-            _draw_curve(axes, view, np.cos(reach) * m[:, 2] + np.sin(reach) * m[:, k], BODY[k], 1.8)
-        x, y, near = view.flat(m[:, 2:].T)
-        axes.plot(
-            x, y, "o", color=BODY[2], markersize=9, markerfacecolor=BODY[2] if near[0] else "white", zorder=4
-        )
-        ink = "white" if near[0] else BODY[2]
-        axes.text(x[0], y[0], str(number), color=ink, fontsize=7, ha="center", va="center_baseline", zorder=5)
+            shapes += globe.curve(np.cos(reach) * m[:, 2] + np.sin(reach) * m[:, k], _BODY[k], 1.3)
+        (at,) = globe.row(m[:, 2][None])
+        near = globe.flat(m[:, 2][None])[1][0]
+        shapes.append(Disc(at, 4.6, _BODY[2] if near else "paper", _BODY[2], NORMAL))
+        shapes.append(Label(at, str(number), 0.8 * SMALL, "paper" if near else _BODY[2], bold=True, halo=False))
+    return shapes
 
 
-def _draw_marks(axes: Axes, view: _View, marks: Sequence[tuple[Floats, str, str]]) -> None:
-    x, y, near = view.flat(np.array([point for point, _, _ in marks]))
-    places = spread(np.stack([x, y], axis=1), reach=0.085, gap=0.075)
-    for (px, py), (tx, ty), (_, name, colour), here in zip(
-        zip(x, y, strict=True), places, marks, near, strict=True
+def _ends(
+    orientations: Orientations, g: Floats, start: Floats, across: Floats, shown: Sequence[Crossing],
+    needed: set[tuple[int, int]],
+) -> list[tuple[Floats, str, str]]:  # fmt: skip
+    """Return the ends of axes that the hoop crosses, with their names and colours; that of S12 and of G."""
+    first = orientations.relative_axis(1, 2)
+    marks = [(np.copysign(1.0, first @ start) * first, "S12", "ink")]
+    for crossing in shown:
+        s = orientations.relative_axis(*crossing.pair)
+        side = np.cos(crossing.angle) * start + np.sin(crossing.angle) * across
+        colour = NEEDED if crossing.pair in needed else "ink"
+        marks.append((s * np.copysign(1.0, s @ side), pair_name(crossing.pair), colour))
+    return [*marks, (g, "G", "ink")]
+
+
+def _marks(globe: _Globe, marks: Sequence[tuple[Floats, str, str]], orientations: Orientations) -> list[Shape]:
+    """Return dots with names, which keep off each other and off the numbers of orientations."""
+    at, near = globe.flat(np.array([point for point, _, _ in marks]))
+    bodies, _ = globe.flat(orientations.matrices[:, :, 2])
+    texts = spread(np.concatenate([at, bodies]), reach=0.085, gap=0.075)[: len(marks)]
+    shapes: list[Shape] = []
+    for spot, label_at, (_, name, colour), here in zip(at, texts, marks, near, strict=True):
+        place, text_at = globe.on_page(spot), globe.on_page(label_at)
+        shapes.append(Line([place, text_at], colour, FINE))
+        shapes.append(Disc(place, 2.1, colour if here else "paper", colour, NORMAL))
+        shapes.append(Label(text_at, name, SMALL, colour))
+    return shapes
+
+
+def _strip(shown: Sequence[Crossing], needed: set[tuple[int, int]]) -> list[Shape]:
+    """Return crossings along the angle of the hoop, those that decide above the line."""
+    plot = Plot(6.0, _SIDE, _SIDE - 12.0, _STRIP - 26.0, (-13.0, 193.0), (-2.4, 2.4))
+    shapes: list[Shape] = [Line([plot.at(-13.0, 0.0), plot.at(193.0, 0.0)], "ink", NORMAL)]
+    deciding = [Crossing((1, 2), 0.0), *(c for c in shown if c.pair in needed)]
+    for crossings, sign, colour in (
+        (deciding, 1.0, NEEDED),
+        ([c for c in shown if c.pair not in needed], -1.0, "ink"),
     ):
-        axes.plot(px, py, "o", color=colour, markersize=5, markerfacecolor=colour if here else "white", zorder=6)
-        axes.plot([px, tx], [py, ty], color=colour, linewidth=0.4, zorder=5)
-        _write(axes, tx, ty, name, colour, 9)
-
-
-def _draw_flat_curve(axes: Axes, points: Floats) -> None:
-    """Draw a closed curve, broken where it goes over the edge of the map."""
-    x, y = hammer(np.concatenate([points, points[:1]]))
-    over = np.flatnonzero(np.hypot(np.diff(x), np.diff(y)) > 0.3) + 1
-    axes.plot(np.insert(x, over, np.nan), np.insert(y, over, np.nan), color=INK, linewidth=1.0)
-
-
-def _draw_flat_marks(
-    axes: Axes, lines: Sequence[tuple[Floats, str, str]], numbered: Sequence[tuple[Floats, str, str]]
-) -> None:
-    every = [*lines, *numbered]
-    x, y = hammer(np.array([point for point, _, _ in every]).reshape(-1, 3))
-    places = spread(np.stack([x, y], axis=1), reach=0.13, gap=0.13)
-    for k, ((tx, ty), (_, name, colour)) in enumerate(zip(places, every, strict=True)):
-        marker, size = ("o", 3) if k < len(lines) else ("*", 10)
-        axes.plot(x[k], y[k], marker, color=colour, markersize=size, markeredgecolor="white", zorder=6)
-        axes.plot([x[k], tx], [y[k], ty], color=colour, linewidth=0.3, zorder=5)
-        _write(axes, tx, ty, name, colour, 7)
-
-
-def _write(axes: Axes, x: float, y: float, text: str, colour: str, size: float) -> None:
-    """Write a label with a pale edge, so that it can be read over lines."""
-    from matplotlib.patheffects import withStroke
-
-    axes.text(
-        x, y, text, color=colour, fontsize=size, ha="center", va="center", zorder=7,
-        path_effects=[withStroke(linewidth=2.0, foreground="white", alpha=0.8)],
-    )  # fmt: skip
-
-
-def _draw_graticule(axes: Axes) -> None:
-    turn = np.linspace(-np.pi + 1e-9, np.pi - 1e-9, 361)
-    for north in np.radians(np.arange(-60, 61, 30)):
-        ring = np.stack(
-            [np.cos(north) * np.cos(turn), np.cos(north) * np.sin(turn), np.full(361, np.sin(north))], 1
-        )
-        axes.plot(*hammer(ring), color="white", linewidth=0.5, alpha=0.7)
-    half = np.linspace(-np.pi / 2, np.pi / 2, 181)
-    for degrees in range(-180, 181, 30):
-        east = np.radians(np.clip(degrees, -180 + 1e-6, 180 - 1e-6))
-        ring = np.stack([np.cos(half) * np.cos(east), np.cos(half) * np.sin(east), np.sin(half)], 1)
-        edge = abs(degrees) == 180
-        axes.plot(*hammer(ring), color=INK if edge else "white", linewidth=0.8 if edge else 0.5, alpha=0.7)
-
-
-def _draw_strip(axes: Axes, deciding: Sequence[Crossing], others: Sequence[Crossing]) -> None:
-    """Draw crossings along the angle of the hoop, those that decide above the line."""
-    axes.axhline(0.0, color=INK, linewidth=1.0)
-    for crossings, sign, colour in (([Crossing((1, 2), 0.0), *deciding], 1.0, NEEDED), (others, -1.0, INK)):
-        marks = [(pair_name(c.pair), float(np.degrees(c.angle))) for c in crossings]
-        at = np.array([[angle / 180.0, 0.0] for _, angle in marks]).reshape(-1, 2)
-        text_at = 180.0 * spread(at, reach=0.0, gap=0.062, only_x=True)[:, 0]
-        for (name, angle), x in zip(marks, text_at, strict=True):
-            axes.plot([angle, angle, x], [0.0, 0.35 * sign, 0.75 * sign], color=colour, linewidth=0.9)
-            axes.text(x, 0.85 * sign, f"{name}\n{angle:.1f}", color=colour, fontsize=8, ha="center",
-                      va="bottom" if sign > 0 else "top")  # fmt: skip
-    axes.set_xlim(-13.0, 193.0)
-    axes.set_ylim(-2.4, 2.4)
-    axes.set_xticks(range(0, 181, 30))
-    axes.set_yticks([])
-    axes.set_xlabel("angle of the hoop from S12, degrees (red: the axes that decide)", fontsize=9)
-    for side in ("left", "right", "top"):
-        axes.spines[side].set_visible(False)
+        at = np.array([[np.degrees(c.angle) / 180.0, 0.0] for c in crossings]).reshape(-1, 2)
+        text_at = 180.0 * spread(at, reach=0.0, gap=0.068, only_x=True)[:, 0]
+        for crossing, x in zip(crossings, text_at.tolist(), strict=True):
+            angle = float(np.degrees(crossing.angle))
+            ends = [plot.at(angle, 0.0), plot.at(angle, 0.35 * sign), plot.at(x, 0.75 * sign)]
+            shapes.append(Line(ends, colour, FINE))
+            for line, text in enumerate((pair_name(crossing.pair), f"{angle:.1f}")):
+                level = (0.85 + 0.32) * sign + 0.66 * ((1 - line) if sign > 0 else -line)
+                shapes.append(Label(plot.at(x, level), text, 0.8 * SMALL, colour, halo=False))
+    shapes += plot.below(range(0, 181, 30), "angle of the hoop from S12, degrees")
+    return shapes

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from math import ceil, floor
+from typing import NamedTuple
 
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.drawing.figure import COLOURS, new_figure
+from synth.drawing.scene.frame import Frame, page_of
+from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
+from synth.drawing.scene.plot import Plot, round_steps
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Scene, Shape
 from synth.surfaces.cone import ConeMap, cone_reach
 from synth.surfaces.cylinder import CylinderMap, cylinder_reach
 from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
@@ -17,6 +21,10 @@ __all__ = ["draw_loop_sums"]
 _POINTS = 400
 _MOST_CURVES = 128
 _MOST_NAMED = 8
+_LEFT, _TOP, _WIDE, _HIGH, _BELOW = 34.0, 22.0, 250.0, 170.0, 30.0
+"""Places of the plot: free on its left, above it; its width and height; free below, points."""
+_LEGEND = 74.0
+_DASH = 7.0
 
 
 class _Sums(NamedTuple):
@@ -42,45 +50,54 @@ class _Sums(NamedTuple):
     roots: list[tuple[tuple[int, ...], float, int]]
     families: list[tuple[int, ...]]
 
+    def curve(self, signs: tuple[int, ...]) -> Floats:
+        """Return the sum with some signs, degrees: float[p]."""
+        return np.degrees(loop_sum(self.size, self.reach, np.array(signs), self.base))
 
-def draw_loop_sums(mapped: ConeMap | CylinderMap) -> Any:
+
+def draw_loop_sums(mapped: ConeMap | CylinderMap) -> Scene:
     """Return a picture of all loop sums of a loop: spherical against lambda, planar against the radius.
+
+    The loop closes where a sum is a multiple of 360 degrees, which are dashed.
 
     Parameters
     ----------
     mapped : ConeMap or CylinderMap
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-
-    Raises
-    ------
-    UnsolvableError
-        If matplotlib is not installed.
-
     Examples
     --------
     >>> from synth.surfaces.cone import map_to_cones
-    >>> draw_loop_sums(map_to_cones(np.radians([70, 80, 120, 40]))).axes[0].get_xlabel()
-    'cone angle λ (degrees)'
+    >>> scene = draw_loop_sums(map_to_cones(np.radians([70, 80, 120, 40])))
+    >>> [layer.name for layer in scene.layers]
+    ['turns', 'sums', 'axes', 'legend', 'caption']
+    >>> scene.title
+    'loop sums of link angles 70°, 80°, 120°, 40°: the loop closes where one is a multiple of 360° (dots)'
     >>> from synth.surfaces.cylinder import map_to_cylinders
-    >>> draw_loop_sums(map_to_cylinders([4, 3, 5, 1])).axes[0].get_xlabel()
-    'radius R'
+    >>> "radius R" in [label.text for label in draw_loop_sums(map_to_cylinders([4, 3, 5, 1])).labels()]
+    True
     """
     if isinstance(mapped, ConeMap):
         sums = _on_cones(mapped)
-        label, ends = "cone angle λ (degrees)", (0.0, float(sums.along[-1]) * 1.02)
-        links = [f"{angle:.5g}°" for angle in np.degrees(mapped.angles)]
+        name, ends = "cone angle λ (degrees)", (0.0, float(sums.along[-1]) * 1.02)
+        links = "link angles " + ", ".join(f"{angle:.5g}°" for angle in np.degrees(mapped.angles))
     else:
         sums = _on_cylinders(mapped)
         least, most = float(sums.along[0]), float(sums.along[-1])
-        label, ends = "radius R", (least - 0.02 * (most - least), most)
-        links = [f"{length:.5g}" for length in mapped.lengths]
-    figure = _draw(sums)
-    figure.axes[0].set(xlabel=label, xlim=ends)
-    figure.axes[0].set_title("loop sums: " + ", ".join(links))
-    return figure
+        name, ends = "radius R", (least - 0.02 * (most - least), most)
+        links = "lengths " + ", ".join(f"{length:.5g}" for length in mapped.lengths)
+    special = list(dict.fromkeys([*(signs for signs, _, _ in sums.roots), *sums.families]))
+    curves = _curves(sums, special)
+    low, high = (float(pick([pick(curve) for curve in curves.values()])) for pick in (np.min, np.max))
+    air = 0.05 * (high - low)
+    plot = Plot(_LEFT, _TOP, _WIDE, _HIGH, ends, (low - air, high + air))
+    layers = [
+        Layer("turns", tuple(_turns(plot))),
+        Layer("sums", tuple(_lines(plot, sums, curves, special))),
+        Layer("axes", tuple(_axes(plot, name))),
+        Layer("legend", tuple(_legend(special))),
+    ]
+    said = f"loop sums of {links}: the loop closes where one is a multiple of 360° (dots)"
+    return page_of(Frame(1, 0, 0, 0, 0, _LEFT + _WIDE + _LEGEND, _TOP + _HIGH + _BELOW), layers, [said])
 
 
 def _on_cones(mapped: ConeMap) -> _Sums:
@@ -103,50 +120,61 @@ def _on_cylinders(mapped: CylinderMap) -> _Sums:
     return _Sums(radius, size, reach, 0, roots, [family.signs for family in mapped.families])
 
 
-def _draw(sums: _Sums) -> Any:
-    along, size, reach, base, roots, families = sums
-    figure = new_figure(7.0, 4.6)
-    axes = figure.add_subplot()
-    special = dict.fromkeys([*(signs for signs, _, _ in roots), *families])
-    patterns = [tuple(signs.tolist()) for signs in sign_patterns(len(reach))[:_MOST_CURVES]]
-    for signs in dict.fromkeys([*special, *patterns]):
-        if signs not in special:
-            curve = np.degrees(loop_sum(size, reach, np.array(signs), base))
-            axes.plot(along, curve, color="0.8", linewidth=0.8, zorder=1)
+def _curves(sums: _Sums, special: list[tuple[int, ...]]) -> dict[tuple[int, ...], Floats]:
+    """Return sums by their signs: those that close somewhere, and others, not too many in all."""
+    patterns = [tuple(signs.tolist()) for signs in sign_patterns(len(sums.reach))[:_MOST_CURVES]]
+    return {signs: sums.curve(signs) for signs in dict.fromkeys([*special, *patterns])}
+
+
+def _lines(
+    plot: Plot, sums: _Sums, curves: dict[tuple[int, ...], Floats], special: list[tuple[int, ...]]
+) -> list[Shape]:
+    """Return the curves, those that close above the others, with dots where they do."""
+    shapes: list[Shape] = [
+        Line(plot.row(sums.along, curve), "faint", FINE) for signs, curve in curves.items() if signs not in special
+    ]
     for number, signs in enumerate(special):
-        curve = np.degrees(loop_sum(size, reach, np.array(signs), base))
-        name = "".join("+" if sign > 0 else "−" for sign in signs) if number < _MOST_NAMED else None
-        # families lie on one another: their dashes take turns
-        dashes = (
-            (7 * families.index(signs), (7, 7 * (len(families) - 1)))
-            if len(families) > 1 and signs in families
-            else "-"
+        dash = _dash(sums.families.index(signs), len(sums.families)) if signs in sums.families else ()
+        shapes.append(Line(plot.row(sums.along, curves[signs]), colour_of_class(number), STRONG, dash))
+    for signs, place, turns in sums.roots:
+        shapes.append(Disc(plot.at(place, 360 * turns), 2.6, colour_of_class(special.index(signs)), "paper", FINE))
+    return shapes
+
+
+def _dash(number: int, count: int) -> tuple[float, ...]:
+    """Return the dash of a family: those that lie on one another are seen in turn, the first below all."""
+    return () if number == 0 else (_DASH * (count - number), _DASH * number)
+
+
+def _turns(plot: Plot) -> list[Shape]:
+    """Return lines at the multiples of 360 degrees."""
+    low, high = plot.y
+    return [
+        Line([plot.at(plot.x[0], 360 * turns), plot.at(plot.x[1], 360 * turns)], "grey", FINE, (4.0, 3.0))
+        for turns in range(ceil(low / 360), floor(high / 360) + 1)
+    ]
+
+
+def _axes(plot: Plot, name: str) -> list[Shape]:
+    low, high = plot.y
+    step = next(step for step in (90, 180, 360, 720, 1440) if (high - low) / step < 12 or step == 1440)
+    ticks = [float(step * i) for i in range(ceil(low / step), floor(high / step) + 1)]
+    return [*plot.below(round_steps(*plot.x), name), *plot.beside(ticks, "sum of the steps (degrees)")]
+
+
+def _legend(special: list[tuple[int, ...]]) -> list[Shape]:
+    """Return the signs of the sums that close, with their colours."""
+    left = _LEFT + _WIDE + 10
+    named = special[:_MOST_NAMED]
+    shapes: list[Shape] = [Label((left, _TOP), "signs", SMALL, "grey", "start", halo=False)] if named else []
+    for number, signs in enumerate(named):
+        y = _TOP + 1.6 * SMALL * (number + 1)
+        text = "".join("+" if sign > 0 else "−" for sign in signs)
+        shapes.append(Line([(left, y), (left + 10, y)], colour_of_class(number), STRONG))
+        shapes.append(Label((left + 14, y), text, SMALL, anchor="start", halo=False, widest=16))
+    if len(special) > _MOST_NAMED:
+        y = _TOP + 1.6 * SMALL * (_MOST_NAMED + 1)
+        shapes.append(
+            Label((left, y), f"and {len(special) - _MOST_NAMED} more", SMALL, "grey", "start", halo=False)
         )
-        axes.plot(
-            along,
-            curve,
-            color=COLOURS[number % len(COLOURS)],
-            linewidth=1.8,
-            label=name,
-            linestyle=dashes,
-            zorder=3,
-        )
-    for number, signs in enumerate(special):
-        points = [(place, 360 * turns) for mine, place, turns in roots if mine == signs]
-        if points:
-            axes.scatter(*zip(*points, strict=True), color=COLOURS[number % len(COLOURS)], s=42, zorder=4)
-    low, high = axes.get_ylim()
-    for turns in range(int(np.ceil(low / 360)), int(np.floor(high / 360)) + 1):
-        axes.axhline(360 * turns, color="0.3", linewidth=0.8, linestyle=(0, (4, 3)), zorder=2)
-    axes.yaxis.set_major_locator(_every_180(low, high))
-    axes.set_ylabel("sum of the steps (degrees)")
-    axes.spines[["top", "right"]].set_visible(False)
-    if special:
-        axes.legend(frameon=False, title="signs", loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    return figure
-
-
-def _every_180(low: float, high: float) -> Any:
-    from matplotlib.ticker import MultipleLocator
-
-    return MultipleLocator(180 if high - low < 2000 else 360)
+    return shapes

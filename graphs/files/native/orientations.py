@@ -16,7 +16,7 @@ from graphs.files.check import Checker
 from graphs.files.native.names import VERSION, head
 from graphs.files.text import load_json
 
-__all__ = ["KIND", "Rows", "orientation_rows", "orientations_document", "rows_from_document"]
+__all__ = ["KIND", "Rows", "holds_orientations", "orientation_rows", "orientations_document", "rows_from_document"]
 
 KIND = "synthedra/orientations"
 
@@ -52,6 +52,23 @@ def orientation_rows(path: str | Path) -> tuple[str, Rows]:
     """
     path = Path(path)
     return rows_from_document(load_json(path), path)
+
+
+def holds_orientations(path: str | Path) -> bool:
+    """Tell whether a file is a JSON document that says it holds orientations; what it lists is not looked at.
+
+    Examples
+    --------
+    >>> holds_orientations("no such file.json")
+    False
+    """
+    if Path(path).suffix.lower() != ".json":
+        return False
+    try:
+        document = load_json(Path(path))
+    except FileError:  # whoever reads it tells why
+        return False
+    return isinstance(document, dict) and document.get("format") == KIND
 
 
 def rows_from_document(value: Any, path: Path) -> tuple[str, Rows]:

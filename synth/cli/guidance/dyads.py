@@ -75,9 +75,9 @@ def dyads(
     with about(file):
         guiding = asked_for(orientations, axes, samples)
         if picture is not None:
-            from synth.drawing.figure import save_figure
+            from synth.drawing.scene.writing import save_scene
 
-            save_figure(_drawn(orientations, guiding.dyads), picture, force=force)
+            save_scene(_drawn(orientations, guiding.dyads), picture, force=force)
     if as_json:
         print_json({"file": file, **guiding.to_json()})
         return
@@ -105,7 +105,7 @@ def asked_for(
 
 
 def _drawn(orientations: Orientations, found: tuple[Dyad, ...]) -> Any:
-    from synth.drawing.sphere import draw_map
+    from synth.drawing.order_map import draw_map
 
     if len(orientations) == 4:
         from synth.guidance.four import centre_axes

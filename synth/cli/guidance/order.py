@@ -80,10 +80,10 @@ def order(
     with about(file):
         found = analyse_order(orientations, axis, direction)
     if picture is not None:
-        from synth.drawing.figure import save_figure
+        from synth.drawing.scene.writing import save_scene
         from synth.drawing.sphere import draw_hoop
 
-        save_figure(draw_hoop(orientations, axis, found.hoop), picture, force=force)
+        save_scene(draw_hoop(orientations, axis, found.hoop), picture, force=force)
     if as_json:
         print_json({"file": file, "axis": list(axis), **found.to_json()})
     else:

@@ -78,10 +78,10 @@ def map_command(
     assert angles is not None
     found = map_to_cones(_radians(angles))
     if output is not None:
-        from synth.drawing.figure import save_figure
+        from synth.drawing.scene.writing import save_scene
         from synth.drawing.sums import draw_loop_sums
 
-        save_figure(draw_loop_sums(found), output, force=force)
+        save_scene(draw_loop_sums(found), output, force=force)
     if as_json:
         print_json(found.to_json())
     else:

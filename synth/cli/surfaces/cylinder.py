@@ -42,10 +42,10 @@ def map_command(lengths: tuple[float, ...], output: str | None, force: bool, as_
     check_picture(output, force=force)
     found = map_to_cylinders(lengths)
     if output is not None:
-        from synth.drawing.figure import save_figure
+        from synth.drawing.scene.writing import save_scene
         from synth.drawing.sums import draw_loop_sums
 
-        save_figure(draw_loop_sums(found), output, force=force)
+        save_scene(draw_loop_sums(found), output, force=force)
     if as_json:
         print_json(found.to_json())
     else:

@@ -16,10 +16,11 @@ from synth.cli.runner import LimitsType
 if TYPE_CHECKING:
     from enumerate.runner.limits import Limits
     from synth.drawing.catalogue.entries import CatalogueEntry
+    from synth.drawing.mechanisms.pictures import Drawable
 
 __all__ = ["draw"]
 
-_KINDS = ("pattern", "folded", "chain", "graph", "model", "cone")
+_KINDS = ("pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle", "sphere")
 _PATIENCE = 2.0
 """Seconds between two words on how far a catalogue has come."""
 _COLOURS = ("letters", "verdict", "branch", "centres", "none")
@@ -55,12 +56,13 @@ def draw(
     """Draw the mechanism of a file, or of an id; or all those of a store, a list or a folder, on pages.
 
     KIND is pattern (a crease pattern in its plane), folded (a folded sheet in space), chain (links as bodies,
-    joints as small circles), graph (an SC or SCD graph, with the signs of the centres), model (vertices and rods)
-    or cone (a linkage round a cone, on the first of its cones). Numbers are those that messages and JSON use; in
-    SVG, shapes carry them as data-link and data-joint.
+    joints as small circles), graph (an SC or SCD graph, with the signs of the centres), model (vertices and
+    rods), solids (hinged at edges, in space), cone (a linkage round a cone, on the first of its cones), circle
+    (the order of its joints round a cone) or sphere (which axes keep orientations in their order). Numbers are
+    those that messages and JSON use; in SVG, shapes carry them as data-link and data-joint.
 
-    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder a catalogue is made, 24 pictures a
-    page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
+    Of a store (.sqlite), of rows (.jsonl, .parquet), of a graph6 file or of a folder a catalogue is made, 24
+    pictures a page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
 
     \b
     Examples:
@@ -79,17 +81,28 @@ def draw(
         return
     if where:
         raise click.UsageError("--where is for catalogues: a store, rows, a graph6 file or a folder")
-    from graphs.files.formats import read
     from synth.drawing.mechanisms import pictures
     from synth.drawing.scene.writing import save_scene
 
     if look["branch"] is not None and look["branch"].isdigit():
         look["branch"] = int(look["branch"])
-    thing = read(file)
+    thing = _read(file)
     with about(file):
         scene = pictures.draw(thing, kind, **look)
     save_scene(scene, output, paper=paper, force=force)
     click.echo(f"written: {plain(output, 4096)}")
+
+
+def _read(file: str) -> Drawable:
+    """Return what a file holds: a mechanism, or orientations."""
+    from graphs.files.formats import read
+    from graphs.files.native.orientations import holds_orientations
+
+    if not holds_orientations(file):
+        return read(file)
+    from synth.guidance.orientations import read_orientations
+
+    return read_orientations(file)
 
 
 def _catalogue(

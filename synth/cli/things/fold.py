@@ -14,6 +14,8 @@ import click
 from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from graphs.convert.table import Mechanism
     from graphs.ids import JointId
     from graphs.mechanism.sc import SCGraph
@@ -59,17 +61,19 @@ def fold(
     --all, the crease that moves most is folded as far as it goes, and the others follow. With several freedoms
     --along says in which direction: rates of some creases, others as little as may be. JOINT is an id, or two
     links A,B.
-    What has no panels (solids hinged at edges, rods, a linkage on its cone) moves by joint angles, from the pose.
+    What has no panels (solids hinged at edges, rods, a linkage on its cone) moves by joint angles, from the pose;
+    solids are drawn with -o (.png, .svg, .gif).
 
     \b
     Examples:
       synth fold data/patterns/bird-base.fold --branches
       synth fold data/patterns/four-bar-vertex.fold --drive 2=90 --frames 5 -o folded.fold
       synth fold data/patterns/bird-base.fold --all -o folded.gif
+      synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.files.formats import read
-    from synth.drawing.foldings import check_output, write_folding
+    from synth.drawing.foldings import check_output, write_folding, write_motion
     from synth.folding.motion import fold as folded
     from synth.moving.linkages import sheet_of
 
@@ -82,7 +86,12 @@ def fold(
         sheet = sheet_of(thing)
         if sheet is None:
             moved = _moved(thing, _Joints(drive, along), branch, frames, output)
-            print_json({"file": file, "output": None, **moved.to_json()}) if as_json else click.echo(str(moved))
+            drawn = [] if output is None else write_motion(moved, output, force=force)
+            if as_json:
+                print_json({"file": file, "output": output, **moved.to_json()})
+            else:
+                click.echo(str(moved))
+                _tell_written(drawn)
             return
         sheet = sheet.frames.first_placed() if sheet.frames is not None else sheet
         graph = mechanism_of_sheet(sheet).sc
@@ -109,19 +118,23 @@ def fold(
         console().print(rows)
     for line in str(found).splitlines():
         click.echo(line)
-    for place in written:
+    _tell_written(written)
+
+
+def _tell_written(places: list[Path]) -> None:
+    for place in places:
         click.echo(f"written: {plain(str(place), 4096)}")
 
 
 def _moved(thing: Mechanism, asked: _Joints, branch: str | None, frames: int, output: str | None) -> Motion:
     """Move what has no panels: solids hinged at edges, rods, a linkage on its cone."""
-    from graphs.errors import UnsolvableError
+    from synth.drawing.foldings import check_motion_output
     from synth.moving.linkages import linkage_of
     from synth.moving.motion import move
 
-    linkage = linkage_of(thing)
     if output is not None:
-        raise UnsolvableError("there are no panels to write: --json gives the joint angles of each frame")
+        check_motion_output(thing, output)
+    linkage = linkage_of(thing)
     graph = linkage.graph
     return move(linkage, drive=asked.driven(graph), along=asked.rates(graph), branch=_way(branch), frames=frames)
 

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from enumerate.chains.names import name_of
-from enumerate.runner.columns import row_as_dict
 from enumerate.runner.limits import Limits
-from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
+from graphs.mechanism.sc import SCGraph
+from synth.drawing.catalogue.rows import ROWS, Row, order_of_row, rows_of_file
+from synth.drawing.mechanisms.orders import OrderOnCircle
 
 __all__ = ["CatalogueEntry", "catalogue_entries", "is_catalogue"]
 
-_STORES = (".sqlite", ".db")
-_LISTS = (*_STORES, ".jsonl", ".g6")
+_LISTS = (*ROWS, ".g6")
 _IDS = ("code", "mechanism", "chain")
 """Columns that may hold an id, the one that says most first."""
 
@@ -59,7 +58,7 @@ def is_catalogue(path: str | Path) -> bool:
 def catalogue_entries(
     path: str | Path, where: Mapping[str, Limits | str] | None = None, failures: list[str] | None = None
 ) -> Iterator[CatalogueEntry]:
-    """Yield the mechanisms of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder, in order.
+    """Yield the mechanisms of rows (.sqlite, .jsonl, .parquet), of a graph6 file or of a folder, in order.
 
     Parameters
     ----------
@@ -84,13 +83,13 @@ def catalogue_entries(
     graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
     """
     place = Path(path)
-    if place.suffix.lower() in (*_STORES, ".jsonl") and not place.is_dir():
-        for number, row in enumerate(_rows(place), start=1):
+    if place.suffix.lower() in ROWS and not place.is_dir():
+        for number, row in enumerate(rows_of_file(place), start=1):
             if all(_admits(row, column, asked) for column, asked in (where or {}).items()):
                 yield _entry_of_row(place, number, row)
         return
     if where:
-        raise InvariantError("filter", f"{shown(str(path))} has no columns", "a store or rows, .sqlite or .jsonl")
+        raise InvariantError("filter", f"{shown(str(path))} has no columns", f"rows: {', '.join(ROWS)}")
     files = sorted(one for one in place.iterdir() if one.is_file()) if place.is_dir() else [place]
     number = 0
     for file in files:
@@ -104,26 +103,7 @@ def catalogue_entries(
             failures.append(str(error))
 
 
-def _rows(place: Path) -> Iterator[dict[str, Any]]:
-    if place.suffix.lower() in _STORES:
-        columns = read_meta(place)["columns"]
-        for row in read_rows(place):
-            yield row_as_dict(columns, row)
-        return
-    try:
-        with place.open(encoding="utf-8") as lines:
-            for number, line in enumerate(lines, start=1):
-                row = json.loads(line)
-                if not isinstance(row, dict):
-                    raise FileError(place, f"line {number}", f"{shown(row)} is no object", "an object a line")
-                yield row
-    except OSError as error:
-        raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
-    except (ValueError, RecursionError) as error:
-        raise FileError(place, "", f"is not JSON: {error}", "an object a line") from None
-
-
-def _admits(row: Mapping[str, Any], column: str, asked: Limits | str) -> bool:
+def _admits(row: Row, column: str, asked: Limits | str) -> bool:
     if column not in row:
         raise InvariantError("filter", f"there is no column {shown(column)}", ", ".join(map(str, row)))
     value = row[column]
@@ -133,7 +113,7 @@ def _admits(row: Mapping[str, Any], column: str, asked: Limits | str) -> bool:
     return text == asked
 
 
-def _entry_of_row(place: Path, number: int, row: Mapping[str, Any]) -> CatalogueEntry:
+def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
     if isinstance(row.get("string"), str):
         return CatalogueEntry(number, ChainString.parse(row["string"]), row["string"], _said(row))
     for column in _IDS:
@@ -141,14 +121,25 @@ def _entry_of_row(place: Path, number: int, row: Mapping[str, Any]) -> Catalogue
         if isinstance(code, str) and is_id(code):
             name = row.get("name") or name_of(str(row.get("chain", code)))
             told = f"{name}, {_said(row)}" if name else _said(row)
-            return CatalogueEntry(number, mechanism_of_id(code), code, told)
+            chain = mechanism_of_id(code)
+            thing = chain if "order" not in row else _on_circle(place, number, row, chain)
+            return CatalogueEntry(number, thing, code, told)
     raise FileError(place, f"row {number}", "has no id", f"an id in one of the columns {', '.join(_IDS)}")
 
 
-def _said(row: Mapping[str, Any]) -> str:
+def _on_circle(place: Path, number: int, row: Row, chain: SCGraph) -> OrderOnCircle:
+    """Return the order of joints round a cone that a row of conical candidates tells."""
+    try:
+        return order_of_row(row, chain)
+    except (KeyError, TypeError, ValueError) as error:
+        told = f"has an order that is none: {type(error).__name__} {error}"
+        raise FileError(place, f"row {number}", told, "columns order, loops, and slots or azimuths_deg") from None
+
+
+def _said(row: Row) -> str:
     """Return freedoms, centres and symmetry of a row, those that it has."""
     words = []
-    if isinstance(row.get("order"), list):  # of the joints round a cone: the picture shows the chain alone
+    if isinstance(row.get("order"), list):  # of the joints round a cone
         words.append("order " + " ".join(map(str, row["order"])))
     freedoms = row.get("exact_dof", row.get("dof"))
     if freedoms is not None:

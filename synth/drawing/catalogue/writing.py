@@ -7,9 +7,8 @@ from itertools import chain
 from pathlib import Path
 
 from graphs.files.atomic import Beside
-from synth.drawing.figure import check_picture
 from synth.drawing.scene.shapes import Scene
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.writing import check_picture, save_scene
 
 __all__ = ["write_catalogue"]
 
@@ -32,7 +31,7 @@ def write_catalogue(
     Returns
     -------
     list of Path
-        The files, in order.
+        The files, in order; none where there are no pages.
 
     Raises
     ------
@@ -49,11 +48,14 @@ def write_catalogue(
     graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
     """
     check_picture(path, force=force)
-    place = Path(path)
+    place, rest = Path(path), iter(pages)
+    first = next(rest, None)
+    if first is None:
+        return []
     if place.suffix.lower() == ".pdf":
-        _write_pdf(pages, place, paper, force)
+        _write_pdf(chain([first], rest), place, paper, force)
         return [place]
-    return list(_each_page(iter(pages), place, paper, force))
+    return list(_each_page(first, rest, place, paper, force))
 
 
 def _write_pdf(pages: Iterable[Scene], place: Path, paper: str, force: bool) -> None:
@@ -67,10 +69,7 @@ def _write_pdf(pages: Iterable[Scene], place: Path, paper: str, force: bool) -> 
         beside.discard()
 
 
-def _each_page(pages: Iterator[Scene], place: Path, paper: str, force: bool) -> Iterator[Path]:
-    first = next(pages, None)
-    if first is None:
-        return
+def _each_page(first: Scene, pages: Iterator[Scene], place: Path, paper: str, force: bool) -> Iterator[Path]:
     second = next(pages, None)
     if second is None:
         save_scene(first, place, paper=paper, force=force)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import networkx as nx
 import numpy as np
@@ -30,6 +31,8 @@ Place = tuple[float, float]
 _GAP = 1.0
 _MOST_CHOICES = 2
 """Mirrored drawings that are compared: there are many where there are many symmetries."""
+_SHORT, _MOST_OUTSIDE = 0.1, 6
+"""Length of a side below which nobody sees it, in units of their mean; faces that are then tried outside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +135,8 @@ class _Part:
     skeleton: Skeleton
     faces: list[tuple[tuple[Node, ...], Floats]]
     plane: bool
+    shortest: float = inf
+    """The length of the shortest side."""
 
 
 def _placed(
@@ -148,14 +153,14 @@ def _placed(
     choices = []
     for rotations, swap in _drawings(part, joints, plain, kept is not None):
         skeleton = made(rotations, swap)
-        face = _outer_face(skeleton, joints, wanted)
-        if face is not None:
-            choices.append((skeleton, face))
+        faces = _outer_faces(skeleton, joints, wanted)
+        if faces:
+            choices.append((skeleton, faces))
         if len(choices) == _MOST_CHOICES or swap is None:
             break
     if choices:
-        skeleton, face = max(choices, key=lambda choice: (choice[0].mirror is not None, len(choice[1])))
-        return _drawn_plane(skeleton, face)
+        skeleton, faces = max(choices, key=lambda choice: (choice[0].mirror is not None, len(choice[1][0])))
+        return _drawn_open(skeleton, faces)
     return _drawn_filled(made(plain), joints, wanted)
 
 
@@ -186,21 +191,22 @@ def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | No
     return kept
 
 
-def _outer_face(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> tuple[Node, ...] | None:
-    """Return the face to be outside, its own mirror image; None if there is none, or a node comes twice in it."""
+def _outer_faces(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> list[tuple[Node, ...]]:
+    """Return the faces that can be outside, their own mirror images, the one with most corners first.
+
+    There are none if in one of them a node comes twice.
+    """
     faces = [face for face in faces_of(skeleton.around) if not _is_body(face, skeleton)]
     if any(len(set(face)) < len(face) for face in faces):
-        return None
+        return []
     if skeleton.mirror is not None:
         mirror = skeleton.mirror
         faces = [
             face for face in faces if same_cycle([mirror[node] for node in face[::-1]], face) and len(face) > 2
         ]
         faces = [face for face in faces if {mirror[node] for node in face} == set(face)]
-    if not faces:
-        return None
-    best = max(faces, key=lambda face: (_shared(face, joints, skeleton, wanted), len(face)))
-    return best if _shared(best, joints, skeleton, wanted) == len(wanted) else None
+    fit = [face for face in faces if _shared(face, joints, skeleton, wanted) == len(wanted)]
+    return sorted(fit, key=len, reverse=True)
 
 
 def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, wanted: frozenset[JointId]) -> int:
@@ -217,6 +223,16 @@ def _turns(row: Sequence[Node], face: Sequence[Node]) -> bool:
     """Whether two rows of one cycle run the same way."""
     i = list(face).index(row[0])
     return tuple(row) == (*face[i:], *face[:i])
+
+
+def _drawn_open(skeleton: Skeleton, faces: Sequence[tuple[Node, ...]]) -> _Part:
+    """Draw with the first of the faces outside; where a side is too short to be seen, with the best of several."""
+    best = _drawn_plane(skeleton, faces[0])
+    for face in faces[1:_MOST_OUTSIDE]:
+        if best.shortest >= _SHORT:
+            break
+        best = max(best, _drawn_plane(skeleton, face), key=lambda part: part.shortest)
+    return best
 
 
 def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
@@ -239,7 +255,8 @@ def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
         turn = _lying(places[:own])
         places = places @ turn
         faces = [(row, at @ turn) for row, at in faces]
-    return _Part(graph.nodes[:own], places[:own], skeleton, faces, True)
+    shortest = float(np.linalg.norm(places[graph.edges[:, 0]] - places[graph.edges[:, 1]], axis=1).min())
+    return _Part(graph.nodes[:own], places[:own], skeleton, faces, True, shortest)
 
 
 def _drawn_filled(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> _Part:

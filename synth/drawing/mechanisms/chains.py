@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import hypot
 
+from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
@@ -76,7 +77,7 @@ def _places(layout: Layout) -> list[list[Point]]:
 
 
 def _said(chain: SCGraph, layout: Layout) -> str:
-    said = f"{len(chain)} links, {len(chain.joints)} joints"
+    said = f"{numbered(len(chain), 'link')}, {numbered(len(chain.joints), 'joint')}"
     if not layout.plane:
         return said + "; not planar: lines cross"
     return said + ("; drawn with a mirror" if layout.mirror else "")
@@ -100,7 +101,7 @@ def _body(link: LinkId, row: list[Point], ground: bool, look: ChainLook, plane: 
     """Return a link as a polygon with round corners, or as a bar: a wide line, and a narrower one on it."""
     data = (("link", str(link)),)
     fill = "ground" if ground else "body"
-    wide = 2 * look.dot * 1.25 if len(row) > 2 else look.dot * _BINARY / 2.3
+    wide = _width(row, look)
     opacity = 1.0 if plane else 0.75
     if len(row) < 3:
         return [Line(row, "ink", wide + 1.2), Line(row, fill, wide, data=data)]
@@ -111,6 +112,24 @@ def _body(link: LinkId, row: list[Point], ground: bool, look: ChainLook, plane: 
     ]
 
 
+def _width(row: list[Point], look: ChainLook) -> float:
+    """Return how wide a bar is, or the round rim of a polygon, points."""
+    return 2 * look.dot * 1.25 if len(row) > 2 else look.dot * _BINARY / 2.3
+
+
+def _edges(row: list[Point], off: float) -> list[tuple[Point, Point]]:
+    """Return what is seen of the outline of a body: lines on both sides of each of its own."""
+    found = []
+    for (ax, ay), (bx, by) in zip(row, row[1:] + (row[:1] if len(row) > 2 else []), strict=False):
+        long = hypot(bx - ax, by - ay) or 1.0
+        across = (-(by - ay) / long * off, (bx - ax) / long * off)
+        found += [
+            ((ax + side * across[0], ay + side * across[1]), (bx + side * across[0], by + side * across[1]))
+            for side in (1, -1)
+        ]
+    return found
+
+
 def _single(link: LinkId, at: Point) -> Shape:
     row = [(at[0] - 6, at[1]), (at[0] + 6, at[1])]
     return Line(row, "ink", 2 * NORMAL, data=(("link", str(link)),))
@@ -118,11 +137,7 @@ def _single(link: LinkId, at: Point) -> Shape:
 
 def _labels(outlines: dict[LinkId, list[Point]], joints: dict[JointId, Point], look: ChainLook) -> list[Label]:
     """Return the numbers of links, bold, in bodies or beside bars, and those of joints beside them."""
-    lines = [
-        (a, b)
-        for row in outlines.values()
-        for a, b in zip(row, row[1:] + (row[:1] if len(row) > 2 else []), strict=False)
-    ]
+    lines = [edge for row in outlines.values() for edge in _edges(row, _width(row, look) / 2)]
     obstacles = Obstacles([(x, y, look.dot + 0.8) for x, y in joints.values()], lines)
     wishes: list[tuple[Label, list[Point]]] = []
     if look.link_numbers:

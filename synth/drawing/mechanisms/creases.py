@@ -158,21 +158,22 @@ def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
     """Return the lines, borders and cuts above creases, so that the outline is whole."""
     joint_of = {frozenset(edge): joint for joint, edges in drawn.mechanism.pieces.items() for edge in edges}
     width = _width(drawn) * (0.7 if faint else 1.0)
+    shrunk = max(width, 0.6)  # dashes of dense patterns are shorter, so that a crease has several
     classes = _class_at(drawn) if colour == "centres" else {}
     found: list[tuple[int, Shape]] = []
     for edge, letter in zip(drawn.sheet.edges, drawn.sheet.assignments, strict=True):
         ends = [drawn.places[v] for v in edge]
         name, dash = _LOOKS.get(letter, _LOOKS["U"])
+        dash = tuple(length * shrunk for length in dash)
         joint = joint_of.get(frozenset(edge))
         data = () if joint is None else (("joint", str(joint)),)
         if letter in "BC":
             found.append((1, Line(ends, name, STRONG * width if letter == "B" else NORMAL * width, dash, data)))
         elif colour == "letters":
-            scaled = tuple(length * max(width, 0.6) for length in dash)
-            found.append((0, Line(ends, name, NORMAL * width if letter in "MVU" else FINE, scaled, data)))
+            found.append((0, Line(ends, name, NORMAL * width if letter in "MVU" else FINE, dash, data)))
         elif joint in drawn.motions.of:
             name, thick, dash = _DOINGS[drawn.motions.of[joint]]
-            found.append((0, Line(ends, name, thick * width, dash, data)))
+            found.append((0, Line(ends, name, thick * width, tuple(shrunk * length for length in dash), data)))
         elif colour != "centres" or joint is None:
             found.append((0, Line(ends, "grey" if joint is not None else "faint", FINE, (), data)))
         else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 import networkx as nx
 
@@ -17,16 +17,21 @@ from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
+from synth.drawing.mechanisms.orders import OrderOnCircle, order_of_linkage, order_scene
 from synth.drawing.mechanisms.sc_graphs import sc_scene
-from synth.drawing.mechanisms.space import folded_scene, model_scene
+from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
 from synth.drawing.mechanisms.strips import strip_scene
 from synth.drawing.scene.frame import COLUMN
 from synth.drawing.scene.shapes import Scene
+from synth.guidance.orientations import Orientations
 
-__all__ = ["COLOURINGS", "KINDS", "Look", "draw"]
+__all__ = ["COLOURINGS", "KINDS", "Drawable", "Look", "draw"]
 
+
+Drawable: TypeAlias = Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
 
 _SMALL = 200.0
 """Points of width and height below which a chain has smaller joints, without numbers."""
@@ -60,16 +65,18 @@ class Look:
     caption: str | None = ""
 
 
-def draw(thing: Mechanism | ChainString | nx.Graph, kind: str | None = None, **look: Any) -> Scene:
+def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     """Return a picture of a mechanism.
 
     Parameters
     ----------
-    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, ChainString, networkx graph
-    kind : {"pattern", "folded", "chain", "graph", "model", "cone"}, optional
+    thing : Mechanism, Orientations, ChainString, OrderOnCircle or networkx graph
+        What a file may hold; a string; an order of joints round a cone; a plain link-joint graph.
+    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle", "sphere"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
-        the centres, vertices and rods, a linkage on its circle and cone. Without it what suits the thing: a sheet
-        is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
+        the centres, vertices and rods, solids in space, a linkage on its circle and cone, the order of joints
+        round a cone, the sphere by the order of orientations. Without it what suits the thing: a sheet is a
+        pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
     **look
         Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
@@ -112,8 +119,14 @@ def _suiting(thing: object) -> str:
         return "pattern" if lies_flat(thing) else "folded"
     if isinstance(thing, PolyhedronModel):
         return "model"
+    if isinstance(thing, HingedSolids):
+        return "solids"
     if isinstance(thing, SCDGraph):
         return "graph"
+    if isinstance(thing, Orientations):
+        return "sphere"
+    if isinstance(thing, OrderOnCircle) or (isinstance(thing, ConicalLinkage) and thing.steps is not None):
+        return "circle"
     assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
     return "chain" if assumed else "graph"
 
@@ -167,8 +180,30 @@ def _cone(thing: Any, look: Look) -> Scene:
     return draw_conformed(chain, places, cones[0].cone_angle, title)
 
 
+def _solids(thing: Any, look: Look) -> Scene:
+    if not isinstance(thing, HingedSolids):
+        raise UnsolvableError(f"only solids hinged at edges can be drawn so, and this is {thing!r}")
+    return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
+
+
+def _circle(thing: Any, look: Look) -> Scene:
+    if isinstance(thing, ConicalLinkage) and thing.steps is not None:
+        thing = order_of_linkage(thing)
+    if not isinstance(thing, OrderOnCircle):
+        raise UnsolvableError(f"only joints in their order round a cone can be drawn so, and this is {thing!r}")
+    return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
+
+
+def _sphere(thing: Any, look: Look) -> Scene:
+    if not isinstance(thing, Orientations):
+        raise UnsolvableError(f"only orientations of a body can be drawn so, and this is {thing!r}")
+    from synth.drawing.order_map import draw_map
+
+    return draw_map(thing)
+
+
 def _graph_of(thing: Any) -> Any:
-    if isinstance(thing, ConicalLinkage):
+    if isinstance(thing, ConicalLinkage | OrderOnCircle):
         return thing.chain
     return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
 
@@ -188,6 +223,16 @@ def _sheet(thing: object) -> Sheet:
 
 
 KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
-    {"pattern": _pattern, "folded": _folded, "chain": _chain, "graph": _sc_graph, "model": _model, "cone": _cone}
+    {
+        "pattern": _pattern,
+        "folded": _folded,
+        "chain": _chain,
+        "graph": _sc_graph,
+        "model": _model,
+        "solids": _solids,
+        "cone": _cone,
+        "circle": _circle,
+        "sphere": _sphere,
+    }
 )
 """Name of a kind of picture to what makes it."""

@@ -1,8 +1,8 @@
 """SC and SCD graphs in the notation of the thesis: links as discs, joints as lines, in each loop its sign.
 
 A finite centre is a circled dot, one at infinity a lying eight; loops without a centre are empty. Loops that
-share their centre have signs of one colour and number. Open edges of an SCD graph are stubs. Source: Wiener 2016,
-3.3 and 3.4.
+share their centre have signs of one colour and number. Open edges of an SCD graph are stubs. Ride-alongs lie on
+yellow bands. Source: Wiener 2016, 3.3, 3.4 and 4.2.4.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from math import atan2, cos, hypot, inf, pi, sin
 
 import numpy as np
 
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered
 from graphs.identity.drawings import drawing_of
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
@@ -23,6 +23,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
+from synth.drawing.mechanisms.ride_alongs import bands, said_of_ride_alongs, taken_off
 from synth.drawing.mechanisms.signs import SIGN, centre_sign
 from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.scene.palette import NORMAL, SMALL, STRONG, colour_of_class
@@ -53,7 +54,7 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
     --------
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> [layer.name for layer in sc_scene(four_bar).layers]
-    ['joints', 'links', 'centres', 'labels', 'caption']
+    ['ride-alongs', 'joints', 'links', 'centres', 'labels', 'caption']
     """
     rotation, outer = _kept_drawing(sc)
     layout = layout_of(sc.nodes, sc.joints, as_bodies=False, rotation=rotation, outer=outer)
@@ -61,18 +62,21 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
     frame = framed(places, _UNIT, box, margin=_STUB + 2 * _LINK)
     numbers = class_numbers(sc)
     ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
+    drawn = {joint: _bent(row) for joint, row in ways.items()}
     links = {link: frame.at(place) for link, place in layout.links.items()}
     radius = min(_LINK, 0.042 * min(box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
     labels = _labels(ways, links, radius, signs, numbers)
+    reduction = taken_off(sc)
     layers = [
-        Layer("joints", (*stubs, *_joints(ways))),
+        Layer("ride-alongs", tuple(bands(reduction, drawn, links, radius))),
+        Layer("joints", (*stubs, *_joints(drawn))),
         Layer("links", tuple(_links(sc, links, radius))),
         Layer("centres", tuple(shape for shapes in signs.values() for shape in shapes[2])),
         Layer("labels", tuple(labels)),
     ]
-    return page_of(frame, layers, captions_of(caption, *_said(sc, layout, loose)))
+    return page_of(frame, layers, captions_of(caption, *_said(sc, layout, loose), *said_of_ride_alongs(reduction)))
 
 
 def class_numbers(sc: SCGraph) -> dict[int, int]:
@@ -134,7 +138,7 @@ def _signs(
 def _joints(ways: Mapping[JointId, Sequence[Point]]) -> list[Shape]:
     found: list[Shape] = []
     for joint, row in ways.items():
-        found.append(Line(_bent(row), "ink", 1.2 * NORMAL, data=(("joint", str(joint)),)))
+        found.append(Line(row, "ink", 1.2 * NORMAL, data=(("joint", str(joint)),)))
     return found
 
 
@@ -228,9 +232,10 @@ def _open_angles(sides: Sequence[JointId | None], angle_of: Callable[[JointId], 
 def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop]) -> list[str]:
     """Return lines that say what is seen, and which loops are not."""
     classes = sc.centre_classes()
-    said = f"{len(sc)} links, {len(sc.joints)} joints, {len(classes)} centre{'s' * (len(classes) != 1)}"
+    counts = [(len(sc), "link"), (len(sc.joints), "joint"), (len(classes), "centre")]
     if sc.spatial_loops:
-        said += f", {sc.spatial_loops} spatial loop{'s' * (sc.spatial_loops != 1)}"
+        counts.append((sc.spatial_loops, "spatial loop"))
+    said = ", ".join(numbered(number, word) for number, word in counts)
     lines = [said + ("" if layout.plane else "; not planar: lines cross")]
     numbers = class_numbers(sc)
     every = [*sc.loops, *sc.closing]

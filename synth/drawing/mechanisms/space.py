@@ -1,4 +1,4 @@
-"""Sheets and models in space: seen from a little above, panels shaded, what lies in front drawn last.
+"""Sheets, solids and models in space: seen from a little above, panels shaded, what lies in front drawn last.
 
 Panels that overlap in the picture are compared where they do: the one nearer to the eye there is drawn later.
 Where that goes round in a circle, which it can among three panels, the one whose middle is farthest is drawn
@@ -7,23 +7,27 @@ first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
+from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of
 from synth.drawing.scene.palette import NORMAL, SMALL, STRONG
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape
-from synth.drawing.space.panels import panel_shapes, panels_of
+from synth.drawing.space.bodies import bodies_of
+from synth.drawing.space.panels import Panels, panel_shapes, panels_of
 from synth.drawing.space.view import view_from_above
+from synth.moving.linkages import linkage_of
 
-__all__ = ["folded_scene", "model_scene"]
+__all__ = ["folded_scene", "model_scene", "solids_scene"]
 
 _MANY = 60
 
@@ -67,14 +71,88 @@ def folded_scene(
     return page_of(frame, layers, captions_of(caption, said))
 
 
-def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, int]) -> list[Label]:
+def solids_scene(
+    solids: HingedSolids,
+    *,
+    numbers: bool = True,
+    box: tuple[float, float] = (COLUMN, COLUMN),
+    caption: str | None = "",
+) -> Scene:
+    """Return a picture of solids hinged at edges, at their pose: each the hull of its hinges, these orange.
+
+    Parameters
+    ----------
+    solids : HingedSolids
+    numbers : bool, optional
+        Write the numbers of links on what is seen of them, and those of joints beside their hinges.
+    box : (width, height), optional
+    caption : str, optional
+
+    Raises
+    ------
+    InvariantError
+        If the axes of a loop do not meet in its centre.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> axes = {0: ((0, 0, 0), (0, 0, 1)), 1: ((1, 0, 0), (0, 1, 1)),
+    ...         2: ((1, 1, 0), (1, 0, 1)), 3: ((0, 1, 0), (1, 0, 0))}
+    >>> [layer.name for layer in solids_scene(HingedSolids(ring, axes)).layers]
+    ['solids', 'labels', 'caption']
+    """
+    panels, points = bodies_of(linkage_of(solids))
+    view = view_from_above(points)
+    seen = view.places(points)
+    extent = float(np.ptp(seen, axis=0).max()) or 1.0
+    frame = framed(seen.tolist(), min(box) / extent, box)
+    page = frame.row(seen.tolist())
+    shapes, visible = panel_shapes(panels, points, view, page)
+    labels = _numbers(visible, panels.link_of) if numbers else []
+    if numbers:
+        labels += _numbers_of_hinges(panels, page, visible, labels)
+    counts = (len(solids.chain), "link"), (len(solids.chain.joints), "joint")
+    said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, hinges orange"
+    layers = [Layer("solids", tuple(shapes)), Layer("labels", tuple(labels))]
+    return page_of(frame, layers, captions_of(caption, said))
+
+
+def _numbers_of_hinges(
+    panels: Panels, page: Sequence[Point], visible: Mapping[int, list[Point]], others: Sequence[Label]
+) -> list[Label]:
+    """Return the numbers of joints beside their hinges, of those that are seen, off the numbers of links."""
+    wishes: list[tuple[Label, list[Point]]] = [(label, [label.at]) for label in others]
+    lines = []
+    for ends, joint in panels.joint_of.items():
+        (ax, ay), (bx, by) = (page[end] for end in sorted(ends))
+        middle = ((ax + bx) / 2, (ay + by) / 2)
+        if _is_seen(panels, ends, middle, visible):
+            label = Label((0, 0), str(joint), 0.85 * SMALL, "class1", widest=8, data=(("joint", str(joint)),))
+            wishes.append((label, beside(middle, 0.8 * SMALL)))
+            lines.append(((ax, ay), (bx, by)))
+    return placed(wishes, Obstacles([], lines))[len(others) :]
+
+
+def _is_seen(panels: Panels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]) -> bool:
+    """Tell whether the middle of a hinge is on a face that is drawn, and on none of those drawn later."""
+    from shapely.geometry import Point as Spot
+    from shapely.geometry import Polygon as Area
+
+    drawn = list(visible)
+    own = [place for place, face in enumerate(drawn) if ends <= set(panels.faces[face])]
+    spot = Spot(middle)
+    return bool(own) and not any(Area(visible[face]).buffer(-0.5).contains(spot) for face in drawn[max(own) + 1 :])
+
+
+def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, LinkId]) -> list[Label]:
     """Return the numbers of links on the parts of panels that later panels do not cover."""
     from shapely import union_all
     from shapely.geometry import Polygon as Area
 
     wishes: list[tuple[Label, list[Point]]] = []
     above: list[object] = []
-    told: set[int] = set()
+    told: set[LinkId] = set()
     for face, row in reversed(list(visible.items())):
         area = Area(row).buffer(0)
         free = area.difference(union_all(above)) if above else area
@@ -84,7 +162,7 @@ def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, int]) -> 
             continue
         told.add(link)
         point = free.centroid if free.contains(free.centroid) else free.representative_point()
-        label = Label((0, 0), str(link), SMALL, bold=True, halo=False, data=(("link", str(link)),))
+        label = Label((0, 0), str(link), SMALL, bold=True, halo=False, widest=8, data=(("link", str(link)),))
         wishes.append((label, [(point.x, point.y), *beside((point.x, point.y), 4)]))
     return placed(wishes, Obstacles([], []))
 

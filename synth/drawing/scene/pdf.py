@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from functools import singledispatchmethod
 from io import BytesIO
 from typing import IO, Any
+from zlib import compress
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from synth.drawing.scene.palette import colour_of
@@ -48,7 +49,7 @@ def write_pdf(scenes: Iterable[Scene], stream: IO[bytes], *, paper: str = "light
         from reportlab.pdfgen.canvas import Canvas
     except ImportError:
         raise UnsolvableError("PDF needs reportlab: pip install 'synthedra[draw]'") from None
-    canvas = Canvas(stream, invariant=1, pageCompression=1)
+    canvas = Canvas(stream, invariant=1)
     for number, scene in enumerate(scenes):
         if number == 0:
             canvas.setTitle(scene.title)
@@ -60,8 +61,21 @@ def write_pdf(scenes: Iterable[Scene], stream: IO[bytes], *, paper: str = "light
         painter = _Painter(canvas, paper, scene.height)
         for shape in scene.shapes():
             painter.paint(shape)
-        canvas.showPage()
+        _finish_page(canvas)
     canvas.save()
+
+
+def _finish_page(canvas: Any) -> None:
+    """End a page and pack its contents: reportlab would keep the text of all pages until the file is made."""
+    from reportlab.pdfbase.pdfdoc import PDFArray, PDFDictionary, PDFName, PDFStream
+
+    document = canvas._doc
+    name = document.thisPageName()
+    canvas.showPage()
+    page = document.idToObject[name]
+    packed = PDFDictionary({"Filter": PDFArray([PDFName("FlateDecode")])})
+    page.Contents = PDFStream(packed, compress(page.stream.encode("latin-1")))
+    page.stream = None
 
 
 class _Painter:

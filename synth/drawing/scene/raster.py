@@ -92,7 +92,8 @@ def pixels(scene: Scene, *, paper: str = "light", dots: float = 200) -> npt.NDAr
     wide, high = ceil(scene.width * unit), ceil(scene.height * unit)
     renderer = RendererAgg(wide, high, dots)  # type: ignore[no-untyped-call]
     painter = _Painter(renderer, paper, unit, high)
-    painter.paint(Polygon([(0, 0), (wide, 0), (wide, high), (0, high)], "paper"))
+    right, below = wide / unit, high / unit
+    painter.paint(Polygon([(0, 0), (right, 0), (right, below), (0, below)], "paper"))
     for shape in scene.shapes():
         painter.paint(shape)
     return np.asarray(painter.renderer.buffer_rgba())[..., :3].copy()

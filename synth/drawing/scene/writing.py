@@ -4,11 +4,47 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from graphs.files.atomic import Beside
-from synth.drawing.figure import check_picture
+from graphs.errors import FileError
+from graphs.files.atomic import Beside, check_place
 from synth.drawing.scene.shapes import Scene
 
-__all__ = ["save_scene", "scene_bytes"]
+__all__ = ["check_picture", "save_scene", "scene_bytes"]
+
+_KINDS = (".png", ".svg", ".pdf")
+
+
+def check_picture(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a place where no picture can be written, before one is computed.
+
+    Parameters
+    ----------
+    path : str or Path
+    force : bool, optional
+        A file that is there may be replaced.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or something is there that must not be replaced.
+    UnsolvableError
+        If it is of pixels, and matplotlib is not installed.
+
+    Examples
+    --------
+    >>> check_picture("a.bmp")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
+    """
+    place = Path(path)
+    kind = place.suffix.lower()
+    if kind not in _KINDS:
+        raise FileError(place, "", "the extension is not known", ", ".join(_KINDS))
+    check_place(place, force=force)
+    if kind == ".png":
+        from synth.drawing.scene.raster import check_matplotlib
+
+        check_matplotlib()
 
 
 def save_scene(scene: Scene, path: str | Path, *, paper: str = "light", force: bool = False) -> None:

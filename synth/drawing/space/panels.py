@@ -10,16 +10,18 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.ids import JointId
+from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
-from synth.drawing.scene.palette import FINE, NORMAL
+from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.shapes import Line, Point, Polygon, Shape
 from synth.drawing.space.view import View, drawn_order
 
-__all__ = ["Panels", "front_up", "panel_shapes", "panels_of", "same_side_up"]
+__all__ = ["HINGE", "Panels", "front_up", "panel_shapes", "panels_of", "same_side_up"]
 
+HINGE = "H"
+"""The letter of an edge that is a hinge of solids."""
 _THIN = 1e-9
-_LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink"}
+_LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink", HINGE: "class1"}
 _LIGHT = np.array([0.35, -0.45, 0.82]) / np.linalg.norm([0.35, -0.45, 0.82])
 _DARKEST = 0.5
 """Of the shadow, on a panel that the light does not meet."""
@@ -27,7 +29,7 @@ _DARKEST = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Panels:
-    """What of a sheet is drawn in space, at whatever pose.
+    """What of a sheet, or of solids, is drawn in space, at whatever pose.
 
     Attributes
     ----------
@@ -36,12 +38,15 @@ class Panels:
     link_of : mapping of face to link
     joint_of : mapping of two vertices to joint id
     letters : mapping of two vertices to letter
+    solid : bool
+        Whether faces are those of solids, their front outside: what looks away from the eye is hidden.
     """
 
     faces: Sequence[Sequence[int]]
-    link_of: Mapping[int, int]
+    link_of: Mapping[int, LinkId]
     joint_of: Mapping[frozenset[int], JointId]
     letters: Mapping[frozenset[int], str]
+    solid: bool = False
 
 
 def panels_of(sheet: Sheet) -> Panels:
@@ -128,7 +133,9 @@ def panel_shapes(
     """
     shapes: list[Shape] = []
     corners: dict[int, list[Point]] = {}
-    for face in drawn_order(view.places(points), view.near(points), panels.faces):
+    seen = _seen(panels, points, view)
+    for place in drawn_order(view.places(points), view.near(points), [panels.faces[face] for face in seen]):
+        face = seen[place]
         row = panels.faces[face]
         normal = _normal(points[list(row)])
         corners[face] = [page[v] for v in row]
@@ -142,13 +149,22 @@ def panel_shapes(
     return shapes, corners
 
 
+def _seen(panels: Panels, points: Floats, view: View) -> list[int]:
+    """Return the faces that can be seen: of solids, those that look towards the eye."""
+    every = range(len(panels.faces))
+    if not panels.solid:
+        return list(every)
+    return [face for face in every if float(_across(points[list(panels.faces[face])]) @ view.towards) > 0]
+
+
 def _edge(panels: Panels, ends: tuple[int, int], row: list[Point]) -> Line:
     """Return a side of a panel: a hinge in the colour of its letter, another side fine."""
     joint = panels.joint_of.get(frozenset(ends))
     colour = _LETTERS.get(panels.letters.get(frozenset(ends), "B"), "grey")
     if joint is None:
         return Line(row, colour, FINE)
-    return Line(row, colour, NORMAL, data=(("joint", str(joint)),))
+    width = STRONG if colour == _LETTERS[HINGE] else NORMAL
+    return Line(row, colour, width, data=(("joint", str(joint)),))
 
 
 def _normal(corners: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""Sheets on their way: a strip of poses, or a GIF that moves, drawn as folded sheets are, from one place."""
+"""Sheets and solids on their way: a strip of poses, or a GIF that moves, drawn as at rest, from one place."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from synth.drawing.scene.moving import moved
 from synth.drawing.scene.palette import SMALL
 from synth.drawing.scene.raster import pixels
 from synth.drawing.scene.shapes import Label, Layer, Scene
-from synth.drawing.space.panels import front_up, panel_shapes, panels_of
+from synth.drawing.space.panels import Panels, front_up, panel_shapes, panels_of
 from synth.drawing.space.view import view_of_motion
 
 __all__ = ["pose_scenes", "save_moving_poses", "strip_of_poses"]
@@ -32,12 +32,12 @@ _MILLISECONDS, _PAUSE = 80, 1000
 _COLOURS = 128
 
 
-def pose_scenes(sheet: Sheet, places: Floats, side: float = _MOVING, air: float = 8.0) -> Iterator[Scene]:
+def pose_scenes(thing: Sheet | Panels, places: Floats, side: float = _MOVING, air: float = 8.0) -> Iterator[Scene]:
     """Yield a square picture of each pose, all from one place and at one scale.
 
     Parameters
     ----------
-    sheet : Sheet
+    thing : Sheet or Panels
     places : float[F, vertices, 3]
         Where the vertices are in each pose, any unit of length.
     side : float, optional
@@ -53,7 +53,7 @@ def pose_scenes(sheet: Sheet, places: Floats, side: float = _MOVING, air: float 
     (2, 288.0)
     """
     view = view_of_motion(places[0])
-    panels = front_up(panels_of(sheet), places[0], view)
+    panels = thing if isinstance(thing, Panels) else front_up(panels_of(thing), places[0], view)
     frame = _square(view.places(places).reshape(-1, 2), side, air)
     for points in places:
         shapes, _ = panel_shapes(panels, points, view, frame.row(view.places(points).tolist()))
@@ -68,12 +68,12 @@ def _square(seen: Floats, side: float, air: float) -> Frame:
     return framed(corners, (side - 2 * air) / (2 * half), (2 * side, 2 * side), air)
 
 
-def strip_of_poses(sheet: Sheet, places: Floats) -> Scene:
+def strip_of_poses(thing: Sheet | Panels, places: Floats) -> Scene:
     """Return a strip of poses: at most twelve, equally far from each other, numbered.
 
     Parameters
     ----------
-    sheet : Sheet
+    thing : Sheet or Panels
     places : float[F, vertices, 3]
 
     Examples
@@ -87,22 +87,23 @@ def strip_of_poses(sheet: Sheet, places: Floats) -> Scene:
     columns = min(len(chosen), _IN_ROW)
     layers: list[Layer] = []
     numbers: list[Label] = []
-    scenes = pose_scenes(sheet, places[chosen], _SIZE)
+    scenes = pose_scenes(thing, places[chosen], _SIZE)
     for place, (number, scene) in enumerate(zip(chosen.tolist(), scenes, strict=True)):
         right, down = place % columns * _SIZE, place // columns * _SIZE
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
         numbers.append(Label((right + SMALL, down + SMALL), str(number), SMALL, "grey"))
     frame = Frame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
-    said = "frames by number, seen from one place; front grey, back blue"
+    solid = isinstance(thing, Panels) and thing.solid
+    said = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
     return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [said])
 
 
-def save_moving_poses(sheet: Sheet, places: Floats, path: str | Path, *, force: bool = False) -> None:
+def save_moving_poses(thing: Sheet | Panels, places: Floats, path: str | Path, *, force: bool = False) -> None:
     """Write poses as a GIF that moves: there and back, again and again.
 
     Parameters
     ----------
-    sheet : Sheet
+    thing : Sheet or Panels
     places : float[F, vertices, 3]
         Where the vertices are in each pose.
     path : str or Path
@@ -116,7 +117,7 @@ def save_moving_poses(sheet: Sheet, places: Floats, path: str | Path, *, force: 
     FileError
         If the file cannot be written, or is there already.
     """
-    frames = [pixels(scene, dots=_DOTS) for scene in pose_scenes(sheet, places)]
+    frames = [pixels(scene, dots=_DOTS) for scene in pose_scenes(thing, places)]
     beside = Beside(Path(path), force=force)
     try:
         beside.write(_gif(frames))

@@ -175,7 +175,7 @@ def test_pictures(words, tmp_path):
 def test_a_picture_without_matplotlib_names_the_extra(monkeypatch, tmp_path):
     import sys
 
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
     result = run("cylinder", "map", "--lengths", "4,3,5,1", "-o", tmp_path / "a.png", code=2)
     assert result.stderr.strip() == "pictures need matplotlib: pip install 'synthedra[draw]'"
     assert not list(tmp_path.iterdir())

@@ -2,6 +2,8 @@
 
 import json
 from itertools import combinations, islice
+from math import atan2, pi
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -9,9 +11,13 @@ from commands import run
 
 from enumerate.chains.kinematic import chain_rows
 from graphs.errors import FileError, InvariantError
+from graphs.files.formats import read
 from synth.drawing.catalogue.entries import catalogue_entries
 from synth.drawing.catalogue.pages import catalogue_pages
 from synth.drawing.mechanisms.labelling import overlaps
+from synth.drawing.mechanisms.pictures import draw
+
+DATA = Path(__file__).resolve().parents[3] / "data"
 
 
 def listed(path, rows):
@@ -113,15 +119,64 @@ def test_strings_are_strips(tmp_path):
     assert {element.get("data-joint") for element in ElementTree.parse(out).iter()} - {None} == {"0", "1", "2"}
 
 
-def test_orders_round_a_cone_are_said(tmp_path):
-    """Their pictures are of one chain; the order tells them apart."""
-    rows = listed(
-        tmp_path / "a.jsonl", [{"chain": "k1:Cr", "order": order} for order in ([0, 1, 2, 3], [0, 2, 1, 3])]
-    )
-    assert [entry.said for entry in catalogue_entries(rows)] == [
-        "four-bar, order 0 1 2 3",
-        "four-bar, order 0 2 1 3",
+def orders_of(tmp_path, *words):
+    rows = tmp_path / "orders.jsonl"
+    run("enumerate", "conical", *words, "-o", rows, "--workers", 1, "--quiet")
+    return rows, [json.loads(line) for line in rows.read_text().splitlines()]
+
+
+def test_orders_round_a_cone_are_said_and_drawn(tmp_path):
+    """Joints follow each other on the circle as the row says; joints of a link have a chord."""
+    rows, told = orders_of(tmp_path, "--chain", "four-bar")
+    entries = list(catalogue_entries(rows))
+    assert [entry.said for entry in entries] == [
+        f"four-bar, order {' '.join(row['order'])}, symmetry {row['symmetry']}" for row in told
     ]
+    for entry, row in zip(entries, told, strict=True):
+        scene = draw(entry.mechanism, box=(130, 130), caption=None)
+        dots = next(layer for layer in scene.layers if layer.name == "joints").shapes
+        x, y = (sum(dot.centre[i] for dot in dots) / len(dots) for i in (0, 1))
+        turn = {dot.data[0][1]: -atan2(dot.centre[1] - y, dot.centre[0] - x) - pi / 2 for dot in dots}
+        assert sorted(turn, key=lambda name: round(turn[name] % (2 * pi), 6) % 6.283) == row["order"]
+        chords = next(layer for layer in scene.layers if layer.name == "links").shapes
+        assert len(chords) == 4
+        assert draw(entry.mechanism, "chain").layers[0].name == "links"
+
+
+@pytest.mark.parametrize("kind", [("--opposites",), ("--slots", 6), ("--sample", 1)])
+def test_circuits_of_orders_are_those_drawn(tmp_path, kind):
+    """Chords of a loop cross each other or not as azimuths say: one that is open all round is a convex polygon."""
+    rows, told = orders_of(tmp_path, "--chain", "four-bar", "--ground", 0, *kind)
+    for entry, row in zip(catalogue_entries(rows), told, strict=True):
+        place = dict(zip(entry.mechanism.names, entry.mechanism.azimuths, strict=True))
+        (loop,) = row["loops"]
+        steps = [place[b] - place[a] for a, b in zip(loop, [*loop[1:], loop[0]], strict=True)]
+        short = [(step + pi) % (2 * pi) - pi for step in steps]
+        halves = any(abs(abs(step) - pi) < 1e-9 for step in short)
+        convex = len({step > 0 for step in short}) == 1 and abs(abs(sum(short)) - 2 * pi) < 1e-6
+        assert halves or not convex or row["circuits"] == ["open"]
+
+
+def test_joints_with_names_of_their_own_are_drawn(tmp_path):
+    """A chain from a file: ids do not know the names of its joints, loops do."""
+    linkage = DATA / "surfaces" / "fig11-stephenson.json"
+    rows, told = orders_of(tmp_path, "--chain", linkage, "--open", 3)
+    entry = next(iter(catalogue_entries(rows)))
+    names = entry.mechanism.names
+    assert sorted(names) == sorted(told[0]["order"])
+    chain = read(linkage).chain
+    at_one_link = {
+        frozenset(map(str, (a, b)))
+        for link in chain
+        for a, b in combinations([j for j in chain.joints if link in chain.joints[j]], 2)
+    }
+    assert {frozenset((names[a], names[b])) for a, b in entry.mechanism.pairs} == at_one_link
+
+
+def test_an_order_that_is_none(tmp_path):
+    rows = listed(tmp_path / "a.jsonl", [{"chain": "k1:Cr", "order": ["0"], "slots": [0, 1], "loops": []}])
+    with pytest.raises(FileError, match="row 1: has an order that is none"):
+        list(catalogue_entries(rows))
 
 
 def test_a_catalogue_as_pdf(six_links, tmp_path):

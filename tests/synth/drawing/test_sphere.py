@@ -1,54 +1,104 @@
-"""Pictures of orientations: what is on them, and that files are written whole."""
+"""Pictures of orientations: what is on them, that regions are those of the verdicts, that SVG needs no more."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import run
 from cranks import random_orientations
-from matplotlib.colors import to_rgba
+from shapely.geometry import Point, Polygon
 
-from graphs.errors import FileError, UnsolvableError
-from synth.drawing.figure import save_figure
+from graphs.errors import UnsolvableError
+from synth.drawing.hammer import hammer, hammer_inverse
 from synth.drawing.labels import spread
-from synth.drawing.sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, hammer_inverse
+from synth.drawing.order_map import CCW, CW, NEITHER, draw_map
+from synth.drawing.scene import shapes
+from synth.drawing.sphere import draw_hoop
 from synth.guidance.dyads import dyads_of_three
 from synth.guidance.four import centre_axes
 from synth.guidance.hoop_method import hoop
 from synth.guidance.order import order_verdicts
 
-
-def texts(figure):
-    return [text.get_text() for axes in figure.axes for text in axes.texts]
+TASK = Path(__file__).resolve().parents[3] / "data" / "orientations" / "tipparthi.json"
 
 
-def test_the_sphere_shows_every_axis_and_orientation(tmp_path):
+def texts(scene):
+    return [label.text for label in scene.labels()]
+
+
+def layer(scene, name):
+    return next(layer.shapes for layer in scene.layers if layer.name == name)
+
+
+def test_the_sphere_shows_every_axis_and_orientation():
     given = random_orientations(5, np.random.default_rng(61))
     turned = hoop(given, (1, 2, 3), "cw")
-    figure = draw_hoop(given, (1, 2, 3), turned)
-    written = texts(figure)
+    written = texts(draw_hoop(given, (1, 2, 3), turned))
     for pair in given.pairs():
         assert "S{}{}".format(*pair) in written
     assert {"G", "1", "2", "3", "4", "5"} <= set(written)
     for crossing in turned.crossings:
-        assert any(text.endswith(f"\n{np.degrees(crossing.angle):.1f}") for text in written)
-    for name in ("a.svg", "a.png", "a.pdf"):
-        save_figure(figure, tmp_path / name)
-        assert (tmp_path / name).stat().st_size > 5000
-    assert {path.name for path in tmp_path.iterdir()} == {"a.svg", "a.png", "a.pdf"}
+        assert f"{np.degrees(crossing.angle):.1f}" in written
 
 
-def test_the_map_has_the_colours_of_the_verdicts():
-    given = random_orientations(4, np.random.default_rng(62))
-    figure = draw_map(given, curves=centre_axes(given, 100), width=120)
-    (picture,) = (image.get_array() for image in figure.axes[0].images)
-    x, y = np.linspace(-np.sqrt(8), np.sqrt(8), 120), np.linspace(-np.sqrt(2), np.sqrt(2), 60)
-    points, inside = hammer_inverse(*np.meshgrid(x, y))
-    verdicts = order_verdicts(given, points.reshape(-1, 3)).reshape(inside.shape)
-    for verdict, colour in ((1, CCW), (-1, CW), (0, NEITHER)):
-        there = inside & (verdicts == verdict)
-        assert there.any()
-        assert np.allclose(picture[there], to_rgba(colour))
-    assert np.all(picture[~inside][:, 3] == 0.0)
+def test_names_of_axes_keep_off_each_other_and_off_the_numbers_of_orientations():
+    given = random_orientations(5, np.random.default_rng(61))
+    scene = draw_hoop(given, (1, 2, 3), hoop(given, (1, 2, 3), "cw"))
+    names = [shape.at for shape in layer(scene, "axes") if isinstance(shape, shapes.Label)]
+    others = [shape.at for shape in layer(scene, "orientations") if isinstance(shape, shapes.Label)]
+    apart = [np.hypot(a[0] - b[0], a[1] - b[1]) for i, a in enumerate(names) for b in [*names[:i], *others]]
+    assert min(apart) > 5.0
+
+
+def painted(scene, spots):
+    """The colour that is seen at each place of the map: of the last region that covers it."""
+    seen = np.array([None] * len(spots), dtype=object)
+    for shape in layer(scene, "regions"):
+        if isinstance(shape, shapes.Polygon):
+            area = Polygon(shape.points)
+            for i, spot in enumerate(spots):
+                if area.contains(Point(spot)):
+                    seen[i] = shape.fill
+    return seen
+
+
+@pytest.mark.parametrize("seed", [61, 62])
+def test_the_map_has_the_colours_of_the_verdicts(seed):
+    """At random places of the sphere, but where the verdict is another a thousandth beside it."""
+    given = random_orientations(4, np.random.default_rng(seed))
+    scene = draw_map(given, curves=centre_axes(given, 100), width=200)
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(600, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    verdicts = order_verdicts(given, points)
+    near = [order_verdicts(given, points + 2e-3 * rng.normal(size=3)) == verdicts for _ in range(8)]
+    sure = np.all(near, axis=0)
+    points, verdicts = points[sure], verdicts[sure]
+    assert {-1, 0, 1} == set(verdicts.tolist())
+    whole = layer(scene, "regions")[0].points
+    (left, right), (top, bottom) = ((min(p[i] for p in whole), max(p[i] for p in whole)) for i in (0, 1))
+    x, y = hammer(points)
+    across = (left + right) / 2 + x / np.sqrt(8) * (right - left) / 2
+    down = (top + bottom) / 2 - y / np.sqrt(2) * (bottom - top) / 2
+    colours = {1: CCW, -1: CW, 0: NEITHER}
+    expected = [colours[int(verdict)] for verdict in verdicts]
+    agree = painted(scene, list(zip(across, down, strict=True))) == np.array(expected, dtype=object)
+    assert agree.mean() > 0.99
+
+
+def test_borders_of_regions_are_no_steps():
+    """A border turns little from one corner to the next, where steps would turn by a right angle each time."""
+    scene = draw_map(random_orientations(5, np.random.default_rng(61)), width=200)
+    turns = []
+    for shape in layer(scene, "regions")[1:]:
+        if isinstance(shape, shapes.Polygon):
+            row = np.asarray(shape.points)
+            along = np.diff(np.concatenate([row, row[:2]]), axis=0)
+            angles = np.arctan2(along[:, 1], along[:, 0])
+            turns += np.abs((np.diff(angles) + np.pi) % (2 * np.pi) - np.pi).tolist()
+    assert len(turns) > 30
+    assert np.median(turns) < np.radians(15)
 
 
 def test_the_map_numbers_the_dyads():
@@ -63,7 +113,7 @@ def test_many_orientations_are_drawn_without_their_pairs():
     assert "S13" in written
     assert "S1,12" in written
     assert "S34" not in written
-    assert texts(draw_map(given, width=60)) == []
+    assert layer(draw_map(given, width=60), "axes") == ()
     many = random_orientations(16, np.random.default_rng(65))
     with pytest.raises(UnsolvableError, match="a picture of 16 orientations shows nothing; 15 at most"):
         draw_hoop(many, (1, 2, 3), hoop(many, (1, 2, 3)))
@@ -93,30 +143,11 @@ def test_labels_keep_their_distance():
     assert np.diff(np.sort(row[:, 0])).min() > 0.08
 
 
-def test_without_matplotlib_the_extra_is_named(monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    given = random_orientations(3, np.random.default_rng(68))
-    for draw in (lambda: draw_map(given), lambda: draw_hoop(given, (1, 2, 3), hoop(given, (1, 2, 3)))):
-        with pytest.raises(UnsolvableError, match=r"pictures need matplotlib: pip install 'synthedra\[draw\]'"):
-            draw()
-
-
-def test_pictures_of_other_kinds_are_refused(tmp_path):
-    given = random_orientations(3, np.random.default_rng(69))
-    with pytest.raises(FileError, match="the extension is not known"):
-        save_figure(draw_map(given, width=60), tmp_path / "a.jpeg")
-
-
-def test_borders_of_regions_are_smooth():
-    """On a border colours are mixed; whole regions have the three colours of the legend."""
-    pytest.importorskip("matplotlib")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    figure = draw_map(random_orientations(5, np.random.default_rng(61)), width=400)
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    (image,) = figure.axes[0].images
-    pixels = image.make_image(canvas.get_renderer())[0].reshape(-1, 4)
-    colours, counts = np.unique(pixels[pixels[:, 3] == 255], axis=0, return_counts=True)
-    assert len(colours) > 10
-    assert np.sort(counts)[-3:].sum() > 0.9 * counts.sum()
+def test_svg_of_orientations_needs_no_matplotlib(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    axis = "--axis=-0.349,-0.144,0.926"
+    for name in "ab":
+        run("order", "--orientations", TASK, axis, "--direction", "cw", "-o", tmp_path / f"{name}.svg")
+    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
+    told = run("order", "--orientations", TASK, axis, "--direction", "cw", "-o", tmp_path / "a.png", code=2).stderr
+    assert "pictures need matplotlib: pip install 'synthedra[draw]'" in told

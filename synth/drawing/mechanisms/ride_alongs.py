@@ -1,0 +1,69 @@
+"""Ride-alongs in pictures of SC graphs: what can be taken off lies on a band of another colour.
+
+Which links and joints these are `graphs.reduce` says, and `synth reduce` lists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from graphs.errors import numbered
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.sc import SCGraph
+from graphs.reduce.ride_alongs import Reduction, reduce
+from synth.drawing.scene.shapes import Disc, Line, Point, Shape
+
+__all__ = ["bands", "said_of_ride_alongs", "taken_off"]
+
+_BAND = 0.9
+"""Width of a band, in units of the radius of a link."""
+_RIM = 1.45
+"""Radius of what lies below a link, likewise."""
+
+
+def taken_off(sc: SCGraph) -> Reduction:
+    """Return the reduction by ride-alongs, chains of them included, of an SC or SCD graph.
+
+    Examples
+    --------
+    >>> from graphs.files.formats import mechanism_of_id
+    >>> taken_off(mechanism_of_id("k1:Cr")).steps
+    ()
+    """
+    return reduce(sc)
+
+
+def bands(
+    reduction: Reduction, ways: Mapping[JointId, Sequence[Point]], links: Mapping[LinkId, Point], radius: float
+) -> list[Shape]:
+    """Return bands below the joints and links that are taken off.
+
+    Parameters
+    ----------
+    reduction : Reduction
+    ways : mapping of joint id to row of (x, y)
+        How joints are drawn.
+    links : mapping of link to (x, y)
+    radius : float
+        Of a link, points.
+    """
+    found: list[Shape] = []
+    for step in reduction.steps:
+        found += [Line(ways[joint], "marked", 2 * _BAND * radius) for joint in step.joints]
+        found += [Disc(links[link], _RIM * radius, "marked", None) for link in step.removed]
+    return found
+
+
+def said_of_ride_alongs(reduction: Reduction) -> list[str]:
+    """Return the line below the picture, if there is something to say.
+
+    Examples
+    --------
+    >>> from graphs.files.formats import mechanism_of_id
+    >>> said_of_ride_alongs(taken_off(mechanism_of_id("k1:Cr")))
+    []
+    """
+    if not reduction.steps:
+        return []
+    count = len(reduction.steps)
+    return [f"{numbered(count, 'ride-along')} (yellow band); without, {len(reduction.graph)} links stay"]

@@ -1,0 +1,38 @@
+"""PDF of many pages: contents packed when a page is done, and whole."""
+
+import re
+import tracemalloc
+import zlib
+from io import BytesIO
+
+import pytest
+
+from synth.drawing.scene.shapes import Layer, Line, Scene
+
+pytest.importorskip("reportlab")
+
+
+def test_pages_are_kept_packed():
+    """Memory grows by what the file grows, not by the text of the pages."""
+    from synth.drawing.scene.pdf import write_pdf
+
+    row = [(i % 97, i % 89) for i in range(2500)]
+    scene = Scene(100, 100, (Layer("a", (Line(row),)),))
+    held, stream = [], BytesIO()
+
+    def pages():
+        for _ in range(5):
+            yield scene
+            held.append(tracemalloc.get_traced_memory()[0])
+
+    tracemalloc.start()
+    try:
+        write_pdf(pages(), stream)
+    finally:
+        tracemalloc.stop()
+    texts = [
+        zlib.decompress(found) for found in re.findall(rb"stream\r?\n(.*?)endstream", stream.getvalue(), re.DOTALL)
+    ]
+    assert len(texts) == 5
+    assert texts[0].count(b" l") > 2400
+    assert (held[-1] - held[1]) / 3 < 0.6 * len(texts[0])
