@@ -1,9 +1,9 @@
 """Types that no flat sheet has: creases round a hole whose centre is outside it, and panels of few sides.
 
-Round a hole the directions in which creases leave it turn once, against the rays from a centre outside it too. In
-a panel with k sides between two such creases, away from the hole, they turn by at most k - 1 half turns against the
-rays, and by none where they meet in the centre: along a side the direction crosses rays one way, at each corner it
-turns by less than half a turn. Theory: docs/theory/realisation.md.
+Round a hole the directions in which creases leave it turn once, against the rays from a centre outside it too.
+In a panel with k sides between two such creases, away from the hole, they turn by at most k - 1 half turns against
+the rays, and by none where they meet in the centre: along a side the direction crosses rays one way, at each
+corner it turns by less than half a turn. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
