@@ -275,7 +275,8 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
     creases, turns = len(pattern.creases), None
     random = np.random.default_rng((asked.seed, drawn.number))
     if asked.kind == "space" and asked.receding:
-        places = receded(pattern, asked.receding, places, random) * asked.size
+        places, turns = receded(pattern, asked.receding, places, random)
+        places = places * asked.size
     elif asked.kind == "space":
         places, turns = lifted(pattern, places, random)
     sheet = Sheet(
@@ -285,8 +286,6 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
         pattern.panels,
         tuple(tuple(map(float, row)) for row in places),
     )
-    if asked.receding and asked.kind == "space":
-        turns = linkage_of_sheet(sheet).angles
     return sheet if turns is None else _lettered(sheet, turns)
 
 

@@ -70,7 +70,7 @@ class _Heights:
             At most 1.
         plane : float[3]
         room : float
-            Of the vertex that is nearest below it.
+            Of the vertex that is nearest below it; 0 if no plane goes through the centres.
         """
         size = lifts.shape[1]
         over = np.hstack([self.of_vertices @ lifts, -self.vertices, np.ones((len(self.vertices), 1))])
@@ -84,7 +84,9 @@ class _Heights:
         return found.x[:size], found.x[size : size + 3], float(found.x[-1])
 
 
-def receded(pattern: Pattern, centres: Sequence[Pointing], places: Floats, random: np.random.Generator) -> Floats:
+def receded(
+    pattern: Pattern, centres: Sequence[Pointing], places: Floats, random: np.random.Generator
+) -> tuple[Floats, Floats]:
     """Return places in space of panels drawn with centres that are points, these centres at infinity.
 
     Parameters
@@ -98,26 +100,29 @@ def receded(pattern: Pattern, centres: Sequence[Pointing], places: Floats, rando
 
     Returns
     -------
-    float[V, 3]
-        With an extent of about 1 in each direction.
+    places : float[V, 3]
+        With an extent of 1 in each direction.
+    turns : float[J]
+        Above 0 at valleys, as of `synth.realisation.space.lifting.lifted`: such maps keep the sign.
 
     Raises
     ------
     UnsolvableError
         If no plane through the centres meets no panel, or a hole becomes wider than the border.
     """
-    middle = places.mean(axis=0)
-    planes = planes_over(pattern, places - middle)
-    heights = _heights(pattern, centres, places - middle, planes)
+    places = (places - places.mean(axis=0)) / np.ptp(places, axis=0).max()
+    planes = planes_over(pattern, places)
+    folds = folds_of(pattern, places, planes)
+    heights = _heights(pattern, centres, places, planes)
     best, _, most = heights.plane(np.eye(planes.shape[1]))
     if most <= 0.0:
         raise UnsolvableError("no plane through the centres that are to be at infinity misses all panels")
-    for weights in _around(best, folds_of(pattern, places, planes), random):
+    for weights in _around(best, folds, random):
         scale, plane, room = heights.plane(weights[:, None])
         if room >= _ROOM * most:
             mapped = _mapped(heights, heights.vertices @ plane - heights.of_vertices @ (weights * scale))
             if _is_widest(mapped, pattern):
-                return mapped
+                return mapped, folds @ (weights * scale)
     raise UnsolvableError("with centres at infinity a hole is wider than the border")
 
 
