@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from synth.folding.branches import Branches as Branches
     from synth.folding.branches import Search as Search
     from synth.folding.branches import branches_of as branches_of
+    from synth.folding.branches import first_branch as first_branch
     from synth.folding.closure import ClosureEquations as ClosureEquations
     from synth.folding.linkage import PosedLinkage as PosedLinkage
     from synth.folding.linkage import linkage_of_axes as linkage_of_axes
@@ -34,7 +35,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "branches": "Branch Branches Search branches_of",
+            "branches": "Branch Branches Search branches_of first_branch",
             "closure": "ClosureEquations",
             "linkage": "PosedLinkage linkage_of_axes linkage_of_sheet",
             "motion": "Folding fold",

@@ -61,7 +61,7 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedW
     >>> from synth.patterns.creases.tessellations import miura
     >>> pattern = prepared(miura(2, 2, 1.0))
     >>> marked_way(pattern.branches, pattern.linkage, pattern.marks)
-    MarkedWay(number=0, marked='has')
+    MarkedWay(number=1, marked='has')
     >>> marked_way(pattern.branches, pattern.linkage, abs(pattern.marks))
     MarkedWay(number=None, marked='none has')
     """

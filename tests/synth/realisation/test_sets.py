@@ -8,8 +8,8 @@ from graphs.answer.identity import identify
 from graphs.errors import UnsolvableError
 from graphs.files.formats import read, write
 from graphs.identity.drawings import mechanism_from_map_id
-from graphs.rank.pose import pose_mobility
-from synth.folding.motion import fold
+from synth.folding.branches import first_branch
+from synth.folding.linkage import linkage_of_sheet
 from synth.realisation.figures import crossings
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import realise
@@ -50,7 +50,9 @@ def _check_in_space(codes, folder):
 
 
 def _check_moves(codes):
-    for code, one in _found(codes, "space")[0].items():
+    found, missed = _found(codes, "space")
+    assert not missed
+    for code, one in found.items():
         motion = moved(one.sheet)
         assert motion.turned >= TURN * 0.999 or motion.limit, code
         assert motion.freedoms == {one.mobility}, code
@@ -65,10 +67,13 @@ def _check_flat(codes, folder):
         assert one.figures.greatest_angle < np.pi, code
         assert crossings(pattern_of(one.scd), np.array(one.sheet.coordinates)) == 0, code
         assert one.freedoms == len(one.scd.joints) - 2 * len(one.scd.loops), code
-        if one.folds:
-            assert pose_mobility(fold(one.sheet, frames=3).frames()[1]).dof == one.mobility, code
-        else:
+        way = first_branch(linkage_of_sheet(one.sheet), lambda rates: bool(np.abs(rates).min() > 1e-7))
+        assert one.folds == (way is not None), code
+        if way is None:
             assert "no folding drawing found" in str(one), code
+        else:
+            assert way.freedoms == one.mobility, code
+            assert way.error < 1e-12, code
     assert _share_of_good_shape(found) >= 0.95
 
 
