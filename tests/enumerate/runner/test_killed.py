@@ -192,6 +192,7 @@ def test_killed_runs_lose_nothing(tmp_path, whole):
     assert len({row[2] for row in whole[1]}) == count_chains(13, 2, "burnside") == 27_496
 
 
+@pytest.mark.slow
 def test_a_cluster_that_loses_a_worker_gives_the_same_rows(tmp_path, whole):
     pytest.importorskip("distributed", reason="needs Dask: pip install 'synthedra[dask]'")
     store = tmp_path / "chains.sqlite"
