@@ -1,0 +1,111 @@
+"""A thing with panels as pieces to cut out and fold, at true scale.
+
+Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.mechanism.plane import flattened, in_space
+from graphs.mechanism.sheet import Sheet, with_all_edges
+from synth.templates.flat import is_laid_out, piece_of_flat_sheet
+from synth.templates.lines import Piece
+
+__all__ = ["Template", "template_of"]
+
+_LEAST = 10.0
+"""Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
+
+
+@dataclass(frozen=True)
+class Template:
+    """What is cut out and folded.
+
+    Attributes
+    ----------
+    pieces : tuple of Piece
+        Each by itself, millimetres.
+    scale : float
+        Millimetres for a unit of the coordinates.
+    title : str
+    told : tuple of str
+        What the lines do not show, by kind and number.
+    """
+
+    pieces: tuple[Piece, ...]
+    scale: float
+    title: str = ""
+    told: tuple[str, ...] = ()
+
+
+def template_of(
+    sheet: Sheet, *, scale: float | None = None, size: float | None = None, title: str = ""
+) -> Template:
+    """Return the template of a sheet.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates and faces.
+    scale : float, optional
+        Millimetres for a unit of the coordinates; 1 without it.
+    size : float, optional
+        Millimetres of the longer side of the sheet as it lies, instead of a scale.
+    title : str, optional
+        Instead of the sheet's own.
+
+    Returns
+    -------
+    Template
+
+    Raises
+    ------
+    InvariantError
+        If scale or size is no positive number, or both are given.
+    UnsolvableError
+        If the sheet has no coordinates or faces, or would be smaller than 10 mm.
+
+    Examples
+    --------
+    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> [stroke.kind for stroke in template_of(square, size=100).pieces[0].strokes]
+    ['CREASE', 'CUT', 'CUT', 'CUT', 'CUT']
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError("a template needs coordinates, and the sheet has none")
+    if not sheet.faces:
+        raise UnsolvableError("a template needs panels, and the sheet has none")
+    whole = with_all_edges(sheet)
+    flat = flattened(whole)
+    places = in_space(whole.coordinates or ()) if flat is None else flat.places
+    factor = _scale(places, scale, size)
+    if flat is None or not is_laid_out(whole, flat.places):
+        raise UnsolvableError("a template of panels that do not lie side by side in a plane")
+    piece, told = piece_of_flat_sheet(whole, flat.places * factor)
+    return Template((piece,), factor, title or sheet.title, told)
+
+
+def _scale(places: Floats, scale: float | None, size: float | None) -> float:
+    """Return millimetres for a unit, and refuse what nobody could fold."""
+    if scale is not None and size is not None:
+        raise InvariantError("scale", "a scale and a size", "one of them")
+    for name, value in (("scale", scale), ("size", size)):
+        if value is not None and not (isfinite(value) and value > 0):
+            raise InvariantError(name, f"{name} {value!r}", "a positive number")
+    extent = np.ptp(places, axis=0)
+    longest = float(extent.max())
+    if size is not None and longest > 0:
+        return size / longest
+    factor = 1.0 if scale is None else scale
+    if longest * factor < _LEAST:
+        found = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
+        raise UnsolvableError(
+            f"the sheet would be {found} mm: expected a larger scale or a size (--scale, --size)"
+        )
+    return factor
