@@ -35,6 +35,7 @@ def convert(
     Read and written:
       .json                native: SC and SCD graphs, models, vertex-edge graphs, linkages on cones
       .fold .svg .cp .obj  crease patterns
+      .dxf                 crease patterns (R12 written)
       .g6 .s6              graph6 and sparse6 (nauty): bare link-joint graphs
       .graphml             bare link-joint graphs
       .edges .txt          bare link-joint graphs, a joint a line
