@@ -1,8 +1,9 @@
 """Templates: sheets as lines to cut and to fold, at true scale on pages.
 
 `template_of` makes pieces of a thing with panels; `layout` puts them on pages of a `Paper`, whole or in tiles that
-overlap; `write_template` writes PDF, SVG or DXF. Below them: `lines` (what is drawn, and how each kind looks),
-`marks` (gauge, frame, what meets). Theory: docs/theory/templates.md.
+overlap; `write_template` writes PDF, SVG or DXF. Below them: `lines` (what is
+drawn, and how each kind looks), `marks` (gauge, frame, what meets), `tiles`; `synth.templates.pieces` (sheets that lie
+flat, panels in space as nets with tabs). Theory: docs/theory/templates.md.
 """
 
 from __future__ import annotations

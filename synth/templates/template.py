@@ -14,11 +14,14 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.plane import flattened, in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.templates.flat import is_laid_out, piece_of_flat_sheet
 from synth.templates.lines import Piece
+from synth.templates.pieces.flat import is_laid_out, piece_of_flat_sheet
+from synth.templates.pieces.nets import pieces_of_panels
 
-__all__ = ["Template", "template_of"]
+__all__ = ["TABS", "Template", "template_of"]
 
+TABS = 8.0
+"""Depth of tabs, millimetres."""
 _LEAST = 10.0
 """Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
 
@@ -45,9 +48,9 @@ class Template:
 
 
 def template_of(
-    sheet: Sheet, *, scale: float | None = None, size: float | None = None, title: str = ""
+    sheet: Sheet, *, scale: float | None = None, size: float | None = None, tabs: float = TABS, title: str = ""
 ) -> Template:
-    """Return the template of a sheet.
+    """Return the template of a sheet; of panels that do not lie side by side, nets with tabs to glue.
 
     Parameters
     ----------
@@ -57,6 +60,8 @@ def template_of(
         Millimetres for a unit of the coordinates; 1 without it.
     size : float, optional
         Millimetres of the longer side of the sheet as it lies, instead of a scale.
+    tabs : float, optional
+        Depth of tabs, millimetres; 0 for none.
     title : str, optional
         Instead of the sheet's own.
 
@@ -67,9 +72,10 @@ def template_of(
     Raises
     ------
     InvariantError
-        If scale or size is no positive number, or both are given.
+        If scale or size is no positive number, or both are given, or tabs is no number from 0 on.
     UnsolvableError
-        If the sheet has no coordinates or faces, or would be smaller than 10 mm.
+        If the sheet has no coordinates or faces, or would be smaller than 10 mm; if a panel is not plane, or
+        more than two meet in an edge.
 
     Examples
     --------
@@ -79,16 +85,19 @@ def template_of(
     """
     if sheet.coordinates is None:
         raise UnsolvableError("a template needs coordinates, and the sheet has none")
+    if not (isfinite(tabs) and tabs >= 0):
+        raise InvariantError("tabs", f"tabs {tabs!r}", "a number from 0 on")
     if not sheet.faces:
         raise UnsolvableError("a template needs panels, and the sheet has none")
     whole = with_all_edges(sheet)
     flat = flattened(whole)
     places = in_space(whole.coordinates or ()) if flat is None else flat.places
     factor = _scale(places, scale, size)
-    if flat is None or not is_laid_out(whole, flat.places):
-        raise UnsolvableError("a template of panels that do not lie side by side in a plane")
-    piece, told = piece_of_flat_sheet(whole, flat.places * factor)
-    return Template((piece,), factor, title or sheet.title, told)
+    if flat is not None and is_laid_out(whole, flat.places):
+        piece, told = piece_of_flat_sheet(whole, flat.places * factor)
+        return Template((piece,), factor, title or sheet.title, told)
+    pieces, told = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, tabs)
+    return Template(tuple(pieces), factor, title or sheet.title, told)
 
 
 def _scale(places: Floats, scale: float | None, size: float | None) -> float:

@@ -136,10 +136,16 @@ def _crosses(
                 for part in _ALONG:
                     along = starts[other] + place * (window[other] - OVERLAP) + part * window[other]
                     number += 1
-                    yield (
-                        ((across, along) if axis == 0 else (along, across)),
-                        f"{name}{'.' if name else ''}{number}",
-                    )
+                    yield ((across, along) if axis == 0 else (along, across)), name + _letters(number)
+
+
+def _letters(number: int) -> str:
+    """Return A, B, ..., Z, AA, ... for 1, 2, ...: numbers are for edges that are glued."""
+    letters = ""
+    while number:
+        number, place = divmod(number - 1, 26)
+        letters = chr(ord("A") + place) + letters
+    return letters
 
 
 def _holds(area: tuple[float, float, float, float], at: Point) -> bool:

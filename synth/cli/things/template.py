@@ -21,14 +21,19 @@ __all__ = ["template"]
 @click.option("--page", "page", default="A4", show_default=True, help="A4, A3, Letter, or WIDTHxHEIGHT in mm.")
 @click.option("--scale", type=float, help="Millimetres for a unit of the coordinates.  [default: 1]")
 @click.option("--size", type=float, metavar="MM", help="Longer side of the thing, instead of a scale.")
+@click.option("--tabs", type=float, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none.")
 @FORCE
-def template(file: str, output: str, page: str, scale: float | None, size: float | None, force: bool) -> None:
+def template(
+    file: str, output: str, page: str, scale: float | None, size: float | None, tabs: float, force: bool
+) -> None:
     """Print panels at true scale, to cut out and fold. FILE is a file, or an id m1:... or k1:...
 
     Coordinates are millimetres unless --scale or --size says otherwise. What is larger than a page comes in tiles,
     never smaller: tiles overlap by 10 mm, and crosses of one name lie over each other. Each page has a gauge of
     100 mm: measure it. A type without coordinates is realised first, as a flat sheet. Of .svg a file is written
     for each page; a .dxf is one drawing at full size.
+    Panels that do not lie side by side are laid out in nets, none over another, with tabs: edges of one number are
+    glued.
 
     \b
     Examples:
@@ -50,7 +55,7 @@ def template(file: str, output: str, page: str, scale: float | None, size: float
     thing = read(file)
     with about(file):
         sheet = _sheet_of(thing)
-        made = template_of(sheet, scale=scale, size=size)
+        made = template_of(sheet, scale=scale, size=size, tabs=tabs)
     for place in write_template(made, output, paper=paper, force=force):
         click.echo(f"written: {plain(str(place), 4096)}")
     if made.told:

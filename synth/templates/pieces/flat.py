@@ -11,9 +11,12 @@ from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from synth.templates.lines import Kind, Piece, Point, Stroke
+from synth.templates.pieces.cuts import cut_once
 
-__all__ = ["FOLDS", "is_laid_out", "piece_of_flat_sheet"]
+__all__ = ["FOLDS", "GRID", "is_laid_out", "piece_of_flat_sheet"]
 
+GRID = 1e-6
+"""Millimetres to which areas are rounded that are put together: panels side by side leave no slits."""
 _OVERLAP = 1e-6
 """Panels lie side by side if no more than this part of their area is covered twice."""
 FOLDS: dict[str, Kind] = {"M": "MOUNTAIN", "V": "VALLEY", "U": "CREASE"}
@@ -69,7 +72,7 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
             loose += 1
     told = [numbered(flat, "flat edge")] if flat else []
     told += [f"{numbered(loose, 'line')} between no panels"] if loose else []
-    return Piece(tuple(strokes), (), _covered(sheet, places)), tuple(told)
+    return Piece(tuple(cut_once(strokes)), (), _covered(sheet, places)), tuple(told)
 
 
 def _kind(letter: str, faces: int) -> Kind | None:
@@ -80,7 +83,7 @@ def _kind(letter: str, faces: int) -> Kind | None:
 
 
 def _covered(sheet: Sheet, places: Floats) -> Any:
-    return shapely.union_all([shapely.Polygon(places[list(face)]) for face in sheet.faces])
+    return shapely.union_all([shapely.Polygon(places[list(face)]) for face in sheet.faces], grid_size=GRID)
 
 
 def _point(place: Floats) -> Point:
