@@ -8,22 +8,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isfinite
 
-import numpy as np
-
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.plane import flattened, in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.templates.lines import Piece
 from synth.templates.pieces.flat import is_laid_out, piece_of_flat_sheet
 from synth.templates.pieces.nets import pieces_of_panels
+from synth.templates.scale import millimetres
 
 __all__ = ["TABS", "Template", "template_of"]
 
 TABS = 8.0
 """Depth of tabs, millimetres."""
-_LEAST = 10.0
-"""Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
 
 
 @dataclass(frozen=True)
@@ -92,29 +88,9 @@ def template_of(
     whole = with_all_edges(sheet)
     flat = flattened(whole)
     places = in_space(whole.coordinates or ()) if flat is None else flat.places
-    factor = _scale(places, scale, size)
+    factor = millimetres(places, scale, size)
     if flat is not None and is_laid_out(whole, flat.places):
         piece, told = piece_of_flat_sheet(whole, flat.places * factor)
         return Template((piece,), factor, title or sheet.title, told)
     pieces, told = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, tabs)
     return Template(tuple(pieces), factor, title or sheet.title, told)
-
-
-def _scale(places: Floats, scale: float | None, size: float | None) -> float:
-    """Return millimetres for a unit, and refuse what nobody could fold."""
-    if scale is not None and size is not None:
-        raise InvariantError("scale", "a scale and a size", "one of them")
-    for name, value in (("scale", scale), ("size", size)):
-        if value is not None and not (isfinite(value) and value > 0):
-            raise InvariantError(name, f"{name} {value!r}", "a positive number")
-    extent = np.ptp(places, axis=0)
-    longest = float(extent.max())
-    if size is not None and longest > 0:
-        return size / longest
-    factor = 1.0 if scale is None else scale
-    if longest * factor < _LEAST:
-        found = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
-        raise UnsolvableError(
-            f"the sheet would be {found} mm: expected a larger scale or a size (--scale, --size)"
-        )
-    return factor

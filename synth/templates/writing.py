@@ -7,11 +7,11 @@ from pathlib import Path
 from graphs.errors import FileError
 from graphs.files.atomic import Beside, check_place
 from graphs.plain_text import plain
-from synth.templates.dxf import dxf_of_template
+from synth.templates.formats.dxf import dxf_of_template
+from synth.templates.formats.pdf import check_reportlab, pdf_of_pages
+from synth.templates.formats.svg import svg_of_page
 from synth.templates.pages import Page, pages_of
 from synth.templates.paper import Paper
-from synth.templates.pdf import check_reportlab, pdf_of_pages
-from synth.templates.svg import svg_of_page
 from synth.templates.template import Template
 
 __all__ = ["check_template", "write_template"]

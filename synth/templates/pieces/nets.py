@@ -164,7 +164,7 @@ def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) ->
     for here, there in (sides, sides[::-1]):
         net = here.work.net
         laid, _ = across(panels, edge, here.face, net.corners[here.face], turned=net.turned[here.face])
-        own = panels.flat[there.face]
+        own = panels.planes[there.face].flat
         taken = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
         free = shapely.difference(shapely.Polygon(laid), shapely.union_all(taken))
         material = [*net.polygons(), *here.work.tabs]

@@ -17,12 +17,11 @@ import shapely
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
-from graphs.mechanism.sheet import COLLINEAR, FLAT, Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
+from synth.templates.pieces.planes import Plane, plane_of_panel
 
 __all__ = ["Net", "Panels", "across", "nets_of", "panels_of"]
 
-_PLANE = 1e-5
-"""Corners of a panel lie in a plane if they are this close to it, in units of its extent."""
 _OVER = 1e-6
 """A panel lies over another if they share more than this part of its area."""
 _CUT = "BC"
@@ -36,18 +35,19 @@ class Panels:
     ----------
     sheet : Sheet
         With all edges listed.
-    flat : tuple of float[corners, 2]
-        Of each face its corners in its plane, counter-clockwise as the face is.
-    normals : float[faces, 3]
+    planes : tuple of Plane
+        One for each face.
     joins : dict of edge to (face, face)
         Edges at which two panels hang together.
+    slits : dict of edge to (face, face)
+        Edges between two panels that are cut.
     places : float[vertices, 3]
     """
 
     sheet: Sheet
-    flat: tuple[Floats, ...]
-    normals: Floats
+    planes: tuple[Plane, ...]
     joins: Mapping[int, tuple[int, int]]
+    slits: Mapping[int, tuple[int, int]]
     places: Floats
 
     def ends(self, face: int, edge: int) -> tuple[int, int]:
@@ -63,8 +63,13 @@ class Panels:
         along = self.places[b] - self.places[a]
         along = along / np.linalg.norm(along)
         c, _ = (self.sheet.faces[second][corner] for corner in self.ends(second, edge))
-        other = self.normals[second] * (1 if c == b else -1)
-        return -atan2(along @ np.cross(self.normals[first], other), self.normals[first] @ other)
+        normal = self.planes[first].normal
+        other = self.planes[second].normal * (1 if c == b else -1)
+        return -atan2(along @ np.cross(normal, other), normal @ other)
+
+    def shared_by(self, face: int) -> list[int]:
+        """Return the edges between a panel and another, hinged or cut."""
+        return [edge for edge, faces in (*self.joins.items(), *self.slits.items()) if face in faces]
 
 
 @dataclass(frozen=True)
@@ -101,12 +106,13 @@ def panels_of(sheet: Sheet, places: Floats) -> Panels:
     UnsolvableError
         If a panel is not plane, or more than two meet in an edge.
     """
-    flat, normals = zip(*(_in_its_plane(places[list(f)], i) for i, f in enumerate(sheet.faces)), strict=True)
+    planes = tuple(plane_of_panel(places[list(around)], face) for face, around in enumerate(sheet.faces))
     faces: dict[frozenset[int], list[int]] = defaultdict(list)
     for face, around in enumerate(sheet.faces):
         for side in sides_of_face(around):
             faces[frozenset(side)].append(face)
-    joins = {}
+    joins: dict[int, tuple[int, int]] = {}
+    slits: dict[int, tuple[int, int]] = {}
     for edge, letter in _once(sheet):
         at = faces[frozenset(sheet.edges[edge])]
         if len(at) > 2:
@@ -114,9 +120,9 @@ def panels_of(sheet: Sheet, places: Floats) -> Panels:
             raise UnsolvableError(
                 f"{len(at)} panels meet in the edge from vertex {a} to {b}: expected at most two"
             )
-        if len(at) == 2 and letter not in _CUT:
-            joins[edge] = (at[0], at[1])
-    return Panels(sheet, tuple(flat), np.array(normals), joins, places)
+        if len(at) == 2:
+            (slits if letter in _CUT else joins)[edge] = (at[0], at[1])
+    return Panels(sheet, planes, joins, slits, places)
 
 
 def _once(sheet: Sheet) -> list[tuple[int, str]]:
@@ -125,23 +131,6 @@ def _once(sheet: Sheet) -> list[tuple[int, str]]:
     for number, edge in enumerate(sheet.edges):
         first.setdefault(frozenset(edge), number)
     return [(number, sheet.assignments[number]) for number in first.values()]
-
-
-def _in_its_plane(corners: Floats, face: int) -> tuple[Floats, Floats]:
-    """Return the corners of a panel in its plane, and its normal."""
-    arms = corners - corners.mean(axis=0)
-    normal: Floats = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
-    size = float(np.abs(arms).max())
-    if np.linalg.norm(normal) <= COLLINEAR * size**2:
-        raise UnsolvableError(f"panel {face} has no area")
-    normal = normal / np.linalg.norm(normal)
-    if float(np.abs(arms @ normal).max()) > _PLANE * size:
-        raise UnsolvableError(f"panel {face} is not plane, and cannot be cut of a sheet")
-    along = np.eye(3)[int(np.abs(normal).argmin())]
-    along = along - (along @ normal) * normal
-    along /= np.linalg.norm(along)
-    flat: Floats = arms @ np.column_stack([along, np.cross(normal, along)])
-    return flat, normal
 
 
 def nets_of(panels: Panels) -> list[Net]:
@@ -162,8 +151,8 @@ def nets_of(panels: Panels) -> list[Net]:
     for edge, faces in panels.joins.items():
         for face in faces:
             edges_at[face].append(edge)
-    areas = [shapely.Polygon(corners).area for corners in panels.flat]
-    left = set(range(len(panels.flat)))
+    areas = [shapely.Polygon(plane.flat).area for plane in panels.planes]
+    left = set(range(len(panels.planes)))
     nets = []
     while left:
         root = max(left, key=lambda face: (areas[face], -face))
@@ -175,8 +164,8 @@ def nets_of(panels: Panels) -> list[Net]:
 
 def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> Net:
     """Return the net that grows from a panel over those that are left."""
-    corners, turned = {root: panels.flat[root]}, {root: False}
-    polygons = [shapely.Polygon(panels.flat[root])]
+    corners, turned = {root: panels.planes[root].flat}, {root: False}
+    polygons = [shapely.Polygon(panels.planes[root].flat)]
     waiting: list[tuple[tuple[bool, float, int], int, int]] = []
 
     def reach(face: int) -> None:
@@ -230,7 +219,7 @@ def across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) 
     c, d = panels.ends(other, edge)
     same_way = panels.sheet.faces[face][a] == panels.sheet.faces[other][c]
     flipped = turned != same_way
-    flat = panels.flat[other] * ((-1, 1) if flipped else (1, 1))
+    flat = panels.planes[other].flat * ((-1, 1) if flipped else (1, 1))
     if not same_way:
         c, d = d, c
     was, now = flat[d] - flat[c], laid[b] - laid[a]
