@@ -38,9 +38,9 @@ class Look:
 
 LOOKS: dict[Kind, Look] = {
     "CUT": Look("#000000", 7, 0.3, (), "black: cut"),
-    "MOUNTAIN": Look("#ff0000", 1, 0.25, (4, 1, 0.6, 1), "red, dashes and dots: mountain"),
-    "VALLEY": Look("#0000ff", 5, 0.25, (3, 1.5), "blue, dashes: valley"),
-    "CREASE": Look("#ff00ff", 6, 0.25, (1, 1), "magenta, dots: fold"),
+    "MOUNTAIN": Look("#ff0000", 1, 0.25, (4, 1, 0.6, 1), "red, dash and dot: mountain, away from you"),
+    "VALLEY": Look("#0000ff", 5, 0.25, (3, 1.5), "blue, dashes: valley, towards you"),
+    "CREASE": Look("#ff00ff", 6, 0.25, (1, 1), "magenta, dots: fold, either way"),
     "MARKS": Look("#808080", 8, 0.15, (), ""),
 }
 """Kind of stroke to its look, in the order in which they are drawn; the kind is the name of its layer.

@@ -13,8 +13,8 @@ GAUGE = 100.0
 """Length of the gauge, millimetres."""
 _TICK, _EACH = 1.5, 10
 _ARM = 4.0
-_ROWS = (3.0, 8.5, 13.0)
-"""Heights of gauge, legend and caption over the margin, millimetres; they fill the footer."""
+_ROWS = (3.0, 8.0, 12.0, 17.0)
+"""Heights of gauge, two rows of legend and caption over the margin, millimetres; they fill the footer."""
 _GAUGE_TEXT = 2.5
 
 
@@ -43,9 +43,10 @@ def footer(kinds: Iterable[Kind], caption: str) -> tuple[list[Stroke], list[Text
     """
     shown = set(kinds)
     strokes, texts = gauge((MARGIN, MARGIN + _ROWS[0]))
-    legend = "; ".join(look.meaning for kind, look in LOOKS.items() if kind in shown and look.meaning)
-    texts.append(Text((MARGIN, MARGIN + _ROWS[1]), legend, _GAUGE_TEXT, middle=False))
-    texts.append(Text((MARGIN, MARGIN + _ROWS[2]), caption, _GAUGE_TEXT, middle=False))
+    meanings = [look.meaning for kind, look in LOOKS.items() if kind in shown and look.meaning]
+    legend = ["; ".join(meanings[:2]), "; ".join(meanings[2:])]
+    rows = zip(_ROWS[:0:-1], [caption, *legend], strict=True)
+    texts += [Text((MARGIN, MARGIN + row), words, _GAUGE_TEXT, middle=False) for row, words in rows if words]
     return strokes, texts
 
 

@@ -11,7 +11,7 @@ __all__ = ["FOOTER", "MARGIN", "OVERLAP", "Paper", "paper_named"]
 
 MARGIN = 10.0
 """Millimetres of each side of a page on which nothing is printed: what printers leave free."""
-FOOTER = 16.0
+FOOTER = 20.0
 """Millimetres at the foot of a page, above the margin, for the gauge and what the lines mean."""
 OVERLAP = 10.0
 """Millimetres by which tiles on pages that meet overlap."""
@@ -37,7 +37,7 @@ class Paper:
     Examples
     --------
     >>> Paper(210, 297).window
-    (190.0, 261.0)
+    (190.0, 257.0)
     """
 
     width: float

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -55,7 +56,7 @@ def template(
     thing = read(file)
     with about(file):
         sheet = _sheet_of(thing)
-        made = template_of(sheet, scale=scale, size=size, tabs=tabs)
+        made = template_of(sheet, scale=scale, size=size, tabs=tabs, title=sheet.title or Path(file).name)
     for place in write_template(made, output, paper=paper, force=force):
         click.echo(f"written: {plain(str(place), 4096)}")
     if made.told:

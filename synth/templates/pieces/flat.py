@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from typing import Any
 
 import shapely
@@ -13,10 +14,10 @@ from graphs.mechanism.sheet import Sheet, sides_of_face
 from synth.templates.lines import Kind, Piece, Point, Stroke
 from synth.templates.pieces.cuts import cut_once
 
-__all__ = ["FOLDS", "GRID", "is_laid_out", "piece_of_flat_sheet"]
+__all__ = ["FOLDS", "is_laid_out", "piece_of_flat_sheet", "put_together"]
 
-GRID = 1e-6
-"""Millimetres to which areas are rounded that are put together: panels side by side leave no slits."""
+_SLIT = 1e-6
+"""Millimetres: what is so narrow between panels side by side is of rounding, and is closed."""
 _OVERLAP = 1e-6
 """Panels lie side by side if no more than this part of their area is covered twice."""
 FOLDS: dict[str, Kind] = {"M": "MOUNTAIN", "V": "VALLEY", "U": "CREASE"}
@@ -70,9 +71,10 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
             flat += 1
         else:
             loose += 1
+    polygons = [shapely.Polygon(places[list(face)]) for face in sheet.faces]
     told = [numbered(flat, "flat edge")] if flat else []
     told += [f"{numbered(loose, 'line')} between no panels"] if loose else []
-    return Piece(tuple(cut_once(strokes)), (), _covered(sheet, places)), tuple(told)
+    return Piece(tuple(cut_once(strokes)), (), put_together(polygons)), tuple(told)
 
 
 def _kind(letter: str, faces: int) -> Kind | None:
@@ -82,8 +84,13 @@ def _kind(letter: str, faces: int) -> Kind | None:
     return FOLDS.get(letter) if faces else None
 
 
-def _covered(sheet: Sheet, places: Floats) -> Any:
-    return shapely.union_all([shapely.Polygon(places[list(face)]) for face in sheet.faces], grid_size=GRID)
+def put_together(polygons: Iterable[Any]) -> Any:
+    """Return the area that polygons cover, without the slits that rounding leaves between them.
+
+    Rounding their corners to a grid would not do: one corner of two polygons can be rounded two ways.
+    """
+    wider = shapely.union_all(shapely.buffer(list(polygons), _SLIT, join_style="mitre"))
+    return wider.buffer(-_SLIT, join_style="mitre")
 
 
 def _point(place: Floats) -> Point:

@@ -17,7 +17,7 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
 from synth.templates.pieces.cuts import cut_once
-from synth.templates.pieces.flat import FOLDS, GRID
+from synth.templates.pieces.flat import FOLDS, put_together
 from synth.templates.pieces.tabs import tab_at
 from synth.templates.pieces.unfolding import Net, Panels, across, nets_of, panels_of
 
@@ -216,7 +216,7 @@ def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:
 
 
 def _piece(work: _Work) -> Piece:
-    covered = shapely.union_all([*work.net.polygons(), *work.tabs], grid_size=GRID)
+    covered = put_together([*work.net.polygons(), *work.tabs])
     return Piece(tuple(cut_once(work.strokes)), tuple(work.texts), covered)
 
 

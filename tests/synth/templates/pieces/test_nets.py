@@ -13,6 +13,7 @@ from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate
+from synth.templates.pieces.flat import put_together
 from synth.templates.pieces.tabs import tab_at
 from synth.templates.pieces.unfolding import nets_of, panels_of
 from synth.templates.template import template_of
@@ -106,6 +107,18 @@ def test_every_panel_is_laid_as_it_stands_and_edges_that_are_glued_come_together
         polygons = net.polygons()
         assert shapely.union_all(polygons).area == pytest.approx(sum(one.area for one in polygons), rel=1e-9)
     assert laid == len(sheet.faces)
+
+
+def test_corners_that_rounding_puts_apart_leave_no_slit():
+    """A row of triangles turned by any angle: its panels have corners that differ in their last digits."""
+    turns = np.exp(1j * np.linspace(0.1, 3, 40))
+    row = np.array([k + (k % 2) * 4.2j for k in range(14)])
+    for turn in turns:
+        corners = [row[k : k + 3] * turn for k in range(12)]
+        shifted = [(one + 1 / 3) * (1 + 1e-15 * k) for k, one in enumerate(corners)]
+        whole = put_together([shapely.Polygon(np.column_stack([one.real, one.imag])) for one in shifted])
+        assert whole.geom_type == "Polygon"
+        assert not whole.interiors
 
 
 def test_a_closed_surface_has_one_net_of_mountains_seen_from_outside():
