@@ -133,6 +133,18 @@ def test_a_closed_surface_has_one_net_of_mountains_seen_from_outside():
     assert made.told == ()
 
 
+@pytest.mark.parametrize("other_way", range(6))
+def test_folds_are_those_seen_from_the_first_panel_whichever_way_others_go_round(other_way):
+    faces = tuple(face[::-1] if number == other_way else face for number, face in enumerate(CUBE))
+    first, turned = (
+        {stroke.kind for stroke in template_of(Sheet(8, (), "", one, CORNERS), size=50).pieces[0].strokes}
+        - {"CUT"}
+        for one in (CUBE, faces)
+    )
+    assert len(first) == len(turned) == 1
+    assert (first == turned) == (other_way != 0)
+
+
 def test_letters_of_the_file_say_how_to_fold_and_are_changed_where_a_panel_is_turned():
     corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0.5), (2, 1, 0.5))
     for faces, kind in ((((0, 1, 2, 3), (1, 4, 5, 2)), "VALLEY"), (((3, 2, 1, 0), (2, 5, 4, 1)), "MOUNTAIN")):
@@ -176,3 +188,48 @@ def test_without_tabs_edges_are_numbered_all_the_same(tmp_path, data):
 def test_what_no_sheet_can_be_cut_of_is_refused(faces, told):
     with pytest.raises(UnsolvableError, match=told):
         template_of(Sheet(8, (), "", faces, CORNERS), size=100)
+
+
+def folded_up(panels, net):
+    """Places of corners in space when a net is folded along its creases by their angles, from its first panel on."""
+    motions = {next(iter(net.corners)): (np.eye(3), np.zeros(3))}
+    waiting = list(motions)
+    while waiting:
+        face = waiting.pop()
+        turn, shift = motions[face]
+        for edge, pair in panels.joins.items():
+            other = sum(pair) - face
+            if face not in pair or other in motions:
+                continue
+            (a, b), (c, d) = panels.ends(face, edge), panels.ends(other, edge)
+            start, end = net.corners[face][[a, b]]
+            if np.abs(net.corners[other][[d, c]] - [start, end]).max() > 1e-6:
+                continue  # glued, not folded
+            along = np.append((end - start) / np.linalg.norm(end - start), 0)
+            across = np.cross([[1, 0, 0], [0, 1, 0], [0, 0, 1]], along)
+            angle = panels.fold_angle(edge)
+            # The other panel is on the right of the edge: a valley, which lifts it, turns it the negative way.
+            bent = np.eye(3) - np.sin(angle) * across + (1 - np.cos(angle)) * across @ across
+            hinge = np.append(start, 0)
+            motions[other] = (turn @ bent, turn @ (hinge - bent @ hinge) + shift)
+            waiting.append(other)
+    flat = {face: np.column_stack([corners, np.zeros(len(corners))]) for face, corners in net.corners.items()}
+    return {face: flat[face] @ turn.T + shift for face, (turn, shift) in motions.items()}
+
+
+@pytest.mark.parametrize("case", ["cube", "octahedron", "storey", "pop-up"])
+def test_a_net_that_is_folded_along_its_creases_closes(case):
+    sheet = with_all_edges(sheet_of(CASES[case]))
+    places = np.array(sheet.coordinates, dtype=float) * 100
+    panels = panels_of(sheet, places)
+    (net,) = nets_of(panels)
+    stands = folded_up(panels, net)
+    assert set(stands) == set(range(len(sheet.faces)))
+    for face, other in panels.joins.values():
+        for vertex in set(sheet.faces[face]) & set(sheet.faces[other]):
+            first, second = (stands[one][sheet.faces[one].index(vertex)] for one in (face, other))
+            np.testing.assert_allclose(first, second, atol=1e-9)
+    everything = np.concatenate([stands[face] for face in range(len(sheet.faces))])
+    wanted = np.concatenate([places[list(around)] for around in sheet.faces])
+    volumes = [np.linalg.det(points[[1, 2, -1]] - points[0]) for points in (everything, wanted)]
+    assert volumes[0] == pytest.approx(volumes[1], abs=1e-3)  # not its mirror image
