@@ -99,6 +99,10 @@ def test_tiles_meet_at_their_crosses_and_hold_every_line(words, pages, bird, tmp
                     np.testing.assert_allclose(apart, [apart[0]] * len(apart), atol=NEAR)
                     shifts[other] = shifts[one] + apart[0]
     assert len(shifts) == pages
+    margins, foot, overlap = 20, 20, 10
+    steps = np.array(tiles[0][2]) - (margins + overlap, margins + foot + overlap)
+    for shift in shifts.values():
+        np.testing.assert_allclose(shift, np.round(shift / steps) * steps, atol=NEAR)
     whole = {kind: [] for kind in KINDS.values()}
     for number, (lines, _, size) in enumerate(tiles):
         assert lines["MARKS"].reshape(-1, 2).min() >= MARGIN - NEAR

@@ -82,6 +82,16 @@ def test_the_gap_is_open_and_free_sides_are_where_they_were():
     assert second.volume() == pytest.approx(18.5 * 30)
 
 
+def test_plates_do_not_touch_at_a_corner_that_points_inwards():
+    """An angle bracket and the square in it, which share two hinges and the corner between them."""
+    corners = ((0, 0), (40, 0), (40, 20), (20, 20), (20, 40), (0, 40), (40, 40))
+    sheet = with_all_edges(Sheet(7, (), "", ((0, 1, 2, 3, 4, 5), (3, 2, 6, 4)), corners))
+    places = np.column_stack([corners, np.zeros(7)])
+    bracket, _ = plates_in_space(plates_of(sheet, places, thickness=1, gap=3))
+    assert is_watertight(bracket)
+    assert np.abs(bracket.corners[:, :2] - (20, 20)).max(axis=1).min() == pytest.approx(1.5)
+
+
 def triangles_of_stl(path):
     raw = path.read_bytes()
     count = int.from_bytes(raw[80:84], "little")
