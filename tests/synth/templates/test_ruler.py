@@ -78,7 +78,12 @@ def test_a_template_is_read_back_as_the_pattern_that_it_is_of(bird, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "pages"), [(["--page", "A4"], 6), (["--page", "A3"], 4), (["--page", "400x300"], 4)]
+    ("words", "pages"),
+    [
+        (["--page", "A4"], 6),
+        pytest.param(["--page", "A3"], 4, marks=pytest.mark.slow),
+        pytest.param(["--page", "400x300"], 4, marks=pytest.mark.slow),
+    ],
 )
 def test_tiles_meet_at_their_crosses_and_hold_every_line(words, pages, bird, tmp_path):
     run("template", bird, "--size", 500, *words, "-o", tmp_path / "a.svg")

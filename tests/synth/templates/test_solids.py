@@ -3,6 +3,7 @@
 import base64
 import json
 from collections import Counter
+from functools import cache
 from zipfile import ZipFile
 
 import numpy as np
@@ -36,6 +37,7 @@ HINGED = Sheet(
 )
 
 
+@cache
 def folded(name):
     sheet = with_all_edges(generate(name, fold=FOLDED[name]).mechanism)
     return sheet, np.array(sheet.coordinates) * 100

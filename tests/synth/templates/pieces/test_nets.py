@@ -1,6 +1,7 @@
 """Panels in space as nets with tabs: true, beside each other, closed again when they are folded."""
 
 from collections import Counter
+from functools import cache
 
 import numpy as np
 import pytest
@@ -37,6 +38,7 @@ CASES = {
 }
 
 
+@cache
 def sheet_of(case):
     return (
         generate(case, fold=1.0 if GENERATORS[case].foldable else None).mechanism
