@@ -25,6 +25,7 @@ from graphs.files.kept_type import change_of_type
 from graphs.files.losses import (
     lost_as_bare_graph,
     lost_as_cp,
+    lost_as_dxf,
     lost_as_fold,
     lost_as_json,
     lost_as_obj,
@@ -284,6 +285,12 @@ def _read_opx(path: Path) -> Iterator[tuple[str, Mechanism]]:
     yield "", sheet_from_opx(path)
 
 
+def _read_dxf(path: Path) -> Iterator[tuple[str, Mechanism]]:
+    from graphs.files.patterns.dxf.sheets import sheet_from_dxf
+
+    yield "", sheet_from_dxf(path)
+
+
 def _read_svg(path: Path) -> Iterator[tuple[str, Mechanism]]:
     from graphs.files.patterns.svg import sheet_from_svg
 
@@ -300,6 +307,7 @@ READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
     ".svg": _read_svg,
     ".cp": _read_cp,
     ".opx": _read_opx,
+    ".dxf": _read_dxf,
     ".obj": _read_obj,
     ".g6": _read_graph6,
     ".s6": _read_graph6,
@@ -327,6 +335,13 @@ def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     return cp_text(sheet), (*lost_as_cp(mechanism, sheet), *_how_it_stood(sheet))
 
 
+def _write_dxf(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    from graphs.files.patterns.dxf.sheets import dxf_text
+
+    sheet = to_sheet(mechanism)
+    return dxf_text(sheet), (*lost_as_dxf(mechanism, sheet), *_how_it_stood(sheet))
+
+
 def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     from graphs.files.patterns.svg import svg_text
 
@@ -350,6 +365,7 @@ WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
     ".fold": _write_fold,
     ".svg": _write_svg,
     ".cp": _write_cp,
+    ".dxf": _write_dxf,
     ".obj": _write_obj,
     ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), lost_as_bare_graph(m, names=False)),
     ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), lost_as_bare_graph(m, names=False)),

@@ -17,7 +17,15 @@ from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
 from graphs.plain_text import plain
 
-__all__ = ["lost_as_bare_graph", "lost_as_cp", "lost_as_fold", "lost_as_json", "lost_as_obj", "lost_as_svg"]
+__all__ = [
+    "lost_as_bare_graph",
+    "lost_as_cp",
+    "lost_as_dxf",
+    "lost_as_fold",
+    "lost_as_json",
+    "lost_as_obj",
+    "lost_as_svg",
+]
 
 Lost = tuple[str, ...]
 
@@ -67,6 +75,18 @@ def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
         *_title(sheet),
     ]
     return (*lost_as_fold(mechanism), *told, *_precision(sheet), _bounds(sheet))
+
+
+def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
+    """Return what the DXF file of a sheet that was made of a mechanism does not hold.
+
+    Examples
+    --------
+    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
+    >>> lost_as_dxf(sheet, sheet)
+    ('1 fold angle', 'which lines bound which of 1 face')
+    """
+    return (*lost_as_fold(mechanism), *_angles(sheet), *_title(sheet), *_precision(sheet), _bounds(sheet))
 
 
 def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:

@@ -24,6 +24,13 @@ _SVG = (
     b'<rect width="9" height="8" stroke="black"/><path d="M0 4h9m-4-4c1 3 3 1 0 8A2 3 4 0 1 9 9z"/>'
     b'<polyline points="1,2 3,4 5,1" stroke="rgb(0,0,255)"/><circle r="3" stroke="blue"/></g></svg>'
 )
+_DXF = (
+    b"0\nSECTION\n2\nTABLES\n0\nLAYER\n2\nA\n62\n1\n6\nDASHED\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+    b"0\nLWPOLYLINE\n8\nCut\n70\n1\n10\n0\n20\n0\n10\n9\n20\n0\n42\n0.3\n10\n9\n20\n8\n10\n0\n20\n8\n"
+    b"0\nPOLYLINE\n8\nA\n0\nVERTEX\n10\n0\n20\n0\n0\nVERTEX\n10\n4\n20\n5\n0\nVERTEX\n10\n9\n20\n8\n0\nSEQEND\n"
+    b"0\nARC\n8\n0\n62\n5\n10\n0\n20\n0\n40\n4\n50\n0\n51\n90\n0\nCIRCLE\n8\n0\n420\n255\n10\n4\n20\n4\n40\n1\n"
+    b"0\nENDSEC\n0\nEOF\n"
+)
 _OPX = ((1, 0, 0, 9, 0), (1, 9, 0, 9, 8), (1, 9, 8, 0, 8), (1, 0, 8, 0, 0), (2, 0, 0, 9, 8), (3, 9, 0, 0, 8))
 _FRAMES = (
     b'{"vertices_coords":[[0,0],[1,0],[1,1],[0,1]],"edges_vertices":[[0,1],[1,2],[2,3],[3,0],[0,2]],'
@@ -46,12 +53,13 @@ def seeds(data: Path, folder: Path) -> dict[str, list[bytes]]:
     made[".fold"].append(_FRAMES)
     made[".json"] += [(data / f"{name}.json").read_bytes() for name in _NATIVE]
     scd = read(data / "wiener" / "table3-row3.json")
-    wrote(read(patterns[0]), ".svg .cp .obj")
+    wrote(read(patterns[0]), ".svg .cp .obj .dxf")
     wrote(scd, ".g6 .s6 .graphml .edges .txt")
     wrote(to_vertex_edge(to_sc(scd)), ".json")
     for suffix in (".g6", ".s6"):
         made[suffix].append(made[suffix][0] * 2)
     made[".svg"].append(_SVG)
+    made[".dxf"].append(_DXF)
     made[".opx"].append(opx_text(_OPX).encode())
     made[".edges"].append(b"0 1 {'weight': 3}\n1 2 {}\n2 3 {}\n3 0 {}\n")
     made[".csv"].append(b',source,target,weight\n0,0,1,1.0\n1,1,2,1.0\n2,"2",3,1.0\n3,3,0,1.0\n')

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 
 from synth.cli.output import FORCE, LOSSY, about, check_output, plain, print_json, tell_lost
 
+if TYPE_CHECKING:
+    from graphs.convert.table import Mechanism
+
 __all__ = ["convert"]
+
+_SOLIDS = (".stl", ".3mf", ".gltf")
 
 
 @click.command(short_help="Convert between kinds of files; change centres.")
@@ -23,11 +32,22 @@ __all__ = ["convert"]
     type=click.Choice(["planar", "spherical", "general"]),
     help="Change the centres: planar analogue, spherical analogue, or most general form.",
 )
+@click.option("--thickness", type=float, metavar="MM", help="Of panels as solids.  [default: 1]")
+@click.option("--gap", type=float, metavar="MM", help="Of solids at a hinge.  [default: twice the thickness]")
+@click.option("--scale", type=float, help="Of solids: millimetres for a unit.  [default: 1]")
+@click.option("--size", type=float, metavar="MM", help="Of solids: longest side of all, instead of a scale.")
 @FORCE
 @LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print what was done as JSON.")
 def convert(
-    source: str, target: str, kind: str | None, form: str | None, force: bool, lossy: bool, as_json: bool
+    source: str,
+    target: str,
+    kind: str | None,
+    form: str | None,
+    force: bool,
+    lossy: bool,
+    as_json: bool,
+    **solid: float | None,
 ) -> None:
     """Convert a mechanism from one kind of file to another; the extensions name the formats.
 
@@ -35,12 +55,17 @@ def convert(
     Read and written:
       .json                native: SC and SCD graphs, models, vertex-edge graphs, linkages on cones
       .fold .svg .cp .obj  crease patterns
+      .dxf                 crease patterns (R12 written)
       .g6 .s6              graph6 and sparse6 (nauty): bare link-joint graphs
       .graphml             bare link-joint graphs
       .edges .txt          bare link-joint graphs, a joint a line
     Read:
       .opx                 crease patterns (ORIPA)
       .csv                 bare link-joint graphs, a table of edges
+
+    Written:
+      .stl .3mf .gltf      panels as thin solids, hinges left open; .obj too, where a thickness is given;
+                           .gltf has the frames of a .fold file as a motion
 
     What OUT cannot hold is told by kind and number. If its type would be another (links, joints or centres of what
     is read back do not correspond), nothing is written, unless with --lossy.
@@ -49,19 +74,49 @@ def convert(
     Examples:
       synth convert crease-pattern.fold mechanism.json
       synth convert crease-pattern.fold model.json --to polyhedron
+      synth convert folded.fold folded.stl --size 120 --thickness 0.8
       synth convert watt.json planar-watt.json --form planar
     """
     from graphs.convert.by_name import convert as converted
     from graphs.files.formats import read, write
 
     check_output(target, force=force)
+    of_solids = _is_of_solids(target, solid)
     given = read(source)
     with about(source):
         mechanism = converted(given, kind, form=form)
-        made_of = given if kind == "sheet" and form is None else None  # a sheet holds less than others
-        lost = write(mechanism, target, lossy=lossy, force=force, made_of=made_of)
+        if of_solids:
+            lost = _write_solids(mechanism, target, solid, force=force)
+        else:
+            made_of = given if kind == "sheet" and form is None else None  # a sheet holds less than others
+            lost = write(mechanism, target, lossy=lossy, force=force, made_of=made_of)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
         return
     click.echo(f"{plain(target, 4096)}: from {type(mechanism).__name__}")
     tell_lost(lost)
+
+
+def _is_of_solids(target: str, solid: Mapping[str, float | None]) -> bool:
+    """Tell whether a file is one of solids, and refuse what is asked of solids where it is not."""
+    suffix = Path(target).suffix.lower()
+    asked = [f"--{name}" for name, value in solid.items() if value is not None]
+    if asked and suffix not in (*_SOLIDS, ".obj"):
+        raise click.UsageError(f"{', '.join(asked)}: of solids only, {', '.join(_SOLIDS)} and .obj")
+    return suffix in _SOLIDS or bool(asked)
+
+
+def _write_solids(
+    mechanism: Mechanism, target: str, solid: Mapping[str, float | None], *, force: bool
+) -> tuple[str, ...]:
+    from graphs.errors import UnsolvableError
+    from synth.moving.linkages import sheet_of
+    from synth.templates.solids import THICKNESS, write_solids
+
+    sheet = sheet_of(mechanism)
+    if sheet is None:
+        raise UnsolvableError(f"solids need panels, and {mechanism!r} has none")
+    thickness = THICKNESS if solid["thickness"] is None else solid["thickness"]
+    return write_solids(
+        sheet, target, thickness=thickness, gap=solid["gap"], scale=solid["scale"], size=solid["size"], force=force
+    )

@@ -57,7 +57,7 @@ def mobility(
     """Say how a mechanism moves, with how many degrees of freedom, and how that is known.
 
     FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
-    (.fold, .svg, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
+    (.fold, .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
     gives the whole report, several give a table.
 
     The verdict comes first: whether a crease pattern folds from its coordinates, with how many freedoms, which

@@ -432,6 +432,7 @@ def test_shell_completion_knows_the_commands():
         "id",
         "generate",
         "realise",
+        "template",
         "order",
         "dyads",
         "fourbar",

@@ -1,0 +1,164 @@
+"""Crease patterns as DXF: lines by the names of their layers, or else by their colours.
+
+Names that say what a line is are known in the forms that drawing programs and paper cutters use. Other names say
+nothing, and the colour counts, which is that of the origami colours (:mod:`graphs.files.patterns.strokes`).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from graphs.convert.tracing import MOST
+from graphs.convert.welding import Lines
+from graphs.errors import FileError, UnsolvableError
+from graphs.files.check import Checker
+from graphs.files.patterns.dxf.records import Record, records
+from graphs.files.patterns.dxf.shapes import drawn_shapes
+from graphs.files.patterns.dxf.written import DxfLayer, DxfLine, dxf_of
+from graphs.files.patterns.strokes import described_strokes, letter_of_colour
+from graphs.files.patterns.traced import traced_sheet
+from graphs.files.text import read_text
+from graphs.mechanism.plane import flat_places
+from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.plain_text import plain
+
+__all__ = ["dxf_text", "sheet_from_dxf"]
+
+_NAMES = {
+    "B": "border borders boundary outline edge edges contour",
+    "C": "cut cuts cutting",
+    "M": "mountain mountains mountain_folds m",
+    "V": "valley valleys valley_folds v",
+    "F": "flat facet auxiliary aux",
+    "J": "join joins",
+    "U": "crease creases fold folds score hinge unassigned",
+}
+_LETTERS = {name: letter for letter, names in _NAMES.items() for name in names.split()}
+_COLOURS = {1: "M", 2: "F", 3: "C", 5: "V", 6: "U", 7: "B", 250: "B"}
+"""Number of a colour to the assignment; 7 is black on white paper."""
+_WRITTEN = {
+    "B": DxfLayer("BORDER", 7),
+    "C": DxfLayer("CUT", 3),
+    "M": DxfLayer("MOUNTAIN", 1),
+    "V": DxfLayer("VALLEY", 5),
+    "F": DxfLayer("FLAT", 2),
+    "J": DxfLayer("JOIN", 2),
+    "U": DxfLayer("UNASSIGNED", 6),
+}
+_BY_BLOCK, _BY_LAYER = 0, 256
+_PAPER_SPACE = 67
+_LONGEST = 40
+
+
+@dataclass(frozen=True, slots=True)
+class _Layer:
+    """What shapes of a layer take from it."""
+
+    colour: int
+    line_type: str
+
+
+_PLAIN = _Layer(7, "CONTINUOUS")
+
+
+def sheet_from_dxf(path: Path) -> Sheet:
+    """Read the lines of a DXF file and trace its faces.
+
+    Raises
+    ------
+    FileError
+        With the record; or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
+    """
+    held = list(records(read_text(path), path))
+    layers = {
+        one.word(2): _Layer(one.whole(62, 7), one.word(6, "CONTINUOUS"))
+        for one in held
+        if (one.section, one.name) == ("TABLES", "LAYER")
+    }
+    ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
+    letters = ""
+    unread: Counter[str] = Counter()
+    for record, pieces in drawn_shapes([one for one in held if one.section == "ENTITIES"]):
+        layer = layers.get(record.word(8), _PLAIN)
+        letter = _letter(record, layer)
+        if pieces is None or letter is None:
+            unread[_kind(record, layer, shape=pieces is not None)] += 1
+            continue
+        ends += pieces
+        letters += letter * len(pieces)
+    array = np.array(ends, dtype=float).reshape(-1, 2, 2)
+    if not np.all(np.abs(array) < MOST):
+        raise FileError(path, "", "an arc that is too large", "coordinates")
+    left_out = described_strokes(unread)
+    sheet = traced_sheet(
+        Lines(array, letters),
+        Checker(path),
+        border="border lines (a layer CUT or BORDER, or black)",
+        unread=f"; {left_out}" if left_out else "",
+    )
+    return replace(sheet, repairs=(*sheet.repairs, *([left_out] if left_out else [])))
+
+
+def _letter(record: Record, layer: _Layer) -> str | None:
+    """Return the assignment of a shape, None if it is not understood, or not shown in the drawing."""
+    colour = _colour(record, layer)
+    if colour < 0 or record.whole(_PAPER_SPACE, 0):
+        return None
+    named = _LETTERS.get(record.word(8).lower())
+    if named is not None:
+        return named
+    true = record.whole(420, -1)
+    rgb = (true >> 16 & 255, true >> 8 & 255, true & 255)
+    letter = letter_of_colour(*rgb) if true >= 0 else _COLOURS.get(colour)
+    return None if letter == "B" and _is_dashed(record, layer) else letter
+
+
+def _colour(record: Record, layer: _Layer) -> int:
+    """Return the number of a shape's colour; below zero its layer is off."""
+    colour = record.whole(62, _BY_LAYER)
+    if layer.colour < 0:
+        return layer.colour
+    return {_BY_LAYER: layer.colour, _BY_BLOCK: _PLAIN.colour}.get(colour, colour)
+
+
+def _is_dashed(record: Record, layer: _Layer) -> bool:
+    own = record.word(6, "BYLAYER").upper()
+    return (layer.line_type.upper() if own == "BYLAYER" else own) not in ("CONTINUOUS", "BYBLOCK")
+
+
+def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
+    """Return how a record that was left out looks, for messages."""
+    name = plain(record.name, _LONGEST)
+    if not shape:
+        return name
+    dashed = "dashed " if _is_dashed(record, layer) else ""
+    return f"{dashed}{name} of colour {_colour(record, layer)} on layer {plain(record.word(8, '0'), _LONGEST)}"
+
+
+def dxf_text(sheet: Sheet) -> str:
+    """Return the DXF text (R12) of a flat sheet, a layer for each assignment.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, does not lie in a plane, or has no line.
+
+    Examples
+    --------
+    >>> text = dxf_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
+    >>> text.split("ENTITIES")[1].split()[:4]
+    ['0', 'LINE', '8', 'MOUNTAIN']
+    """
+    places = flat_places(sheet, "a DXF crease pattern")
+    if not (sheet.edges or sheet.faces):
+        raise UnsolvableError("a DXF crease pattern needs lines, and the sheet has none")
+    sheet = with_all_edges(sheet)
+    lines = [
+        DxfLine(_WRITTEN[letter].name, places[a], places[b])
+        for (a, b), letter in zip(sheet.edges, sheet.assignments, strict=True)
+    ]
+    return dxf_of(list(_WRITTEN.values()), lines)

@@ -1,0 +1,134 @@
+"""Meshes that move as glTF 2.0, one file with all in it: a node for each, its motion as an animation.
+
+*glTF 2.0 Specification*, Khronos. Lengths there are metres, and y is up: a node above all others sees to both.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.transform import Rotation
+
+from graphs.arrays import Floats
+from graphs.files.solids.mesh import Mesh
+from graphs.plain_text import plain
+
+__all__ = ["gltf_text"]
+
+_LONGEST = 100
+_FLOATS, _INDICES = 5126, 5125
+"""Component types: 32-bit numbers, unsigned 32-bit integers."""
+_CORNERS, _TRIANGLES = 34962, 34963
+"""What a part of the buffer is for."""
+_METRES = 0.001
+_Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
+_MATERIAL = {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.8, 0.75, 1.0], "metallicFactor": 0.0}}
+
+
+@dataclass
+class _Buffer:
+    """The numbers of a file, and where each row of them is."""
+
+    data: bytearray = field(default_factory=bytearray)
+    views: list[dict[str, Any]] = field(default_factory=list)
+    accessors: list[dict[str, Any]] = field(default_factory=list)
+
+    def add(self, values: npt.NDArray[Any], kind: str, component: int, *, target: int | None = None) -> int:
+        """Put in rows of numbers; return the number of their accessor."""
+        raw = np.ascontiguousarray(values, dtype="<f4" if component == _FLOATS else "<u4")
+        view: dict[str, Any] = {"buffer": 0, "byteOffset": len(self.data), "byteLength": raw.nbytes}
+        self.views.append(view if target is None else view | {"target": target})
+        accessor = {"bufferView": len(self.views) - 1, "componentType": component, "count": len(raw), "type": kind}
+        if component == _FLOATS:
+            rows = raw.reshape(len(raw), -1)
+            accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
+        self.accessors.append(accessor)
+        self.data += raw.tobytes()
+        return len(self.accessors) - 1
+
+
+def gltf_text(
+    meshes: Sequence[Mesh], turns: Floats, shifts: Floats, *, seconds: float = 4.0, title: str = ""
+) -> str:
+    """Return meshes that move as glTF text.
+
+    Parameters
+    ----------
+    meshes : sequence of Mesh
+        Each in its own frame, millimetres.
+    turns : float[poses, meshes, 3, 3]
+        Rotation matrices: a corner c of a mesh is at turn @ c + shift.
+    shifts : float[poses, meshes, 3]
+        Millimetres.
+    seconds : float, optional
+        From the first pose to the last. Of one pose there is no animation.
+    title : str, optional
+
+    Examples
+    --------
+    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    >>> mesh = Mesh("a", corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
+    >>> text = gltf_text([mesh], np.eye(3)[None, None], np.zeros((1, 1, 3)))
+    >>> json.loads(text)["asset"]["version"]
+    '2.0'
+    """
+    buffer = _Buffer()
+    drawn = [_mesh(mesh, buffer) for mesh in meshes]
+    quaternions = _quaternions(turns)
+    above = len(meshes)
+    nodes: list[dict[str, Any]] = [
+        {
+            "name": plain(mesh.name, _LONGEST),
+            "mesh": number,
+            "rotation": quaternions[0, number].tolist(),
+            "translation": shifts[0, number].tolist(),
+        }
+        for number, mesh in enumerate(meshes)
+    ]
+    nodes.append({"children": list(range(above)), "rotation": _Y_UP, "scale": [_METRES] * 3})
+    document: dict[str, Any] = {
+        "asset": {"version": "2.0", "generator": "synthedra"},
+        "scene": 0,
+        "scenes": [{"nodes": [above]} | ({"name": plain(title, _LONGEST)} if title else {})],
+        "nodes": nodes,
+        "meshes": drawn,
+        "materials": [_MATERIAL],
+    }
+    if len(turns) > 1:
+        document["animations"] = [_animation(quaternions, shifts, seconds, buffer)]
+    uri = "data:application/octet-stream;base64," + b64encode(bytes(buffer.data)).decode("ascii")
+    document |= {"accessors": buffer.accessors, "bufferViews": buffer.views}
+    document["buffers"] = [{"byteLength": len(buffer.data), "uri": uri}]
+    return json.dumps(document, allow_nan=False, separators=(",", ":")) + "\n"
+
+
+def _mesh(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
+    corners = buffer.add(mesh.corners, "VEC3", _FLOATS, target=_CORNERS)
+    indices = buffer.add(mesh.triangles.reshape(-1), "SCALAR", _INDICES, target=_TRIANGLES)
+    return {"primitives": [{"attributes": {"POSITION": corners}, "indices": indices, "material": 0}]}
+
+
+def _quaternions(turns: Floats) -> Floats:
+    """Return rotations as quaternions, scalar last; each the nearer of the two that follow the pose before."""
+    found: Floats = Rotation.from_matrix(turns.reshape(-1, 3, 3)).as_quat().reshape(*turns.shape[:2], 4)
+    for pose in range(1, len(found)):
+        against = (found[pose] * found[pose - 1]).sum(axis=-1) < 0
+        found[pose, against] *= -1
+    return found
+
+
+def _animation(quaternions: Floats, shifts: Floats, seconds: float, buffer: _Buffer) -> dict[str, Any]:
+    """Return the motion of all meshes; between poses turns go round evenly."""
+    times = buffer.add(np.linspace(0, seconds, len(shifts)), "SCALAR", _FLOATS)
+    samplers, channels = [], []
+    for mesh in range(shifts.shape[1]):
+        for path, kind, values in (("rotation", "VEC4", quaternions), ("translation", "VEC3", shifts)):
+            samplers.append({"input": times, "output": buffer.add(values[:, mesh], kind, _FLOATS)})
+            channels.append({"sampler": len(samplers) - 1, "target": {"node": mesh, "path": path}})
+    return {"name": "motion", "samplers": samplers, "channels": channels}

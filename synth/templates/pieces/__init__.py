@@ -1,0 +1,1 @@
+"""Pieces: flat sheets as they lie; panels in space unfolded to nets, with tabs; cuts made once."""

@@ -1,0 +1,76 @@
+"""The plane of a panel, with axes in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import UnsolvableError
+from graphs.mechanism.sheet import COLLINEAR
+
+__all__ = ["Plane", "plane_of_panel"]
+
+_PLANE = 1e-5
+"""Corners of a panel lie in a plane if they are this close to it, in units of its extent."""
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A frame in the plane of a panel.
+
+    Attributes
+    ----------
+    origin : float[3]
+        The mean of the corners.
+    axes : float[3, 3]
+        Its columns: two axes in the plane, and the normal, round which the corners go counter-clockwise.
+    flat : float[corners, 2]
+        The corners in the frame.
+    """
+
+    origin: Floats
+    axes: Floats
+    flat: Floats
+
+    @property
+    def normal(self) -> Floats:
+        """The unit normal, float[3]."""
+        column: Floats = self.axes[:, 2]
+        return column
+
+
+def plane_of_panel(corners: Floats, face: int) -> Plane:
+    """Return the plane of a panel.
+
+    Parameters
+    ----------
+    corners : float[corners, 3]
+    face : int
+        Its number, for messages.
+
+    Raises
+    ------
+    UnsolvableError
+        If the corners lie in no plane, or in a line.
+
+    Examples
+    --------
+    >>> plane_of_panel(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist()
+    [0.0, 0.0, 1.0]
+    """
+    origin: Floats = corners.mean(axis=0)
+    arms = corners - origin
+    normal: Floats = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
+    size = float(np.abs(arms).max())
+    if np.linalg.norm(normal) <= COLLINEAR * size**2:
+        raise UnsolvableError(f"panel {face} has no area")
+    normal = normal / np.linalg.norm(normal)
+    if float(np.abs(arms @ normal).max()) > _PLANE * size:
+        raise UnsolvableError(f"panel {face} is not plane, and cannot be cut of a sheet")
+    along = np.eye(3)[int(np.abs(normal).argmin())]
+    along = along - (along @ normal) * normal
+    along /= np.linalg.norm(along)
+    axes = np.column_stack([along, np.cross(normal, along), normal])
+    return Plane(origin, axes, arms @ axes[:, :2])

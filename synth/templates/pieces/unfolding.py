@@ -1,0 +1,231 @@
+"""Panels in space laid out in the plane: in nets, as large as they can be without a panel over another.
+
+Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from math import atan2
+from typing import Any
+
+import numpy as np
+import shapely
+
+from graphs.arrays import Floats
+from graphs.errors import UnsolvableError
+from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
+from synth.templates.pieces.planes import Plane, plane_of_panel
+
+__all__ = ["Net", "Panels", "across", "nets_of", "panels_of"]
+
+_OVER = 1e-6
+"""A panel lies over another if they share more than this part of its area."""
+_CUT = "BC"
+
+
+@dataclass(frozen=True)
+class Panels:
+    """The panels of a sheet, each in its own plane, and where they join.
+
+    Attributes
+    ----------
+    sheet : Sheet
+        With all edges listed.
+    planes : tuple of Plane
+        One for each face.
+    joins : dict of edge to (face, face)
+        Edges at which two panels hang together.
+    slits : dict of edge to (face, face)
+        Edges between two panels that are cut.
+    places : float[vertices, 3]
+    """
+
+    sheet: Sheet
+    planes: tuple[Plane, ...]
+    joins: Mapping[int, tuple[int, int]]
+    slits: Mapping[int, tuple[int, int]]
+    places: Floats
+
+    def ends(self, face: int, edge: int) -> tuple[int, int]:
+        """Return which corners of a face the ends of an edge are, in the order of the face."""
+        around = self.sheet.faces[face]
+        a, b = (around.index(vertex) for vertex in self.sheet.edges[edge])
+        return (a, b) if (a + 1) % len(around) == b else (b, a)
+
+    def fold_angle(self, edge: int) -> float:
+        """Return how far two panels are folded, radians, valleys positive."""
+        first, second = self.joins[edge]
+        a, b = (self.sheet.faces[first][corner] for corner in self.ends(first, edge))
+        along = self.places[b] - self.places[a]
+        along = along / np.linalg.norm(along)
+        c, _ = (self.sheet.faces[second][corner] for corner in self.ends(second, edge))
+        normal = self.planes[first].normal
+        other = self.planes[second].normal * (1 if c == b else -1)
+        return -atan2(along @ np.cross(normal, other), normal @ other)
+
+    def shared_by(self, face: int) -> list[int]:
+        """Return the edges between a panel and another, hinged or cut."""
+        return [edge for edge, faces in (*self.joins.items(), *self.slits.items()) if face in faces]
+
+
+@dataclass(frozen=True)
+class Net:
+    """Panels laid out beside each other.
+
+    Attributes
+    ----------
+    corners : dict of face to float[corners, 2]
+        Where the corners of each face are.
+    turned : dict of face to bool
+        Whether a face is seen from behind, as one whose corners go round the other way than its neighbour's.
+    """
+
+    corners: Mapping[int, Floats]
+    turned: Mapping[int, bool]
+
+    def polygons(self) -> list[Any]:
+        """Return the panels as shapely polygons."""
+        return [shapely.Polygon(corners) for corners in self.corners.values()]
+
+
+def panels_of(sheet: Sheet, places: Floats) -> Panels:
+    """Return the panels of a sheet, each in its plane.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With all edges listed.
+    places : float[vertices, 3]
+
+    Raises
+    ------
+    UnsolvableError
+        If a panel is not plane, or more than two meet in an edge.
+    """
+    planes = tuple(plane_of_panel(places[list(around)], face) for face, around in enumerate(sheet.faces))
+    faces: dict[frozenset[int], list[int]] = defaultdict(list)
+    for face, around in enumerate(sheet.faces):
+        for side in sides_of_face(around):
+            faces[frozenset(side)].append(face)
+    joins: dict[int, tuple[int, int]] = {}
+    slits: dict[int, tuple[int, int]] = {}
+    for edge, letter in _once(sheet):
+        at = faces[frozenset(sheet.edges[edge])]
+        if len(at) > 2:
+            a, b = sheet.edges[edge]
+            raise UnsolvableError(
+                f"{len(at)} panels meet in the edge from vertex {a} to {b}: expected at most two"
+            )
+        if len(at) == 2:
+            (slits if letter in _CUT else joins)[edge] = (at[0], at[1])
+    return Panels(sheet, planes, joins, slits, places)
+
+
+def _once(sheet: Sheet) -> list[tuple[int, str]]:
+    """Return the edges, each pair of vertices once, with their letters."""
+    first: dict[frozenset[int], int] = {}
+    for number, edge in enumerate(sheet.edges):
+        first.setdefault(frozenset(edge), number)
+    return [(number, sheet.assignments[number]) for number in first.values()]
+
+
+def nets_of(panels: Panels) -> list[Net]:
+    """Return nets of all panels: each begins with the largest panel left, and grows over the longest edges.
+
+    A panel that would lie over another waits for another of its edges, and else begins a net of its own. Panels
+    that hang together flat are laid first, so that no rigid part is cut where that can be helped.
+
+    Examples
+    --------
+    >>> corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1.0)])
+    >>> faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    >>> from graphs.mechanism.sheet import with_all_edges
+    >>> [len(net.corners) for net in nets_of(panels_of(with_all_edges(Sheet(8, (), "", faces)), corners))]
+    [6]
+    """
+    edges_at: dict[int, list[int]] = defaultdict(list)
+    for edge, faces in panels.joins.items():
+        for face in faces:
+            edges_at[face].append(edge)
+    areas = [shapely.Polygon(plane.flat).area for plane in panels.planes]
+    left = set(range(len(panels.planes)))
+    nets = []
+    while left:
+        root = max(left, key=lambda face: (areas[face], -face))
+        net = _grown(panels, root, left, edges_at)
+        left -= set(net.corners)
+        nets.append(net)
+    return nets
+
+
+def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> Net:
+    """Return the net that grows from a panel over those that are left."""
+    corners, turned = {root: panels.planes[root].flat}, {root: False}
+    polygons = [shapely.Polygon(panels.planes[root].flat)]
+    waiting: list[tuple[tuple[bool, float, int], int, int]] = []
+
+    def reach(face: int) -> None:
+        for edge in edges_at[face]:
+            heappush(waiting, (_rank(panels, edge), edge, face))
+
+    reach(root)
+    while waiting:
+        _, edge, face = heappop(waiting)
+        other = _other(panels.joins[edge], face)
+        if other not in left or other in corners:
+            continue
+        laid, flipped = across(panels, edge, face, corners[face], turned=turned[face])
+        polygon = shapely.Polygon(laid)
+        over = shapely.area(shapely.intersection(polygon, polygons))
+        if float(np.max(over)) > _OVER * polygon.area:
+            continue
+        corners[other], turned[other] = laid, flipped
+        polygons.append(polygon)
+        reach(other)
+    return Net(corners, turned)
+
+
+def _rank(panels: Panels, edge: int) -> tuple[bool, float, int]:
+    """Order edges: those that are flat first, then the longest."""
+    a, b = panels.sheet.edges[edge]
+    length = float(np.linalg.norm(panels.places[a] - panels.places[b]))
+    return panels.sheet.assignments[edge] not in FLAT, -round(length, 9), edge
+
+
+def _other(pair: Edge, face: int) -> int:
+    return pair[1] if pair[0] == face else pair[0]
+
+
+def across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
+    """Return where the panel across an edge comes to lie, and whether it is seen from behind.
+
+    Parameters
+    ----------
+    panels : Panels
+    edge : int
+    face : int
+        The panel that lies.
+    laid : float[corners, 2]
+        Where its corners are.
+    turned : bool
+        Whether it is seen from behind.
+    """
+    other = _other(panels.joins[edge], face)
+    a, b = panels.ends(face, edge)
+    c, d = panels.ends(other, edge)
+    same_way = panels.sheet.faces[face][a] == panels.sheet.faces[other][c]
+    flipped = turned != same_way
+    flat = panels.planes[other].flat * ((-1, 1) if flipped else (1, 1))
+    if not same_way:
+        c, d = d, c
+    was, now = flat[d] - flat[c], laid[b] - laid[a]
+    # As complex numbers, the turn that takes one side to the other.
+    turn = complex(*now) / complex(*was)
+    turn /= abs(turn)
+    matrix = np.array([[turn.real, turn.imag], [-turn.imag, turn.real]])
+    moved: Floats = (flat - flat[c]) @ matrix + laid[a]
+    return moved, flipped

@@ -1,0 +1,55 @@
+"""Millimetres for a unit of coordinates."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError
+
+__all__ = ["millimetres"]
+
+_LEAST = 10.0
+"""Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
+
+
+def millimetres(places: Floats, scale: float | None = None, size: float | None = None) -> float:
+    """Return millimetres for a unit, and refuse what nobody could fold.
+
+    Parameters
+    ----------
+    places : float[vertices, 2 or 3]
+        Any unit.
+    scale : float, optional
+        Millimetres for a unit; 1 without it.
+    size : float, optional
+        Millimetres of the longest side of the box round the places, instead of a scale.
+
+    Raises
+    ------
+    InvariantError
+        If scale or size is no positive number, or both are given.
+    UnsolvableError
+        If the box would be smaller than 10 mm.
+
+    Examples
+    --------
+    >>> millimetres(np.array([[0, 0], [2, 1.0]]), size=100)
+    50.0
+    """
+    if scale is not None and size is not None:
+        raise InvariantError("scale", "a scale and a size", "one of them")
+    for name, value in (("scale", scale), ("size", size)):
+        if value is not None and not (isfinite(value) and value > 0):
+            raise InvariantError(name, f"{name} {value!r}", "a positive number")
+    extent = np.ptp(places, axis=0)
+    longest = float(extent.max())
+    factor = size / longest if size is not None and longest > 0 else 1.0 if scale is None else scale
+    if longest * factor < _LEAST:
+        found = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
+        raise UnsolvableError(
+            f"the thing would be {found} mm: expected a larger scale or a size (--scale, --size)"
+        )
+    return factor

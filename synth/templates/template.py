@@ -1,0 +1,96 @@
+"""A thing with panels as pieces to cut out and fold, at true scale.
+
+Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.mechanism.plane import flattened, in_space
+from graphs.mechanism.sheet import Sheet, with_all_edges
+from synth.templates.lines import Piece
+from synth.templates.pieces.flat import is_laid_out, piece_of_flat_sheet
+from synth.templates.pieces.nets import pieces_of_panels
+from synth.templates.scale import millimetres
+
+__all__ = ["TABS", "Template", "template_of"]
+
+TABS = 8.0
+"""Depth of tabs, millimetres."""
+
+
+@dataclass(frozen=True)
+class Template:
+    """What is cut out and folded.
+
+    Attributes
+    ----------
+    pieces : tuple of Piece
+        Each by itself, millimetres.
+    scale : float
+        Millimetres for a unit of the coordinates.
+    title : str
+    told : tuple of str
+        What the lines do not show, by kind and number.
+    """
+
+    pieces: tuple[Piece, ...]
+    scale: float
+    title: str = ""
+    told: tuple[str, ...] = ()
+
+
+def template_of(
+    sheet: Sheet, *, scale: float | None = None, size: float | None = None, tabs: float = TABS, title: str = ""
+) -> Template:
+    """Return the template of a sheet; of panels that do not lie side by side, nets with tabs to glue.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates and faces.
+    scale : float, optional
+        Millimetres for a unit of the coordinates; 1 without it.
+    size : float, optional
+        Millimetres of the longer side of the sheet as it lies, instead of a scale.
+    tabs : float, optional
+        Depth of tabs, millimetres; 0 for none.
+    title : str, optional
+        Instead of the sheet's own.
+
+    Returns
+    -------
+    Template
+
+    Raises
+    ------
+    InvariantError
+        If scale or size is no positive number, or both are given, or tabs is no number from 0 on.
+    UnsolvableError
+        If the sheet has no coordinates or faces, or would be smaller than 10 mm; if a panel is not plane, or
+        more than two meet in an edge.
+
+    Examples
+    --------
+    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> [stroke.kind for stroke in template_of(square, size=100).pieces[0].strokes]
+    ['CREASE', 'CUT', 'CUT', 'CUT', 'CUT']
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError("a template needs coordinates, and the sheet has none")
+    if not (isfinite(tabs) and tabs >= 0):
+        raise InvariantError("tabs", f"tabs {tabs!r}", "a number from 0 on")
+    if not sheet.faces:
+        raise UnsolvableError("a template needs panels, and the sheet has none")
+    whole = with_all_edges(sheet)
+    flat = flattened(whole)
+    places = in_space(whole.coordinates or ()) if flat is None else flat.places
+    factor = millimetres(places, scale, size)
+    if flat is not None and is_laid_out(whole, flat.places):
+        piece, told = piece_of_flat_sheet(whole, flat.places * factor)
+        return Template((piece,), factor, title or sheet.title, told)
+    pieces, told = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, tabs)
+    return Template(tuple(pieces), factor, title or sheet.title, told)

@@ -1,0 +1,168 @@
+"""Panels as thin solids, their hinges left open, for printers and viewers.
+
+A panel is a plate about its plane. Two plates of thickness t, folded by an angle f, meet within t/2 tan(f/2) of
+their hinge; half the gap that is asked for is left away of each. Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+import numpy as np
+import shapely
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.files.solids.mesh import Mesh
+from graphs.mechanism.sheet import FLAT, Sheet
+from synth.templates.pieces.planes import Plane
+from synth.templates.pieces.unfolding import Panels, panels_of
+
+__all__ = ["Plates", "plates_in_space", "plates_of"]
+
+_RIGID = 1e-4
+"""A panel that moves keeps its shape but for this part of its extent."""
+_STRAIGHT = 1e-6
+"""Corners this close to a straight line, in millimetres, are none."""
+
+
+@dataclass(frozen=True)
+class Plates:
+    """Panels as solids, each in the frame of its plane.
+
+    Attributes
+    ----------
+    meshes : tuple of Mesh
+        A panel whose middle is cut off by its hinges has several.
+    faces : tuple of int
+        The panel of each.
+    planes : tuple of Plane
+        Of the panels, at the pose that the plates were made of.
+    """
+
+    meshes: tuple[Mesh, ...]
+    faces: tuple[int, ...]
+    planes: tuple[Plane, ...]
+
+    def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
+        """Return how plates are turned and shifted in poses.
+
+        Parameters
+        ----------
+        sheet : Sheet
+        poses : float[poses, vertices, 3]
+            Millimetres.
+
+        Returns
+        -------
+        turns : float[poses, meshes, 3, 3]
+        shifts : float[poses, meshes, 3]
+
+        Raises
+        ------
+        UnsolvableError
+            If a panel has another shape in a pose.
+        """
+        turns = np.empty((len(poses), len(self.faces), 3, 3))
+        shifts = np.empty((len(poses), len(self.faces), 3))
+        for pose, places in enumerate(poses):
+            for mesh, face in enumerate(self.faces):
+                corners = places[list(sheet.faces[face])]
+                turns[pose, mesh], shifts[pose, mesh] = _frame(
+                    corners, self.planes[face], f"{face} in pose {pose}"
+                )
+        return turns, shifts
+
+
+def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> Plates:
+    """Return the panels of a sheet as plates.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With all edges listed.
+    places : float[vertices, 3]
+        Millimetres.
+    thickness, gap : float
+        Of the plates, and between two of them at a hinge, millimetres.
+
+    Raises
+    ------
+    InvariantError
+        If the thickness is no positive number, or the gap no number from 0 on.
+    UnsolvableError
+        If a panel is not plane, or narrower than the gap.
+    """
+    if not (isfinite(thickness) and thickness > 0):
+        raise InvariantError("thickness", f"thickness {thickness!r}", "a positive number")
+    if not (isfinite(gap) and gap >= 0):
+        raise InvariantError("gap", f"gap {gap!r}", "a number from 0 on")
+    panels = panels_of(sheet, places)
+    meshes, faces = [], []
+    for face in range(len(sheet.faces)):
+        for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
+            name = f"panel {face}" + (f" part {number}" if number else "")
+            meshes.append(_plate(polygon, thickness, name))
+            faces.append(face)
+    return Plates(tuple(meshes), tuple(faces), panels.planes)
+
+
+def plates_in_space(plates: Plates) -> list[Mesh]:
+    """Return plates where their panels stand."""
+    placed = zip(plates.meshes, plates.faces, strict=True)
+    return [
+        Mesh(mesh.name, mesh.corners @ plates.planes[face].axes.T + plates.planes[face].origin, mesh.triangles)
+        for mesh, face in placed
+    ]
+
+
+def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
+    """Return a panel without the strips along its sides where another hangs that moves, or is cut off."""
+    corners = panels.planes[face].flat
+    rest = shapely.Polygon(corners)
+    whole = rest.area
+    strips = [
+        shapely.LineString(corners[list(panels.ends(face, edge))]).buffer(width, cap_style="square")
+        for edge in panels.shared_by(face)
+        if panels.sheet.assignments[edge] not in FLAT
+    ]
+    if width and strips:
+        rest = rest.difference(shapely.union_all(strips)).simplify(_STRAIGHT)
+    parts = [part for part in getattr(rest, "geoms", [rest]) if part.area > _STRAIGHT * whole]
+    if not parts:
+        raise UnsolvableError(f"panel {face} is narrower than the gap of {2 * width:g} mm at its hinges")
+    return parts
+
+
+def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
+    """Return a plate about the plane of a polygon."""
+    ring = np.array(shapely.orient_polygons(polygon).exterior.coords)[:-1]
+    index = {tuple(corner): number for number, corner in enumerate(ring.tolist())}
+    count = len(ring)
+    top = [
+        [index[tuple(corner)] for corner in shapely.orient_polygons(one).exterior.coords[:-1]]
+        for one in shapely.constrained_delaunay_triangles(polygon).geoms
+    ]
+    triangles = [[corner + count for corner in one] for one in top] + [one[::-1] for one in top]
+    for here in range(count):
+        after = (here + 1) % count
+        triangles += [[here, after, after + count], [here, after + count, here + count]]
+    heights = np.repeat([-thickness / 2, thickness / 2], count)
+    return Mesh(name, np.column_stack([np.tile(ring, (2, 1)), heights]), np.array(triangles))
+
+
+def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
+    """Return how the frame of a panel stands where its corners are now: the nearest rotation, and its origin.
+
+    After Kabsch, *Acta Crystallographica* A 32, 1976.
+    """
+    middle: Floats = corners.mean(axis=0)
+    was = np.column_stack([plane.flat, np.zeros(len(plane.flat))])
+    left, _, right = np.linalg.svd((corners - middle).T @ was)
+    turn: Floats = left @ np.diag([1, 1, np.linalg.det(left @ right)]) @ right
+    apart = float(np.abs(was @ turn.T + middle - corners).max())
+    if apart > _RIGID * float(np.abs(plane.flat).max()):
+        raise UnsolvableError(f"panel {where} has another shape: it is {apart:.3g} mm off")
+    return turn, middle

@@ -1,0 +1,106 @@
+"""Templates written to files, whole or not at all: PDF, SVG or DXF, by the extension."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from graphs.errors import FileError
+from graphs.files.atomic import Beside, check_place
+from graphs.plain_text import plain
+from synth.templates.formats.dxf import dxf_of_template
+from synth.templates.formats.pdf import check_reportlab, pdf_of_pages
+from synth.templates.formats.svg import svg_of_page
+from synth.templates.pages import Page, pages_of
+from synth.templates.paper import Paper
+from synth.templates.template import Template
+
+__all__ = ["check_template", "write_template"]
+
+_KINDS = (".pdf", ".svg", ".dxf")
+_LONGEST_TITLE = 200
+_A4 = Paper(210.0, 297.0)
+
+
+def check_template(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a place where no template can be written, before one is made.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or something is there that must not be replaced.
+    UnsolvableError
+        If it is a PDF, and reportlab is not installed.
+
+    Examples
+    --------
+    >>> check_template("a.doc")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.doc: the extension is not known; expected .pdf, .svg, .dxf
+    """
+    place = Path(path)
+    suffix = place.suffix.lower()
+    if suffix not in _KINDS:
+        raise FileError(place, "", "the extension is not known", ", ".join(_KINDS))
+    if suffix == ".pdf":
+        check_reportlab()
+    check_place(place, force=force)
+
+
+def write_template(
+    template: Template, path: str | Path, *, paper: Paper = _A4, force: bool = False
+) -> tuple[Path, ...]:
+    """Write a template; equal templates give equal files.
+
+    Parameters
+    ----------
+    template : Template
+    path : str or Path
+        ``.pdf``: a file with all pages. ``.svg``: a file, or one for each page, ``t-1.svg``, ``t-2.svg``, ...
+        ``.dxf``: one drawing at full size, which has no pages.
+    paper : Paper, optional
+        A4 without it; it is turned where that saves pages.
+    force : bool, optional
+        Replace files that are there.
+
+    Returns
+    -------
+    tuple of Path
+        What was written.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or a file cannot be written or is there already.
+    UnsolvableError
+        If there would be too many pages, or reportlab is not installed.
+    """
+    place = Path(path)
+    check_template(place, force=force)
+    suffix = place.suffix.lower()
+    if suffix == ".dxf":
+        files = {place: dxf_of_template(template).encode("ascii", "replace")}
+    elif suffix == ".pdf":
+        files = {place: pdf_of_pages(pages_of(template, paper), plain(template.title, _LONGEST_TITLE))}
+    else:
+        files = _svg_files(pages_of(template, paper), place)
+    for one in files:
+        check_place(one, force=force)
+    for one, data in files.items():
+        beside = Beside(one, force=force)
+        try:
+            beside.write(data)
+            beside.commit()
+        finally:
+            beside.discard()
+    return tuple(files)
+
+
+def _svg_files(pages: list[Page], place: Path) -> dict[Path, bytes]:
+    """Return the name and content of each page."""
+    if len(pages) == 1:
+        return {place: svg_of_page(pages[0]).encode()}
+    return {
+        place.with_name(f"{place.stem}-{number}{place.suffix}"): svg_of_page(page).encode()
+        for number, page in enumerate(pages, start=1)
+    }
