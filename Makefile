@@ -50,10 +50,10 @@ $(COMPILED): $(STAMP) $(shell find enumerate synth/conformed -name '*.py')
 	@touch $@
 
 test: $(STAMP) $(COMPILED)
-	$(BIN)/python -m pytest $(PARALLEL) -m "not slow"
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest $(PARALLEL)
+	$(BIN)/python -m pytest $(PARALLEL) -m "not web"
 
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers
