@@ -28,6 +28,7 @@ _COMMANDS = {
     "realise": "synth.cli.things.realise:realise",
     "fold": "synth.cli.things.fold:fold",
     "draw": "synth.cli.things.draw:draw",
+    "view": "synth.cli.things.view:view",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",

@@ -18,8 +18,9 @@ from graphs.errors import UnsolvableError
 from graphs.plain_text import plain
 from synth.viewer.shown import Shown
 
-__all__ = ["built_text", "json_in_html", "page"]
+__all__ = ["check_built", "json_in_html", "page"]
 
+_SCRIPT, _STYLE = "page.js", "page.css"
 _MISSING = (
     "the script of the page was not built when synthedra was installed: install node and npm, then install it "
     "again (in a clone: make page)"
@@ -70,7 +71,7 @@ def page(shown: Sequence[Shown], title: str = "") -> str:
     >>> from synth.viewer import shown_of
     >>> text = page([shown_of(synth.generate("miura"), "Miura")])  # doctest: +SKIP
     """
-    script, style = built_text("page.js"), built_text("page.css")
+    script, style = _built(_SCRIPT), _built(_STYLE)
     policy = (
         f"default-src 'none'; script-src {_digest(script)}; style-src {_digest(style)}; "
         "img-src blob: data:; base-uri 'none'; form-action 'none'"
@@ -97,14 +98,17 @@ def json_in_html(value: Any) -> str:
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
-def built_text(name: str) -> str:
-    """Return a built file of the page.
+def check_built() -> None:
+    """Refuse to make pages, before anything is computed for one, where their script was not built.
 
     Raises
     ------
     UnsolvableError
-        If it is not there.
     """
+    _built(_SCRIPT)
+
+
+def _built(name: str) -> str:
     place = files("synth.viewer").joinpath("built", name)
     if not place.is_file():
         raise UnsolvableError(_MISSING)

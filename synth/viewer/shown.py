@@ -58,12 +58,14 @@ class Moving:
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `MovingData` of web/src/page/types.js."""
         graph = self.linkage.graph
+        number = {link: place for place, link in enumerate(graph.nodes)}
         return {
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
             "ways": None if self.ways is None else self.ways.to_json(),
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
+            "between": [[number[one], number[other]] for one, other in graph.joints.values()],
             "extent": self.linkage.extent,
             "middle": self.linkage.middle.tolist(),
         }
