@@ -17,18 +17,18 @@ from scipy.spatial import ConvexHull
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.mechanism.plane import in_space
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Sheet, sides_of_face
 from synth.folding.linkage import PosedLinkage
 
 __all__ = ["Bodies", "bodies_of_linkage", "bodies_of_sheet", "hull_faces"]
 
-_HALF = 0.3
+_HALF = 0.2
 """Of the piece of an axis that is shown, in mean distances between the joints of a link."""
 _FROM_APEX = (0.35, 1.0)
 """Where all axes pass through one point: from where to where they are shown."""
 _THIN = 1e-9
-_BODY = "-"
-"""The letter of a side of a body, which is no edge of a crease pattern."""
+_AXIS, _BODY = "-", "|"
+"""Letters of lines that are no edges of a crease pattern: pieces of axes, sides of bodies."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,9 +135,13 @@ def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
         owners += [number[link]] * len(corners)
         for place, joint in enumerate(joints):
             if joint not in shown:
-                edges.append((first + 2 * place, first + 2 * place + 1, _BODY, joint))
+                edges.append((first + 2 * place, first + 2 * place + 1, _AXIS, joint))
                 shown.add(joint)
-        faces += [(number[link], [first + corner for corner in face]) for face in hull_faces(corners)]
+        hull = [[first + corner for corner in face] for face in hull_faces(corners)]
+        faces += [(number[link], face) for face in hull]
+        sides = {(min(side), max(side)) for face in hull for side in sides_of_face(face)}
+        sides -= {(first + 2 * place, first + 2 * place + 1) for place in range(len(joints))}  # those are axes
+        edges += [(a, b, _BODY, -1) for a, b in sorted(sides)]
     return Bodies(np.concatenate([np.zeros((0, 3)), *vertices]), owners, faces, edges)
 
 

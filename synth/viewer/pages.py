@@ -11,11 +11,12 @@ from base64 import b64encode
 from collections.abc import Sequence
 from hashlib import sha256
 from html import escape
-from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 from graphs.errors import UnsolvableError
 from graphs.plain_text import plain
+from synth.viewer.building import BUILT
 from synth.viewer.shown import Shown
 
 __all__ = ["check_built", "json_in_html", "page"]
@@ -45,7 +46,7 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def page(shown: Sequence[Shown], title: str = "") -> str:
+def page(shown: Sequence[Shown], title: str = "", built: Path = BUILT) -> str:
     """Return a page that shows mechanisms and lets them move.
 
     Parameters
@@ -54,6 +55,8 @@ def page(shown: Sequence[Shown], title: str = "") -> str:
         Those to choose from, at least one.
     title : str, optional
         By default the name of the first.
+    built : Path, optional
+        The folder of the built script and its style.
 
     Returns
     -------
@@ -67,11 +70,14 @@ def page(shown: Sequence[Shown], title: str = "") -> str:
 
     Examples
     --------
-    >>> import synth
-    >>> from synth.viewer import shown_of
-    >>> text = page([shown_of(synth.generate("miura"), "Miura")])  # doctest: +SKIP
+    Where there is no script, as before an installation:
+
+    >>> page([], built=Path("nowhere"))
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: the script of the page was not built when synthedra was installed: ...
     """
-    script, style = _built(_SCRIPT), _built(_STYLE)
+    script, style = _text(built / _SCRIPT), _text(built / _STYLE)
     policy = (
         f"default-src 'none'; script-src {_digest(script)}; style-src {_digest(style)}; "
         "img-src blob: data:; base-uri 'none'; form-action 'none'"
@@ -98,18 +104,17 @@ def json_in_html(value: Any) -> str:
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
-def check_built() -> None:
+def check_built(built: Path = BUILT) -> None:
     """Refuse to make pages, before anything is computed for one, where their script was not built.
 
     Raises
     ------
     UnsolvableError
     """
-    _built(_SCRIPT)
+    _text(built / _SCRIPT)
 
 
-def _built(name: str) -> str:
-    place = files("synth.viewer").joinpath("built", name)
+def _text(place: Path) -> str:
     if not place.is_file():
         raise UnsolvableError(_MISSING)
     return place.read_text(encoding="utf-8")

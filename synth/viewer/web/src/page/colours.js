@@ -18,7 +18,7 @@ export function clusterColour(cluster) {
 }
 
 /** @type {Record<string, string>} */
-const LETTERS = { M: "mountain", V: "valley", B: "border", C: "cut", F: "flat", J: "flat", "-": "axis" };
+const LETTERS = { M: "mountain", V: "valley", B: "border", C: "cut", F: "flat", J: "flat", "-": "axis", "|": "side" };
 
 /** @param {string} letter - Of an edge. */
 export function letterColour(letter) {

@@ -118,7 +118,8 @@ export class Dragging {
   #seen(places, { corners, weights }) {
     const place = new Vector3();
     corners.forEach((corner, n) => {
-      place.addScaledVector(new Vector3(places[3 * corner], places[3 * corner + 1], places[3 * corner + 2]), weights[n]);
+      const [x, y, z] = places.subarray(3 * corner, 3 * corner + 3);
+      place.addScaledVector(new Vector3(x, y, z), weights[n]);
     });
     return this.model.seenAt(place);
   }

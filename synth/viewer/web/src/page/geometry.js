@@ -52,9 +52,9 @@ function cut(around) {
   if (around.length === 3) return [[0, 1, 2]];
   const [x, y] = largestPlane(around);
   const flat = around.map((place) => new Vector2(place[x], place[y]));
-  return ShapeUtils.isClockWise(flat)
-    ? ShapeUtils.triangulateShape(flat.reverse(), []).map((one) => one.map((corner) => around.length - 1 - corner))
-    : ShapeUtils.triangulateShape(flat, []);
+  if (!ShapeUtils.isClockWise(flat)) return ShapeUtils.triangulateShape(flat, []);
+  const mirrored = ShapeUtils.triangulateShape(flat.reverse(), []);
+  return mirrored.map((one) => one.map((corner) => around.length - 1 - corner).reverse());
 }
 
 /**

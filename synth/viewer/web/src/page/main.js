@@ -97,7 +97,8 @@ class Page {
     const moves = this.#mechanism?.moves ?? false;
     parts.model.hidden = !this.#mechanism;
     parts.controls.hidden = !this.#mechanism;
-    for (const one of [parts.play, parts.slider, parts.angle, parts.driver, parts.way, parts.reset]) one.disabled = !moves;
+    const moving = [parts.play, parts.slider, parts.angle, parts.driver, parts.way, parts.reset];
+    for (const one of moving) one.disabled = !moves;
     if (!this.#mechanism) return;
     const ways = shown.moving?.ways?.all ?? [];
     filled(parts.way, ways.map(({ told }, value) => ({ value, told })), this.#mechanism.way);
@@ -148,7 +149,7 @@ class Page {
     if (document.activeElement !== angle) angle.value = mechanism.value.toFixed(2);
     const joint = `joint ${mechanism.data.joints[mechanism.driver]}`;
     const told = mechanism.stopped ? `${joint} ${mechanism.stopped}; ` : `${joint} driven; `;
-    status.textContent = `${told}loops close to ${mechanism.error.toExponential(0)}`;
+    status.textContent = `${told}loops close to ${mechanism.error ? mechanism.error.toExponential(0) : 0}`;
   }
 
   /** @param {Held | null} held */

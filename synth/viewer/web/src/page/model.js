@@ -6,13 +6,16 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
-import { middleOf, turnBack } from "./aligned.js";
+import { middleOf, radiusOf, turnBack } from "./aligned.js";
 import { clusterColour, colour, letterColour } from "./colours.js";
 import { gathered, trianglesOf } from "./geometry.js";
 
 const LINE = 2, CHOSEN = 5;
+const EAST = new three.Vector3(1, 0, 0);
 /** From where a model is looked at first. */
 const FROM = new three.Vector3(0.45, -1.15, 1.05).normalize();
+/** Of what is shown, in units of the extent, at least. */
+const LEAST = 0.2;
 const TURN = 0.1, ZOOM = 1.1;
 
 export class Model {
@@ -39,6 +42,7 @@ export class Model {
     this.turn = [0, 0, 0, 1];
     this.scene.add(this.group);
     this.chosen = { joint: -1, link: -1 };
+    this.fitted = LEAST;
     this.canvas.addEventListener("keydown", (event) => this.#key(event));
     new ResizeObserver(() => this.#resize()).observe(pane);
   }
@@ -54,7 +58,7 @@ export class Model {
     this.first = Float64Array.from(bodies.vertices.flat());
     this.turn = [0, 0, 0, 1];
     this.triangles = trianglesOf(bodies);
-    this.drawn = bodies.edges.filter((edge) => edge.joint >= 0 || "BC".includes(edge.letter));
+    this.drawn = bodies.edges.filter((edge) => edge.joint >= 0 || "BC|".includes(edge.letter));
     this.ends = Int32Array.from(this.drawn.flatMap((edge) => edge.ends));
     const panels = new three.BufferGeometry();
     for (const name of ["position", "color"]) {
@@ -66,7 +70,8 @@ export class Model {
     const front = new three.MeshLambertMaterial({ ...look, side: three.FrontSide });
     const back = new three.MeshLambertMaterial({ ...look, side: three.BackSide, color: solid ? 0xffffff : 0xb8b8b8 });
     this.mesh = new three.Mesh(panels, front);
-    this.lines = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: LINE, vertexColors: true }));
+    const pen = new LineMaterial({ linewidth: LINE, vertexColors: true });
+    this.lines = new LineSegments2(new LineSegmentsGeometry(), pen);
     this.mark = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: CHOSEN }));
     this.group.clear();
     this.group.add(this.mesh, new three.Mesh(panels, back), this.lines, this.mark);
@@ -76,9 +81,10 @@ export class Model {
 
   /** Look at all of the mechanism, as it was looked at first. */
   fit() {
-    const radius = Math.max(0.2, this.#radius());
+    const radius = Math.max(LEAST, radiusOf(this.mechanism?.places ?? []));
+    this.fitted = radius;
     const half = Math.atan(Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
-    this.camera.position.copy(FROM).multiplyScalar((1.02 * radius) / Math.sin(half));
+    this.camera.position.copy(FROM).multiplyScalar(radius / Math.sin(half));
     this.controls.target.set(0, 0, 0);
     this.controls.update();
     this.moved();
@@ -102,6 +108,7 @@ export class Model {
     this.group.position.copy(new three.Vector3(a, b, c).applyQuaternion(this.group.quaternion).negate());
     this.group.updateMatrixWorld();
     this.#marked();
+    this.#kept();
     this.render();
   }
 
@@ -169,12 +176,13 @@ export class Model {
     const pointer = new three.Vector2(((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2);
     const caster = new three.Raycaster();
     caster.setFromCamera(pointer, this.camera);
-    const [hit] = this.group.children.flatMap((one) => (one instanceof three.Mesh && one.geometry === this.panels
-      ? caster.intersectObject(one) : [])).sort((one, other) => one.distance - other.distance);
+    const sides = this.group.children.filter((one) => one instanceof three.Mesh && one.geometry === this.panels);
+    const [hit] = caster.intersectObjects(sides, false);
     if (!hit || hit.faceIndex == null) return null;
     const face = mechanism.data.bodies.faces[triangles.faces[hit.faceIndex]];
     const corners = [...triangles.corners.subarray(3 * hit.faceIndex, 3 * hit.faceIndex + 3)];
-    return { link: face.link, corners, place: this.group.worldToLocal(hit.point.clone()), depth: hit.point.project(this.camera).z };
+    const place = this.group.worldToLocal(hit.point.clone());
+    return { link: face.link, corners, place, depth: hit.point.project(this.camera).z };
   }
 
   render() {
@@ -201,14 +209,14 @@ export class Model {
     return cluster === undefined ? colour("panel") : clusterColour(cluster);
   }
 
-  #radius() {
-    const places = this.first ?? new Float64Array();
-    const [a, b, c] = middleOf(places);
-    let most = 0;
-    for (let n = 0; n < places.length; n += 3) {
-      most = Math.max(most, Math.hypot(places[n] - a, places[n + 1] - b, places[n + 2] - c));
-    }
-    return most;
+  /** Go farther off where a mechanism grows beyond what was fitted. */
+  #kept() {
+    const radius = radiusOf(this.mechanism?.places ?? []);
+    if (radius <= this.fitted) return;
+    const { target } = this.controls;
+    this.camera.position.sub(target).multiplyScalar(radius / this.fitted).add(target);
+    this.fitted = radius;
+    this.controls.update();
   }
 
   #resize() {
@@ -225,7 +233,8 @@ export class Model {
 
   /** @param {KeyboardEvent} event */
   #key(event) {
-    const at = new three.Spherical().setFromVector3(this.camera.position.clone().applyAxisAngle(new three.Vector3(1, 0, 0), -Math.PI / 2));
+    const upwards = this.camera.position.clone().applyAxisAngle(EAST, -Math.PI / 2); // spherical ones have y up
+    const at = new three.Spherical().setFromVector3(upwards);
     if (event.key === "ArrowLeft") at.theta -= TURN;
     else if (event.key === "ArrowRight") at.theta += TURN;
     else if (event.key === "ArrowUp") at.phi -= TURN;
@@ -235,7 +244,7 @@ export class Model {
     else return;
     event.preventDefault();
     at.makeSafe();
-    this.camera.position.setFromSpherical(at).applyAxisAngle(new three.Vector3(1, 0, 0), Math.PI / 2);
+    this.camera.position.setFromSpherical(at).applyAxisAngle(EAST, Math.PI / 2);
     this.controls.update();
     this.render();
   }

@@ -35,7 +35,7 @@ export class Pattern {
     this.marked = id;
     for (const shape of this.pane.querySelectorAll("[data-joint], [data-link]")) {
       const { joint, link } = /** @type {SVGElement} */ (shape).dataset;
-      const same = id !== null && (id.joint === undefined ? link === id.link && link !== undefined : joint === id.joint);
+      const same = id?.joint === undefined ? link !== undefined && link === id?.link : joint === id.joint;
       shape.classList.toggle("chosen", same);
     }
   }
