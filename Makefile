@@ -9,12 +9,14 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow check data pictures clean help
+.PHONY: demo test test-slow test-web page check data pictures clean help
 
 help:
 	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
+	@echo "make test-web   the tests of the page of synth view, in node and in Chromium"
+	@echo "make page       build the script of that page, if its sources have changed"
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
 	@echo "make pictures   make the pictures of README.md and docs/ anew"
@@ -39,7 +41,7 @@ install-venv:
 	  echo "This Python cannot make virtual environments. Install them first: sudo apt-get install $$pkg" >&2; exit 2; \
 	fi
 
-demo: $(STAMP)
+demo: $(STAMP) page
 	@$(BIN)/python -m synth.cli.ahead || true
 	@BIN=$(BIN) sh data/demo.sh
 
@@ -49,11 +51,24 @@ $(COMPILED): $(STAMP) $(shell find enumerate synth/conformed -name '*.py')
 	$(BIN)/python -m synth.cli.ahead
 	@touch $@
 
+# The script of the page, built by npm and esbuild. Where npm is missing or out of reach it says so, and all else goes on.
+page: $(STAMP)
+	@$(BIN)/python synth/viewer/building.py
+
 test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web"
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest $(PARALLEL) -m "not web"
+
+# Chromium comes from the system, or from playwright; tests skip where there is none.
+WEB := synth/viewer/web
+test-web: $(STAMP) page
+	$(BIN)/python -m pip install --quiet 'playwright>=1.44'
+	npm --prefix $(WEB) ci --ignore-scripts --no-audit --no-fund
+	npm --prefix $(WEB) run check
+	npm --prefix $(WEB) test
+	$(BIN)/python -m pytest -m web
 
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers
@@ -76,5 +91,5 @@ pictures: $(STAMP)
 	@BIN=$(BIN) sh docs/pictures.sh
 
 clean:
-	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) synth/viewer/built synth/viewer/web/node_modules .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -1,8 +1,8 @@
 """The script of the page built of its sources: npm fetches what its lock file names, esbuild makes one file of all.
 
-This file stands alone, since it runs before anything is installed: as part of the installation, and from the command
-line (``python synth/viewer/building.py``). Sources are copied aside, so that a read-only or shared clone stays as it
-is. Where something is missing nothing is built, and why is told. Theory: docs/theory/viewer.md.
+This file stands alone, since it runs before anything is installed: as part of the installation, and from the
+command line (``python synth/viewer/building.py``). Sources are copied aside, so that a read-only or shared clone
+stays as it is. Where something is missing nothing is built, and why is told. Theory: docs/theory/viewer.md.
 """
 
 from __future__ import annotations
@@ -102,7 +102,13 @@ def _run(command: list[str], folder: Path) -> str:
     name = Path(command[0]).stem
     try:
         run = subprocess.run(
-            command, cwd=folder, capture_output=True, text=True, timeout=_SECONDS, check=False, stdin=subprocess.DEVNULL
+            command,
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            timeout=_SECONDS,
+            check=False,
+            stdin=subprocess.DEVNULL,
         )
     except subprocess.TimeoutExpired:
         return f"{name} took more than {_SECONDS} seconds"
