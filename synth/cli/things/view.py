@@ -18,10 +18,10 @@ __all__ = ["view"]
 def view(files: tuple[str, ...], output: str, force: bool) -> None:
     """Make a page that shows mechanisms and lets them move, without a network: one file, by double click.
 
-    The drawing is on it, and the model in space: drag a crease or a panel, or move the slider of the driven joint, and
-    all others follow, panels rigid, loops closed to 1e-12. Ways to move are found now and chosen there; stiff
-    joints and what moves as one are coloured; poses are saved as FOLD, OBJ or PNG. Several files make a list to choose
-    from.
+    The drawing is on it, and the model in space: drag a crease or a panel, or move the slider of the driven joint,
+    and all others follow, panels rigid, loops closed to 1e-12. Ways to move are found now and chosen there; stiff
+    joints and what moves as one are coloured; poses are saved as FOLD, OBJ or PNG. Several files make a list to
+    choose from.
 
     \b
     Examples:
