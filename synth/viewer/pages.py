@@ -46,15 +46,17 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def page(shown: Sequence[Shown], title: str = "", built: Path = BUILT) -> str:
+def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, built: Path = BUILT) -> str:
     """Return a page that shows mechanisms and lets them move.
 
     Parameters
     ----------
     shown : sequence of Shown
-        Those to choose from, at least one.
+        Those to choose from.
     title : str, optional
         By default the name of the first.
+    workbench : bool, optional
+        Whether the page has a workbench behind it, which it asks about files.
     built : Path, optional
         The folder of the built script and its style.
 
@@ -82,12 +84,14 @@ def page(shown: Sequence[Shown], title: str = "", built: Path = BUILT) -> str:
         f"default-src 'none'; script-src {_digest(script)}; style-src {_digest(style)}; "
         "img-src blob: data:; base-uri 'none'; form-action 'none'"
     )
+    if workbench:
+        policy += "; connect-src 'self'"
     name = title or (shown[0].name if shown else "")
     return _PAGE.format(
         policy=policy,
         title=escape(plain(name or "synthedra")),
         style=style,
-        data=json_in_html([one.to_json() for one in shown]),
+        data=json_in_html({"shown": [one.to_json() for one in shown], "workbench": workbench}),
         script=script,
     )
 

@@ -60,7 +60,7 @@ def test_a_hostile_name_is_text(built, vertex):
     parsed = Elements(page([shown_of(vertex, HOSTILE)], built=built)).found
     assert [tag for tag, _, _ in parsed if tag in ("script", "style")] == ["style", "script", "script"]
     (data,) = [text for tag, attributes, text in parsed if attributes.get("type") == "application/json"]
-    (shown,) = json.loads(data)
+    (shown,) = json.loads(data)["shown"]
     assert shown["name"].startswith("</script>")
     assert "\x00" not in shown["name"]
     assert next(text for tag, _, text in parsed if tag == "title").startswith("</script>")

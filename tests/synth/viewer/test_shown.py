@@ -14,8 +14,13 @@ from synth.viewer.shown import shown_of
 from synth.viewer.solver_data import factor_order, solver_data
 
 
-def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(data):
-    shown = shown_of(read(data / "patterns" / "bird-base.fold"), "bird base")
+@pytest.fixture(scope="module")
+def bird_base(data):
+    return shown_of(read(data / "patterns" / "bird-base.fold"), "bird base")
+
+
+def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(bird_base):
+    shown = bird_base
     told = json.loads(json.dumps(shown.to_json(), allow_nan=False))
     ways = told["moving"]["ways"]
     assert len(ways["all"]) == 16
@@ -86,8 +91,8 @@ def test_the_order_of_factors_keeps_them_sparse():
     assert filled_in(order, loops) < 0.85 * min(filled_in(other, loops) for other in others)
 
 
-def test_joints_that_carry_links_come_after_those_that_carry_them(data):
-    linkage = shown_of(read(data / "patterns" / "bird-base.fold")).moving.linkage
+def test_joints_that_carry_links_come_after_those_that_carry_them(bird_base):
+    linkage = bird_base.moving.linkage
     told = solver_data(linkage, limited=True, ground=3)
     carried = {3}
     for near, far, joint, sign in told["tree"]:

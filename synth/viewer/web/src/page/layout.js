@@ -43,6 +43,9 @@ export function layout(root) {
     part: element("p", { class: "part", role: "status", "aria-live": "polite" }),
     notes: element("ul", { class: "notes" }),
     report: element("pre"),
+    panes: element("div", { class: "panes" }),
+    details: element("details", {}, element("summary", {}, "Freedoms and equations")),
+    bench: element("div", { class: "bench" }),
   };
   const drive = element("div", { class: "row drive" },
     made.play, made.slider, element("span", { class: "angle" }, made.angle, "°"));
@@ -51,12 +54,10 @@ export function layout(root) {
     element("label", { class: "check" }, made.folds, "drag folds"), made.reset, made.fit,
     element("span", { class: "save" }, "Save ", made.fold, made.obj, made.png));
   const controls = element("section", { class: "controls", "aria-label": "Motion" }, drive, choose, made.status);
-  root.append(
-    element("header", {}, made.list, made.verdict),
-    element("div", { class: "panes" }, made.pattern, made.model),
-    controls, made.part, made.notes,
-    element("details", {}, element("summary", {}, "Freedoms and equations"), made.report),
-  );
+  made.panes.append(made.pattern, made.model);
+  made.details.append(made.report);
+  const header = element("header", {}, made.bench, made.list, made.verdict);
+  root.append(header, made.panes, controls, made.part, made.notes, made.details);
   return { ...made, controls };
 }
 

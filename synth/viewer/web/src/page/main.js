@@ -1,6 +1,6 @@
 /** The page: the data in it shown, chosen from, and moved. */
 
-/** @import { ShownData } from "./types.js" */
+/** @import { PageData, ShownData } from "./types.js" */
 /** @import { Held } from "./dragging.js" */
 import { Dragging } from "./dragging.js";
 import { filled, layout } from "./layout.js";
@@ -9,11 +9,17 @@ import { Model } from "./model.js";
 import { Pattern } from "./pattern.js";
 import { Playing } from "./playing.js";
 import { foldText, objText, saved } from "./saving.js";
+import { Workbench } from "./workbench.js";
 import "./style.css";
 
 /** @type {Record<string, string>} */
 const WORDS = { M: "mountain", V: "valley", U: "unassigned", B: "border", C: "cut", F: "flat", J: "join" };
 const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the drawing and the figures are here.";
+
+/** @type {ShownData} */
+const NOTHING = {
+  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [],
+};
 
 class Page {
   /** @type {Mechanism | null} */
@@ -23,11 +29,11 @@ class Page {
 
   /**
    * @param {HTMLElement} root
-   * @param {ShownData[]} all
+   * @param {PageData} data
    */
-  constructor(root, all) {
-    this.all = all;
-    this.shown = all[0];
+  constructor(root, { shown, workbench }) {
+    this.all = shown;
+    this.shown = shown[0] ?? NOTHING;
     this.parts = layout(root);
     this.pattern = new Pattern(this.parts.pattern, (id) => this.#chooseId(id));
     const mechanism = () => this.#mechanism;
@@ -47,9 +53,22 @@ class Page {
       });
     }
     this.#listen();
-    filled(this.parts.list, all.map(({ name }, value) => ({ value, told: name || `${value}` })), 0);
-    this.parts.list.hidden = all.length < 2;
-    this.#show(0);
+    if (workbench) new Workbench(root, this.parts.bench, (one) => this.#add(one));
+    this.#listed(0);
+  }
+
+  /** @param {ShownData} shown */
+  #add(shown) {
+    this.all.push(shown);
+    this.#listed(this.all.length - 1);
+  }
+
+  /** @param {number} number - Of the one to show. */
+  #listed(number) {
+    const { list } = this.parts;
+    filled(list, this.all.map(({ name }, value) => ({ value, told: name || `${value}` })), number);
+    list.hidden = this.all.length < 2;
+    this.#show(number);
   }
 
   #modelOrWhy() {
@@ -81,7 +100,7 @@ class Page {
   /** @param {number} number */
   #show(number) {
     this.playing.stop();
-    this.shown = this.all[number];
+    this.shown = this.all[number] ?? NOTHING;
     const { shown, parts } = this;
     document.title = shown.name || document.title;
     parts.verdict.textContent = shown.verdict;
@@ -93,6 +112,7 @@ class Page {
     }));
     parts.part.textContent = "Click a link or a joint for its number.";
     this.pattern.show(shown);
+    parts.panes.hidden = parts.part.hidden = parts.details.hidden = this.all.length === 0;
     this.#mechanism = shown.moving ? new Mechanism(shown, shown.moving) : null;
     const moves = this.#mechanism?.moves ?? false;
     parts.model.hidden = !this.#mechanism;

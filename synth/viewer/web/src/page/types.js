@@ -39,5 +39,9 @@
  * @property {MovingData | null} moving
  * @property {string[]} stiff
  * @property {string[][]} clusters
+ *
+ * @typedef {object} PageData
+ * @property {ShownData[]} shown
+ * @property {boolean} workbench - Whether there is a workbench behind the page.
  */
 export {};
