@@ -38,8 +38,8 @@ def answered(name: str, content: bytes) -> dict[str, Any]:
 
     Examples
     --------
-    >>> answered("a.fold", b"{")["error"][:15]
-    'a.fold: line 1,'
+    >>> answered("a.fold", b"{")["error"][:14]
+    'a.fold: line 1'
     """
     before = Path.cwd()
     with TemporaryDirectory() as folder:
