@@ -139,11 +139,11 @@ def shown_of(thing: Mechanism, name: str = "") -> Shown:
     ('Folds with 1 freedom from flat, in 2 ways.', 2)
     """
     placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
-    answer = mobility(placed)
+    notes: list[str] = []
+    pattern, moving = _moving(placed, notes)
+    answer = mobility(placed, pattern=pattern)
     verdict = answer.verdict
     assert verdict is not None
-    notes: list[str] = []
-    moving = _moving(placed, notes)
     pictures = _pictures(placed, notes)
     return Shown(
         plain(name),
@@ -157,14 +157,17 @@ def shown_of(thing: Mechanism, name: str = "") -> Shown:
     )
 
 
-def _moving(thing: Mechanism, notes: list[str]) -> Moving | None:
-    """Return what moves of a thing with a pose; note why there is nothing."""
+def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving | None]:
+    """Return the crease pattern, if it is one, and what moves of a thing with a pose; note why there is nothing."""
     try:
         sheet = sheet_of(thing)
-        return _linkage(linkage_of(thing), notes) if sheet is None else _pattern(prepared(sheet), notes)
+        if sheet is None:
+            return None, _linkage(linkage_of(thing), notes)
+        pattern = prepared(sheet)
+        return pattern, _pattern(pattern, notes)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
-        return None
+        return None, None
 
 
 def _linkage(linkage: PosedLinkage, notes: list[str]) -> Moving:

@@ -75,6 +75,15 @@ test("a joint ends where panels lie on each other", () => {
   assert.equal(motion.pose.angles[0], 1);
 });
 
+test("a long way can be broken off, and gone on with from there", () => {
+  const whole = new Motion(parallelogram("infinite"), null), pieces = new Motion(parallelogram("infinite"), null);
+  whole.to(0, 1.5);
+  let count = 0;
+  while (pieces.to(0, 1.5, () => true) === "late") count += 1;
+  assert.ok(count > 3);
+  assert.deepEqual([...pieces.pose.angles], [...whole.pose.angles]);
+});
+
 test("a rocker turns back, and can be driven the other way from there", () => {
   const linkage = { ...parallelogram("infinite"), points: [[0, 0, 0], [1, 0, 0], [3, 2, 0], [0, 3, 0]] };
   const motion = new Motion(linkage, null);

@@ -147,6 +147,17 @@ class Page {
     this.playing.stop();
     if (Number.isFinite(degrees)) this.#mechanism?.to(degrees);
     this.#changed();
+    this.#onwards();
+  }
+
+  /** Go on with a way that is too long for one picture, unless something else was asked by then. */
+  #onwards() {
+    const mechanism = this.#mechanism;
+    const goal = mechanism?.goal ?? null;
+    if (goal === null) return;
+    requestAnimationFrame(() => {
+      if (this.#mechanism === mechanism && mechanism?.goal === goal) this.#to(goal);
+    });
   }
 
   #toggle() {
@@ -164,7 +175,7 @@ class Page {
       status.textContent = "Nothing moves.";
       return;
     }
-    slider.value = String(mechanism.value);
+    slider.value = String(mechanism.goal ?? mechanism.value);
     driver.value = String(mechanism.driver);
     if (document.activeElement !== angle) angle.value = mechanism.value.toFixed(2);
     const joint = `joint ${mechanism.data.joints[mechanism.driver]}`;

@@ -5,6 +5,8 @@ import { Motion } from "../solver/motion.js";
 import { linkMotions, vertexPlaces } from "../solver/placement.js";
 
 const DEGREES = 180 / Math.PI;
+/** Milliseconds between two pictures on a long way. */
+const PATIENCE = 80;
 
 /** What is said where a path ends. */
 const TOLD = {
@@ -13,6 +15,7 @@ const TOLD = {
   "turns back": "turns back here",
   limit: "stops: panels lie on each other",
   lost: "stops: no closed pose is found beyond",
+  late: "is on its way",
 };
 
 export class Mechanism {
@@ -28,6 +31,8 @@ export class Mechanism {
     this.driver = moving.ways ? moving.ways.all[this.way].driver : -1;
     this.motion = new Motion(moving.solver, this.#direction());
     this.stopped = "";
+    /** @type {number | null} - Degrees that the driven joint is on its way to. */
+    this.goal = null;
     this.places = new Float64Array(3 * moving.bodies.vertices.length);
     this.#place();
   }
@@ -80,6 +85,7 @@ export class Mechanism {
     if (!this.canDrive(joint)) return;
     this.driver = joint;
     this.stopped = "";
+    this.goal = null;
   }
 
   /**
@@ -91,7 +97,10 @@ export class Mechanism {
     if (!this.moves) return false;
     const [least, most] = this.range;
     const goal = Math.min(most, Math.max(least, degrees));
-    this.stopped = TOLD[this.motion.to(this.driver, goal / DEGREES)];
+    const end = performance.now() + PATIENCE;
+    const stopped = this.motion.to(this.driver, goal / DEGREES, () => performance.now() > end);
+    this.goal = stopped === "late" ? goal : null;
+    this.stopped = TOLD[stopped];
     this.#place();
     return this.stopped === "";
   }
@@ -100,6 +109,7 @@ export class Mechanism {
   reset() {
     this.motion.reset(this.#direction());
     this.stopped = "";
+    this.goal = null;
     this.#place();
   }
 

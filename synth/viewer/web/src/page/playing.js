@@ -62,7 +62,7 @@ export class Playing {
     const before = mechanism.value;
     const reached = mechanism.to(before + this.#way * this.page.speed() * seconds);
     const moved = Math.abs(mechanism.value - before) > 1e-9;
-    if ((!reached || !moved) && seconds > 0) {
+    if ((!reached || !moved) && mechanism.goal === null && seconds > 0) {
       if (this.#turned && !moved) return this.stop();
       this.#way = -this.#way;
       this.#turned = true;

@@ -25,9 +25,9 @@ const AT_START = 2e-3;
 /**
  * How a path ended.
  *
- * @typedef {"" | "still" | "turns back" | "limit" | "lost"} Stopped
+ * @typedef {"" | "still" | "turns back" | "limit" | "lost" | "late"} Stopped
  * Nothing: it reached its goal. The driven joint cannot move; turns back; panels lie on each other; no closed pose is
- * found beyond.
+ * found beyond; it took too long, and can go on from where it is.
  */
 
 export class Motion {
@@ -57,17 +57,18 @@ export class Motion {
    *
    * @param {number} joint - Its place.
    * @param {number} value - Radians.
+   * @param {() => boolean} [late] - Asked after each step whether it is to end where it is.
    * @returns {Stopped}
    */
-  to(joint, value) {
-    if (this.direction === null || this.pose === this.start) return this.#along(joint, value);
+  to(joint, value, late = () => false) {
+    if (this.direction === null || this.pose === this.start) return this.#along(joint, value, late);
     const zero = this.start.angles[joint];
     const side = Math.sign(this.pose.angles[joint] - zero);
-    if (side === 0 || side * (value - zero) > AT_START) return this.#along(joint, value);
-    const stopped = this.#along(joint, zero + side * AT_START);
+    if (side === 0 || side * (value - zero) > AT_START) return this.#along(joint, value, late);
+    const stopped = this.#along(joint, zero + side * AT_START, late);
     if (stopped) return stopped;
     this.#put(this.start);
-    return this.#along(joint, Math.abs(value - zero) <= AT_START ? zero : value);
+    return this.#along(joint, Math.abs(value - zero) <= AT_START ? zero : value, late);
   }
 
   /** @param {Corrected} pose */
@@ -79,9 +80,10 @@ export class Motion {
   /**
    * @param {number} joint
    * @param {number} value
+   * @param {() => boolean} late
    * @returns {Stopped}
    */
-  #along(joint, value) {
+  #along(joint, value, late) {
     const way = Math.sign(value - this.pose.angles[joint]);
     if (!way) return "";
     const stepping = this.#towards(joint, way);
@@ -89,6 +91,7 @@ export class Motion {
       const stopped = this.#onwards(stepping, way, value);
       if (stopped) return stopped;
       if (this.pose.angles[joint] === value) return "";
+      if (late()) return "late";
     }
     return "lost";
   }
