@@ -158,7 +158,7 @@ def shown_of(thing: Mechanism, name: str = "") -> Shown:
 
 
 def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving | None]:
-    """Return the crease pattern, if it is one, and what moves of a thing with a pose; note why there is nothing."""
+    """Return the crease pattern, if it is one, and what moves of a thing at a pose; note why there is nothing."""
     try:
         sheet = sheet_of(thing)
         if sheet is None:

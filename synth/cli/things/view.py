@@ -47,7 +47,7 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
     check_built()
     shown = [_shown(file) for file in files]
     if output is None:
-        _serve(shown)
+        _serve(shown, [Path(file).read_bytes() if Path(file).is_file() else None for file in files])
         return
     if not shown:
         raise click.UsageError("a page shows something: expected FILE")
@@ -79,11 +79,11 @@ def _can_serve() -> bool:
     return all(find_spec(name) is not None for name in ("starlette", "uvicorn"))
 
 
-def _serve(shown: list[Shown]) -> None:
+def _serve(shown: list[Shown], sources: list[bytes | None]) -> None:
     from synth.viewer.workbench.serving import serve
 
     def opened(address: str) -> None:
         click.echo(f"workbench: {address}  (Ctrl-C ends it)")
         webbrowser.open(address)
 
-    serve(shown, opened)
+    serve(shown, sources, opened)

@@ -16,7 +16,7 @@ from starlette.types import ASGIApp
 
 from synth.viewer.pages import page
 from synth.viewer.shown import Shown
-from synth.viewer.workbench.asking import Judging, file_name
+from synth.viewer.workbench.asking import Judging, are_edits, file_name
 from synth.viewer.workbench.guard import HEADERS, MOST_BYTES, Guard, Place
 
 __all__ = ["Presence", "application"]
@@ -49,7 +49,9 @@ class Presence:
                 self._timer = asyncio.get_running_loop().call_later(self._after, self._ended)
 
 
-def application(place: Place, shown: Sequence[Shown], presence: Presence) -> ASGIApp:
+def application(
+    place: Place, shown: Sequence[Shown], presence: Presence, sources: Sequence[bytes | None] = ()
+) -> ASGIApp:
     """Return the workbench as an ASGI application.
 
     Parameters
@@ -58,6 +60,8 @@ def application(place: Place, shown: Sequence[Shown], presence: Presence) -> ASG
     shown : sequence of Shown
         What is there when it is opened.
     presence : Presence
+    sources : sequence of bytes or None
+        The files that these were read from, where they were files; the page asks for them to have them edited.
     """
     text = page(shown, "workbench", workbench=True)
     judging = Judging()
@@ -72,8 +76,18 @@ def application(place: Place, shown: Sequence[Shown], presence: Presence) -> ASG
             if len(content) > MOST_BYTES:
                 return PlainTextResponse("the file is larger than it said", 413, headers=HEADERS)
         name = file_name(request.query_params.get("name", ""))
-        answer = await judging.of(name, content, request.is_disconnected)
+        edits = request.query_params.getlist("edit")
+        if not are_edits(edits):
+            return PlainTextResponse("expected edits such as lock:3 or remove:3", 400, headers=HEADERS)
+        answer = await judging.of([name, *edits], content, request.is_disconnected)
         return Response(answer, media_type="application/json", headers=HEADERS)
+
+    async def given(request: Request) -> Response:
+        number = request.query_params.get("number", "")
+        source = sources[int(number)] if number.isdecimal() and int(number) < len(sources) else None
+        if source is None:
+            return PlainTextResponse("there is no such file", 404, headers=HEADERS)
+        return Response(source, media_type="application/octet-stream", headers=HEADERS)
 
     async def line(_: Request) -> Response:
         return StreamingResponse(presence.line(), media_type="text/plain", headers=HEADERS)
@@ -81,6 +95,7 @@ def application(place: Place, shown: Sequence[Shown], presence: Presence) -> ASG
     routes = [
         Route("/", opened, methods=["GET"]),
         Route("/shown", asked, methods=["POST"]),
+        Route("/given", given, methods=["GET"]),
         Route("/open", line, methods=["GET"]),
     ]
     return Guard(Starlette(routes=routes), place)

@@ -9,11 +9,12 @@ import asyncio
 import json
 import re
 import sys
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 
-__all__ = ["Judging", "file_name"]
+__all__ = ["Judging", "are_edits", "file_name"]
 
 _LONGEST = 120
+_MOST_EDITS = 200
 _SECONDS = 120.0
 _LOOK = 0.25
 """Seconds between two looks whether somebody still waits."""
@@ -34,19 +35,30 @@ def file_name(given: str) -> str:
     return made or "file"
 
 
+def are_edits(given: Sequence[str]) -> bool:
+    """Tell whether edits are of the kinds that are known, and not too many.
+
+    Examples
+    --------
+    >>> are_edits(["lock:3", "remove:12"]), are_edits(["lock:-1"]), are_edits(["rm:1"])
+    (True, False, False)
+    """
+    return len(given) <= _MOST_EDITS and all(re.fullmatch(r"(lock|remove):[0-9]{1,9}", edit) for edit in given)
+
+
 class Judging:
     """Files judged, a few at a time."""
 
     def __init__(self) -> None:
         self._free = asyncio.Semaphore(_AT_ONCE)
 
-    async def of(self, name: str, content: bytes, gone: Callable[[], Awaitable[bool]]) -> bytes:
+    async def of(self, words: Sequence[str], content: bytes, gone: Callable[[], Awaitable[bool]]) -> bytes:
         """Return what a page shows of a file, as JSON.
 
         Parameters
         ----------
-        name : str
-            A safe one.
+        words : sequence of str
+            A safe name, and edits.
         content : bytes
         gone : callable
             Whether nobody waits for it any more; then it is stopped.
@@ -57,21 +69,21 @@ class Judging:
             JSON with ``shown`` or ``error``.
         """
         async with self._free:
-            return await _judged(name, content, gone)
+            return await _judged(words, content, gone)
 
 
-async def _judged(name: str, content: bytes, gone: Callable[[], Awaitable[bool]]) -> bytes:
+async def _judged(words: Sequence[str], content: bytes, gone: Callable[[], Awaitable[bool]]) -> bytes:
     pipe = asyncio.subprocess.PIPE
     process = await asyncio.create_subprocess_exec(
-        *_COMMAND, name, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
+        *_COMMAND, *words, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
     )
     answer = asyncio.create_task(process.communicate(content))
     try:
         why = await _watched(answer, gone)
         if why:
-            return _error(name, why)
+            return _error(words[0], why)
         out, _ = answer.result()
-        return out if process.returncode == 0 else _error(name, "it could not be read: the engine failed")
+        return out if process.returncode == 0 else _error(words[0], "it could not be read: the engine failed")
     finally:
         if process.returncode is None:
             process.kill()

@@ -18,13 +18,15 @@ _LINGER = 1
 """Seconds for answers that are on their way when it ends."""
 
 
-def serve(shown: Sequence[Shown], opened: Callable[[str], object]) -> None:
+def serve(shown: Sequence[Shown], sources: Sequence[bytes | None], opened: Callable[[str], object]) -> None:
     """Serve a workbench on this machine, until it is stopped or its last page is closed.
 
     Parameters
     ----------
     shown : sequence of Shown
         What is there when it is opened.
+    sources : sequence of bytes or None
+        The files that these were read from, where they were files.
     opened : callable
         Called with its address when it answers.
 
@@ -38,7 +40,7 @@ def serve(shown: Sequence[Shown], opened: Callable[[str], object]) -> None:
     with socket.create_server(("127.0.0.1", 0)) as listening:
         place = Place(listening.getsockname()[1], secrets.token_urlsafe(24))
         presence = Presence(lambda: setattr(server, "should_exit", True))
-        app = application(place, shown, presence)
+        app = application(place, shown, presence, sources)
         config = uvicorn.Config(
             app, log_level="critical", lifespan="off", server_header=False, timeout_graceful_shutdown=_LINGER
         )

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import synth
+from graphs.creasing.edits import lock_crease, remove_crease
 from graphs.files.formats import read
 from synth.viewer.workbench.reading import answered
 from tests.support.commands import run
@@ -35,3 +36,22 @@ def test_it_is_refused_in_the_same_words(tmp_path, monkeypatch, name, content):
     if "was not built" in said:
         pytest.skip(said)
     assert answered(name, content) == {"error": said}
+
+
+def test_creases_are_locked_and_removed_one_after_the_other(data):
+    place = data / "patterns" / "four-bar-vertex.fold"
+    sheet, content = read(place), place.read_bytes()
+    told = answered(place.name, content, ["lock:0"])["shown"]
+    assert told["verdict"] == synth.mobility(lock_crease(sheet, 0).sheet).verdict.text
+    assert len(told["moving"]["joints"]) == 3
+    twice = remove_crease(lock_crease(sheet, 0).sheet, 2).sheet
+    assert (
+        answered(place.name, content, ["lock:0", "remove:2"])["shown"]["verdict"]
+        == synth.mobility(twice).verdict.text
+    )
+
+
+def test_what_cannot_be_edited_is_said(data):
+    pattern, graph = data / "patterns" / "four-bar-vertex.fold", data / "wiener" / "six-bar.json"
+    assert "99 is no joint" in answered(pattern.name, pattern.read_bytes(), ["lock:99"])["error"]
+    assert "only crease patterns" in answered(graph.name, graph.read_bytes(), ["lock:0"])["error"]

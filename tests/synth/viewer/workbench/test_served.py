@@ -11,6 +11,7 @@ import urllib.request
 import pytest
 
 import synth
+from graphs.creasing.edits import lock_crease
 from graphs.files.formats import read
 from synth.viewer.building import BUILT
 
@@ -105,9 +106,29 @@ def test_what_is_dropped_is_shown_and_folds_and_what_cannot_be_read_is_told(serv
     assert said == []
 
 
+def test_a_crease_is_locked_and_that_undone(served, tab, data):
+    place = data / "patterns" / "four-bar-vertex.fold"
+    bench = served(place)
+    tab.goto(bench.address)
+    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
+    first = synth.mobility(read(place)).verdict.text
+    locked = synth.mobility(lock_crease(read(place), 0).sheet).verdict.text
+    assert locked != first
+    assert tab.get_by_role("button", name="Lock joint").is_disabled()
+    tab.locator(".pattern path[data-joint='0']").first.click(force=True)
+    tab.get_by_role("button", name="Lock joint").click()
+    tab.locator(".verdict", has_text=locked).wait_for(timeout=WAIT)
+    tab.get_by_role("button", name="Undo").click()
+    tab.locator(".verdict", has_text=first).wait_for(timeout=WAIT)
+    assert tab.get_by_role("button", name="Undo").is_disabled()
+
+
 def test_others_get_nothing_and_ctrl_c_ends_it(served, data):
     first, second = served(data / "patterns" / "four-bar-vertex.fold"), served()
     assert status(first.address) == status(second.address) == 200
+    assert status(first.address + "given?number=0") == 200
+    for wrong in ("1", "-1", "x", "9" * 30, "../0"):
+        assert status(f"{first.address}given?number={wrong}") == 404
     host = first.address.split("/")[2]
     assert status(f"http://{host}/") == status(f"http://{host}/{second.address.split('/')[3]}/") == 404
     assert status(first.address + "../../etc/passwd") == 404

@@ -26,6 +26,8 @@ class Page {
   #mechanism = null;
   /** @type {Model | null} */
   #model = null;
+  /** @type {Workbench | null} */
+  bench = null;
 
   /**
    * @param {HTMLElement} root
@@ -53,14 +55,19 @@ class Page {
       });
     }
     this.#listen();
-    if (workbench) new Workbench(root, this.parts.bench, (one) => this.#add(one));
+    this.bench = workbench ? this.#workbench(root) : null;
     this.#listed(0);
   }
 
-  /** @param {ShownData} shown */
-  #add(shown) {
-    this.all.push(shown);
-    this.#listed(this.all.length - 1);
+  /** @param {HTMLElement} root */
+  #workbench(root) {
+    return new Workbench(root, this.parts.bench, {
+      shown: this.all,
+      add: (shown) => { this.all.push(shown); this.#listed(this.all.length - 1); },
+      put: (shown, number) => { this.all[number] = shown; this.#listed(number); },
+      number: () => this.all.indexOf(this.shown),
+      joint: () => this.pattern.marked?.joint ?? null,
+    });
   }
 
   /** @param {number} number - Of the one to show. */
@@ -112,6 +119,7 @@ class Page {
     }));
     parts.part.textContent = "Click a link or a joint for its number.";
     this.pattern.show(shown);
+    this.bench?.changed();
     parts.panes.hidden = parts.part.hidden = parts.details.hidden = this.all.length === 0;
     this.#mechanism = shown.moving ? new Mechanism(shown, shown.moving) : null;
     const moves = this.#mechanism?.moves ?? false;
@@ -236,6 +244,7 @@ class Page {
    */
   #told(id, more) {
     this.pattern.mark(id);
+    this.bench?.changed();
     const what = id?.joint !== undefined ? `Joint ${id.joint}` : id?.link !== undefined ? `Link ${id.link}` : "";
     this.parts.part.textContent = what ? `${what} ${more}`.trim() : "Click a link or a joint for its number.";
   }
