@@ -1,12 +1,15 @@
 """Files as they are dropped: shown and judged as the command does, or refused in its words."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
+from real_patterns import names_of_patterns
 
 import synth
 from graphs.creasing.edits import lock_crease, remove_crease
+from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from synth.viewer.workbench.reading import answered
 from tests.support.commands import run
@@ -55,3 +58,16 @@ def test_what_cannot_be_edited_is_said(data):
     pattern, graph = data / "patterns" / "four-bar-vertex.fold", data / "wiener" / "six-bar.json"
     assert "99 is no joint" in answered(pattern.name, pattern.read_bytes(), ["lock:99"])["error"]
     assert "only crease patterns" in answered(graph.name, graph.read_bytes(), ["lock:0"])["error"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", names_of_patterns(most_bytes=15_000))
+def test_patterns_by_other_people_are_judged_as_the_command_does(fold_folder, name):
+    place = fold_folder / name
+    told = answered(place.name, place.read_bytes())
+    try:
+        verdict = synth.mobility(read(place)).verdict.text
+    except SynthedraError as error:
+        assert str(error).removeprefix(f"{fold_folder}{os.sep}") in told["error"]
+    else:
+        assert told["shown"]["verdict"] == verdict
