@@ -59,16 +59,24 @@ test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest $(PARALLEL) -m "not web"
+	$(BIN)/python -m pytest $(PARALLEL)
 
-# Chromium comes from the system, or from playwright; tests skip where there is none.
+# Tests skip with a message where there is no Chromium, and in `make test-slow` where there is no playwright.
+.PHONY: browser
+browser:
+	@command -v chromium >/dev/null || \
+	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq chromium; } || \
+	      echo "Chromium could not be installed; some tests will skip" >&2; \
+	  else echo "Chromium is not installed; some tests will skip (sudo apt-get install chromium)" >&2; fi
+
 WEB := synth/viewer/web
-test-web: $(STAMP) page
+test-web: $(STAMP) page browser
 	$(BIN)/python -m pip install --quiet 'playwright>=1.44'
 	npm --prefix $(WEB) ci --ignore-scripts --no-audit --no-fund
 	npm --prefix $(WEB) run check
 	npm --prefix $(WEB) test
-	$(BIN)/python -m pytest -m web
+	$(BIN)/python -m pytest tests/synth/viewer -m "web and not slow"
 
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers
