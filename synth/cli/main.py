@@ -29,6 +29,7 @@ _COMMANDS = {
     "fold": "synth.cli.things.fold:fold",
     "template": "synth.cli.things.template:template",
     "draw": "synth.cli.things.draw:draw",
+    "view": "synth.cli.things.view:view",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",

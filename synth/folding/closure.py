@@ -17,7 +17,7 @@ from graphs.arrays import Floats, Ints
 from graphs.loops.loop import Centre
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["ClosureEquations", "turns"]
+__all__ = ["ClosureEquations", "frames_of", "turns"]
 
 
 def turns(axes: Floats, angles: Floats) -> Floats:
@@ -245,13 +245,29 @@ def _grouped(linkage: PosedLinkage) -> list[_Alike]:
         joints = np.array([loop.joints for loop in loops], dtype=np.int64)
         signs = np.array([loop.signs for loop in loops], dtype=float)
         axes = linkage.directions[joints]
-        frames = _across(axes) if centre is Centre.INFINITE else np.zeros((len(loops), 3, 3))
+        frames = frames_of(axes) if centre is Centre.INFINITE else np.zeros((len(loops), 3, 3))
         groups.append(_Alike(joints, axes, linkage.points[joints], signs, centre, frames))
     return groups
 
 
-def _across(axes: Floats) -> Floats:
-    """Return frames of loops whose axes are parallel, the axis last."""
+def frames_of(axes: Floats) -> Floats:
+    """Return frames of loops whose axes are parallel: two directions across them, then theirs.
+
+    Parameters
+    ----------
+    axes : float[L, k, 3]
+        Unit vectors, of each loop parallel.
+
+    Returns
+    -------
+    float[L, 3, 3]
+        Rows are orthonormal.
+
+    Examples
+    --------
+    >>> abs(frames_of(np.array([[[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]))[0, 2]).round(12).tolist()
+    [0.0, 0.0, 1.0]
+    """
     return np.linalg.svd(axes)[2][:, [1, 2, 0]]
 
 

@@ -5,7 +5,7 @@ Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -20,7 +20,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.folding.closure import turns
 from synth.folding.linkage import PosedLinkage
 
-__all__ = ["link_motions", "moved", "vertex_places"]
+__all__ = ["joints_outwards", "largest_panel", "link_motions", "moved", "vertex_places"]
 
 
 def link_motions(
@@ -50,26 +50,56 @@ def link_motions(
     >>> (rotation[0] @ [1.0, 0.0, 0.0]).round(12).tolist()
     [0.0, 1.0, 0.0]
     """
+    still = (np.broadcast_to(np.eye(3), (len(angles), 3, 3)), np.zeros((len(angles), 3)))
+    motions: dict[LinkId, tuple[Floats, Floats]] = {}
+    for near, far, place, sign in joints_outwards(linkage, ground):
+        turn = turns(linkage.directions[place], sign * (angles[:, place] - linkage.angles[place]))
+        rotation, shift = motions.setdefault(near, still)
+        point = linkage.points[place]
+        motions[far] = rotation @ turn, shift + (rotation @ (point - turn @ point)[..., None])[..., 0]
+    return {link: motions.get(link, still) for link in linkage.graph.nodes}
+
+
+def joints_outwards(
+    linkage: PosedLinkage, ground: LinkId | None = None
+) -> Iterator[tuple[LinkId, LinkId, int, float]]:
+    """Yield joints that carry links, those nearer to the links that stay first.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    ground : link, optional
+        The link that stays; by default the first. Of a linkage in several parts, each has one.
+
+    Yields
+    ------
+    (near, far, place, sign)
+        A link, the one that is carried by it, the place of the joint between them in the list of joints, and 1 or
+        -1: by which of its angle the far one is turned.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.folding.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> list(joints_outwards(hinge, ground=1))
+    [(1, 0, 0, -1.0)]
+    """
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}
     between = nx.Graph()
     between.add_nodes_from(graph.nodes)
     for joint, (first, second) in graph.joints.items():
         between.add_edge(first, second, joint=joint)
-    still = (np.broadcast_to(np.eye(3), (len(angles), 3, 3)), np.zeros((len(angles), 3)))
-    motions: dict[LinkId, tuple[Floats, Floats]] = {}
+    carried: set[LinkId] = set()
     for root in [*([] if ground is None else [ground]), *graph.nodes]:
-        if root in motions:
+        if root in carried:
             continue
-        motions[root] = still
+        carried.add(root)
         for near, far in nx.bfs_edges(between, root):
-            place = column[between[near][far]["joint"]]
-            sign = 1.0 if graph.joints[between[near][far]["joint"]][0] == near else -1.0
-            turn = turns(linkage.directions[place], sign * (angles[:, place] - linkage.angles[place]))
-            rotation, shift = motions[near]
-            point = linkage.points[place]
-            motions[far] = rotation @ turn, shift + (rotation @ (point - turn @ point)[..., None])[..., 0]
-    return motions
+            carried.add(far)
+            joint = between[near][far]["joint"]
+            yield near, far, column[joint], 1.0 if graph.joints[joint][0] == near else -1.0
 
 
 def moved(linkage: PosedLinkage, angles: Floats) -> PosedLinkage:
@@ -108,7 +138,7 @@ def vertex_places(
     """
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
-    motions = link_motions(linkage, angles, _largest(mechanism.panels))
+    motions = link_motions(linkage, angles, largest_panel(mechanism.panels))
     places = np.broadcast_to(local, (len(angles), *local.shape)).copy()
     placed = np.zeros(sheet.vertices, dtype=bool)
     apart = np.zeros(len(angles))
@@ -124,6 +154,12 @@ def vertex_places(
     return places * linkage.extent + linkage.middle, apart
 
 
-def _largest(panels: Sequence[Sequence[Any]]) -> int:
-    """Return the link of most faces: what a sheet is held by."""
+def largest_panel(panels: Sequence[Sequence[Any]]) -> int:
+    """Return the link of most faces: what a sheet is held by.
+
+    Examples
+    --------
+    >>> largest_panel([[0], [1, 2], [3]])
+    1
+    """
     return max(range(len(panels)), key=lambda link: len(panels[link]))

@@ -18,7 +18,7 @@ from graphs.errors import SynthedraError
 from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
-from synth.folding.prepared import prepared
+from synth.folding.prepared import Prepared, prepared
 from synth.moving.linkages import linkage_of
 from synth.verdict.of_motion import verdict_of_linkage, verdict_of_motion
 from synth.verdict.of_type import verdict_of_type
@@ -81,6 +81,7 @@ def mobility(
     pose: int | Literal[False] | None = None,
     geometry: bool = True,
     motion: bool | None = None,
+    pattern: Prepared | None = None,
 ) -> JudgedMobility:
     """Say how a mechanism moves, with how many freedoms, and how that is known.
 
@@ -90,6 +91,8 @@ def mobility(
         As in :func:`graphs.answer.mechanisms.mobility`, which counts.
     motion : bool, optional
         Look for the motion of a crease pattern from its pose; by default of what is not too large.
+    pattern : Prepared, optional
+        The crease pattern made ready to move, where it is at hand.
 
     Returns
     -------
@@ -123,7 +126,7 @@ def mobility(
         told = f"the motion of {len(drawn.faces)} panels is looked for on request (--motion)"
         return JudgedMobility.judged(answer, verdict_of_type(answer, told))
     try:
-        pattern = prepared(drawn, hinge_flat=hinge_flat)
+        pattern = pattern or prepared(drawn, hinge_flat=hinge_flat)
     except SynthedraError as error:
         if motion:
             raise

@@ -1,0 +1,89 @@
+"""``synth view``: a page on which mechanisms fold."""
+
+from __future__ import annotations
+
+import webbrowser
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from synth.cli.output import FORCE, about, check_output, plain
+
+if TYPE_CHECKING:
+    from synth.viewer.shown import Shown
+
+__all__ = ["view"]
+
+
+@click.command(short_help="Make a page on which a mechanism folds, for any browser.")
+@click.argument("files", metavar="FILE...", nargs=-1)
+@click.option("-o", "--output", metavar="OUT", help="The page to write: .html. Without it a workbench is opened.")
+@FORCE
+def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
+    """Make a page that shows mechanisms and lets them move, without a network: one file, by double click.
+
+    The drawing is on it, and the model in space: drag a crease or a panel, or move the slider of the driven joint,
+    and all others follow, panels rigid, loops closed to 1e-12. Ways to move are found now and chosen there; stiff
+    joints and what moves as one are coloured; poses are saved as FOLD, OBJ or PNG. Several files make a list to
+    choose from.
+
+    Without -o the page is opened in a browser with a workbench behind it: drop any file on it it can read.
+    It ends with Ctrl-C, or 10 seconds after its last page was closed (extra: pip install 'synthedra[view]').
+
+    \b
+    Examples:
+      synth view data/patterns/bird-base.fold -o bird-base.html
+      synth view
+      synth view data/linkages/bennett.json data/wiener/miura-4x4.fold -o page.html
+    """
+    from synth.viewer.pages import check_built
+
+    if output is not None:
+        _check_page(output, force=force)
+    elif not _can_serve():
+        raise click.UsageError("the workbench needs pip install 'synthedra[view]'; a page needs -o page.html")
+    check_built()
+    shown = [_shown(file) for file in files]
+    if output is None:
+        _serve(shown, [Path(file).read_bytes() if Path(file).is_file() else None for file in files])
+        return
+    if not shown:
+        raise click.UsageError("a page shows something: expected FILE")
+    from graphs.files.atomic import write_text
+    from synth.viewer.pages import page
+
+    write_text(Path(output), page(shown), force=force)
+    click.echo(f"written: {plain(output, 4096)}")
+
+
+def _check_page(output: str, *, force: bool) -> None:
+    from graphs.errors import FileError
+
+    if Path(output).suffix.lower() not in (".html", ".htm"):
+        raise FileError(output, "", "the extension is not known", ".html")
+    check_output(output, force=force)
+
+
+def _shown(file: str) -> Shown:
+    from graphs.files.formats import read
+    from synth.viewer.shown import shown_of
+
+    thing = read(file)
+    with about(file):
+        return shown_of(thing, Path(file).name)
+
+
+def _can_serve() -> bool:
+    return all(find_spec(name) is not None for name in ("starlette", "uvicorn"))
+
+
+def _serve(shown: list[Shown], sources: list[bytes | None]) -> None:
+    from synth.viewer.workbench.serving import serve
+
+    def opened(address: str) -> None:
+        click.echo(f"workbench: {address}  (Ctrl-C ends it)")
+        webbrowser.open(address)
+
+    serve(shown, sources, opened)

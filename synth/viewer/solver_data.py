@@ -1,0 +1,118 @@
+"""What the solver of the page is told of a linkage: numbers alone, ready for JSON.
+
+Loops come as the equations have them, those of one kind and length together, so that residuals of both solvers
+have the same rows. The order of joints in sparse factors is found here: minimum degree is not ported. Theory:
+docs/theory/viewer.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+import scipy.sparse
+from scipy.sparse.linalg import splu
+
+from graphs.arrays import Ints
+from graphs.ids import LinkId
+from graphs.loops.loop import Centre
+from synth.folding.closure import frames_of
+from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.folding.placement import joints_outwards
+
+__all__ = ["factor_order", "solver_data"]
+
+
+def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None = None) -> dict[str, Any]:
+    """Return what the page's solver needs to move a linkage.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    limited : bool
+        Whether joints end at 180 degrees, where panels lie on each other.
+    ground : link, optional
+        The link that stays; by default the first.
+
+    Returns
+    -------
+    dict
+        Plain data; `LinkageData` of web/src/solver/types.js. Angles in radians, lengths in units of the extent.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.folding.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> told = solver_data(hinge, limited=False)
+    >>> told["directions"], told["tree"], told["order"]
+    ([[0.0, 0.0, 1.0]], [(0, 1, 0, 1)], [0])
+    """
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    tree = [
+        (number[near], number[far], place, int(sign))
+        for near, far, place, sign in joints_outwards(linkage, ground)
+    ]
+    return {
+        "points": linkage.points.tolist(),
+        "directions": linkage.directions.tolist(),
+        "angles": linkage.angles.tolist(),
+        "loops": [_loop(linkage, loop) for loop in _as_the_equations(linkage.loops)],
+        "order": factor_order(len(linkage.angles), [loop.joints for loop in linkage.loops]).tolist(),
+        "limited": limited,
+        "tree": tree,
+        "links": len(number),
+    }
+
+
+def factor_order(joints: int, loops: Sequence[Sequence[int]]) -> Ints:
+    """Return where each joint goes in factors of normal equations, so that these stay sparse.
+
+    Parameters
+    ----------
+    joints : int
+        How many there are.
+    loops : sequence of sequence of int
+        Places of the joints of each loop: they see each other.
+
+    Returns
+    -------
+    int[J]
+        A permutation, by minimum degree.
+
+    Examples
+    --------
+    A hub of a star goes last, so that nothing is filled in:
+
+    >>> int(factor_order(5, [(0, 1), (0, 2), (0, 3), (0, 4)])[0]) >= 3
+    True
+    """
+    if not joints:
+        return np.zeros(0, dtype=np.int64)
+    columns = np.fromiter(chain.from_iterable(loops), dtype=np.int64)
+    rows = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
+    seen = scipy.sparse.csr_matrix((np.ones(len(columns)), (rows, columns)), shape=(len(loops), joints))
+    pattern = (seen.T @ seen + scipy.sparse.identity(joints)).tocsc()
+    options = {"SymmetricMode": True}
+    factors = splu(pattern, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    return np.asarray(factors.perm_c, dtype=np.int64)
+
+
+def _as_the_equations(loops: Sequence[PosedLoop]) -> list[PosedLoop]:
+    kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
+    for loop in loops:
+        kinds.setdefault((loop.centre, len(loop.joints)), []).append(loop)
+    return list(chain.from_iterable(kinds.values()))
+
+
+def _loop(linkage: PosedLinkage, loop: PosedLoop) -> dict[str, Any]:
+    parallel = loop.centre is Centre.INFINITE
+    return {
+        "joints": list(loop.joints),
+        "signs": list(loop.signs),
+        "centre": str(loop.centre.value),
+        "frame": frames_of(linkage.directions[None, list(loop.joints)])[0].tolist() if parallel else None,
+    }

@@ -1,0 +1,26 @@
+/** Colours of the page, read from its style: light and dark are told there alone. */
+
+/**
+ * Return a colour of the style.
+ *
+ * @param {string} name - Without its dashes.
+ */
+export function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+/** Names of the colours of clusters, which are used again where there are more. */
+const CLUSTERS = 6;
+
+/** @param {number} cluster */
+export function clusterColour(cluster) {
+  return colour(`cluster-${cluster % CLUSTERS}`);
+}
+
+/** @type {Record<string, string>} */
+const LETTERS = { M: "mountain", V: "valley", B: "border", C: "cut", F: "flat", J: "flat", "-": "axis", "|": "side" };
+
+/** @param {string} letter - Of an edge. */
+export function letterColour(letter) {
+  return colour(LETTERS[letter] ?? "unassigned");
+}

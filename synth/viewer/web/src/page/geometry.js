@@ -1,0 +1,76 @@
+/** Faces and lines as the graphics card takes them: rows of corners, renewed where bodies move. */
+
+/** @import { BodyData } from "./types.js" */
+import { ShapeUtils, Vector2 } from "three";
+
+/**
+ * Triangles of all faces.
+ *
+ * @typedef {object} Triangles
+ * @property {Int32Array} corners - Three vertices each.
+ * @property {Int32Array} faces - The face that each is of.
+ */
+
+/**
+ * Return the faces cut into triangles, in the planes they have at the pose of the file.
+ *
+ * @param {BodyData} bodies
+ * @returns {Triangles}
+ */
+export function trianglesOf({ vertices, faces }) {
+  /** @type {number[]} */
+  const corners = [];
+  /** @type {number[]} */
+  const of = [];
+  faces.forEach((face, number) => {
+    for (const triangle of cut(face.vertices.map((vertex) => vertices[vertex]))) {
+      for (const corner of triangle) corners.push(face.vertices[corner]);
+      of.push(number);
+    }
+  });
+  return { corners: Int32Array.from(corners), faces: Int32Array.from(of) };
+}
+
+/**
+ * Write the places of corners in a row.
+ *
+ * @param {ArrayLike<number>} places - Of the vertices, three numbers each.
+ * @param {ArrayLike<number>} corners
+ * @param {Float32Array} row
+ */
+export function gathered(places, corners, row) {
+  for (let n = 0; n < corners.length; n++) {
+    for (let i = 0; i < 3; i++) row[3 * n + i] = places[3 * corners[n] + i];
+  }
+}
+
+/**
+ * @param {number[][]} around
+ * @returns {number[][]}
+ */
+function cut(around) {
+  if (around.length === 3) return [[0, 1, 2]];
+  const [x, y] = largestPlane(around);
+  const flat = around.map((place) => new Vector2(place[x], place[y]));
+  if (!ShapeUtils.isClockWise(flat)) return ShapeUtils.triangulateShape(flat, []);
+  const mirrored = ShapeUtils.triangulateShape(flat.reverse(), []);
+  return mirrored.map((one) => one.map((corner) => around.length - 1 - corner).reverse());
+}
+
+/**
+ * Return the two coordinates in which a polygon is seen largest.
+ *
+ * @param {number[][]} around
+ */
+function largestPlane(around) {
+  const pairs = [[0, 1], [1, 2], [2, 0]];
+  const areas = pairs.map(([x, y]) => {
+    let sum = 0;
+    around.forEach((here, n) => {
+      const next = around[(n + 1) % around.length];
+      sum += here[x] * next[y] - next[x] * here[y];
+    });
+    return Math.abs(sum);
+  });
+  return pairs[areas.indexOf(Math.max(...areas))];
+}

@@ -1,0 +1,271 @@
+/** The page: the data in it shown, chosen from, and moved. */
+
+/** @import { PageData, ShownData } from "./types.js" */
+/** @import { Held } from "./dragging.js" */
+import { Dragging } from "./dragging.js";
+import { filled, layout } from "./layout.js";
+import { Mechanism } from "./mechanism.js";
+import { Model } from "./model.js";
+import { Pattern } from "./pattern.js";
+import { Playing } from "./playing.js";
+import { foldText, objText, saved } from "./saving.js";
+import { Workbench } from "./workbench.js";
+import "./style.css";
+
+/** @type {Record<string, string>} */
+const WORDS = { M: "mountain", V: "valley", U: "unassigned", B: "border", C: "cut", F: "flat", J: "join" };
+const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the drawing and the figures are here.";
+
+/** @type {ShownData} */
+const NOTHING = {
+  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [],
+};
+
+class Page {
+  /** @type {Mechanism | null} */
+  #mechanism = null;
+  /** @type {Model | null} */
+  #model = null;
+  /** @type {Workbench | null} */
+  bench = null;
+
+  /**
+   * @param {HTMLElement} root
+   * @param {PageData} data
+   */
+  constructor(root, { shown, workbench }) {
+    this.all = shown;
+    this.shown = shown[0] ?? NOTHING;
+    this.parts = layout(root);
+    this.pattern = new Pattern(this.parts.pattern, (id) => this.#chooseId(id));
+    const mechanism = () => this.#mechanism;
+    this.playing = new Playing({
+      mechanism,
+      speed: () => Number(this.parts.speed.value),
+      changed: () => this.#changed(),
+      ended: () => { this.parts.play.textContent = "Play"; },
+    });
+    this.#model = this.#modelOrWhy();
+    if (this.#model) {
+      new Dragging(this.#model, {
+        mechanism,
+        folds: () => this.parts.folds.checked,
+        chosen: (held) => this.#chooseHeld(held),
+        changed: () => { this.playing.stop(); this.#changed(); },
+      });
+    }
+    this.#listen();
+    this.bench = workbench ? this.#workbench(root) : null;
+    this.#listed(0);
+  }
+
+  /** @param {HTMLElement} root */
+  #workbench(root) {
+    return new Workbench(root, this.parts.bench, {
+      shown: this.all,
+      add: (shown) => { this.all.push(shown); this.#listed(this.all.length - 1); },
+      put: (shown, number) => { this.all[number] = shown; this.#listed(number); },
+      number: () => this.all.indexOf(this.shown),
+      joint: () => this.pattern.marked?.joint ?? null,
+    });
+  }
+
+  /** @param {number} number - Of the one to show. */
+  #listed(number) {
+    const { list } = this.parts;
+    filled(list, this.all.map(({ name }, value) => ({ value, told: name || `${value}` })), number);
+    list.hidden = this.all.length < 2;
+    this.#show(number);
+  }
+
+  #modelOrWhy() {
+    try {
+      return new Model(this.parts.model);
+    } catch (error) {
+      if (!(error instanceof Error) || !/webgl/i.test(error.message)) throw error;
+      this.parts.model.textContent = NO_WEBGL;
+      return null;
+    }
+  }
+
+  #listen() {
+    const { list, way, driver, slider, angle, play, reset, fit, fold, obj, png } = this.parts;
+    list.addEventListener("change", () => this.#show(Number(list.value)));
+    way.addEventListener("change", () => { this.#mechanism?.take(Number(way.value)); this.#asked(); });
+    driver.addEventListener("change", () => { this.#mechanism?.drive(Number(driver.value)); this.#asked(); });
+    slider.addEventListener("input", () => this.#to(Number(slider.value)));
+    angle.addEventListener("change", () => this.#to(Number(angle.value)));
+    play.addEventListener("click", () => this.#toggle());
+    reset.addEventListener("click", () => { this.#mechanism?.reset(); this.#asked(); });
+    fit.addEventListener("click", () => this.#model?.fit());
+    fold.addEventListener("click", () => this.#save("fold"));
+    obj.addEventListener("click", () => this.#save("obj"));
+    png.addEventListener("click", () => this.#model?.canvas.toBlob((blob) => blob && saved(blob, this.#file("png"))));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#model?.coloured());
+  }
+
+  /** @param {number} number */
+  #show(number) {
+    this.playing.stop();
+    this.shown = this.all[number] ?? NOTHING;
+    const { shown, parts } = this;
+    document.title = shown.name || document.title;
+    parts.verdict.textContent = shown.verdict;
+    parts.report.textContent = shown.report;
+    parts.notes.replaceChildren(...shown.notes.map((note) => {
+      const item = document.createElement("li");
+      item.textContent = note;
+      return item;
+    }));
+    parts.part.textContent = "Click a link or a joint for its number.";
+    this.pattern.show(shown);
+    this.bench?.changed();
+    parts.panes.hidden = parts.part.hidden = parts.details.hidden = this.all.length === 0;
+    this.#mechanism = shown.moving ? new Mechanism(shown, shown.moving) : null;
+    const moves = this.#mechanism?.moves ?? false;
+    parts.model.hidden = !this.#mechanism;
+    parts.controls.hidden = !this.#mechanism;
+    const moving = [parts.play, parts.slider, parts.angle, parts.driver, parts.way, parts.reset];
+    for (const one of moving) one.disabled = !moves;
+    if (!this.#mechanism) return;
+    const ways = shown.moving?.ways?.all ?? [];
+    filled(parts.way, ways.map(({ told }, value) => ({ value, told })), this.#mechanism.way);
+    if (parts.way.parentElement) parts.way.parentElement.hidden = ways.length < 2;
+    if (this.#model) {
+      this.#model.canvas.setAttribute("aria-label", `${shown.name} in space; arrow keys turn it`);
+      this.#model.choose({ joint: -1, link: -1 });
+      this.#model.show(this.#mechanism);
+    }
+    this.#asked();
+  }
+
+  /** What can be driven, and from where to where. */
+  #asked() {
+    const mechanism = this.#mechanism;
+    if (!mechanism) return;
+    const { driver, slider } = this.parts;
+    const joints = mechanism.data.joints.map((id, value) => ({ value, told: `joint ${id}` }));
+    filled(driver, joints.filter(({ value }) => mechanism.canDrive(value)), mechanism.driver);
+    [slider.min, slider.max] = mechanism.range.map(String);
+    this.#changed();
+  }
+
+  /** @param {number} degrees */
+  #to(degrees) {
+    this.playing.stop();
+    if (Number.isFinite(degrees)) this.#mechanism?.to(degrees);
+    this.#changed();
+    this.#onwards();
+  }
+
+  /** Go on with a way that is too long for one picture, unless something else was asked by then. */
+  #onwards() {
+    const mechanism = this.#mechanism;
+    const goal = mechanism?.goal ?? null;
+    if (goal === null) return;
+    requestAnimationFrame(() => {
+      if (this.#mechanism === mechanism && mechanism?.goal === goal) this.#to(goal);
+    });
+  }
+
+  #toggle() {
+    this.playing.toggle();
+    this.parts.play.textContent = this.playing.on ? "Pause" : "Play";
+  }
+
+  /** Show where everything is. */
+  #changed() {
+    const mechanism = this.#mechanism;
+    if (!mechanism) return;
+    const { slider, angle, status, driver } = this.parts;
+    this.#model?.moved();
+    if (!mechanism.moves) {
+      status.textContent = "Nothing moves.";
+      return;
+    }
+    slider.value = String(mechanism.goal ?? mechanism.value);
+    driver.value = String(mechanism.driver);
+    if (document.activeElement !== angle) angle.value = mechanism.value.toFixed(2);
+    const joint = `joint ${mechanism.data.joints[mechanism.driver]}`;
+    const told = mechanism.stopped ? `${joint} ${mechanism.stopped}; ` : `${joint} driven; `;
+    status.textContent = `${told}loops close to ${mechanism.error ? mechanism.error.toExponential(0) : 0}`;
+  }
+
+  /** @param {Held | null} held */
+  #chooseHeld(held) {
+    this.#choose(held?.joint ?? -1, held?.link ?? -1);
+  }
+
+  /** @param {{joint?: string, link?: string} | null} id */
+  #chooseId(id) {
+    const moving = this.shown.moving;
+    if (moving) this.#choose(moving.joints.indexOf(id?.joint ?? ""), moving.links.indexOf(id?.link ?? ""), id);
+    else this.#told(id, "");
+  }
+
+  /**
+   * Mark a joint or a link in both panes, and tell what it is; a joint that can be is driven from now on.
+   *
+   * @param {number} joint - Its place; -1: none.
+   * @param {number} link
+   * @param {{joint?: string, link?: string} | null} [id] - In the drawing, where it has one that does not move.
+   */
+  #choose(joint, link, id = null) {
+    const mechanism = this.#mechanism;
+    if (!mechanism) return;
+    const { joints, links, between } = mechanism.data;
+    this.#model?.choose({ joint, link });
+    if (joint >= 0) {
+      if (mechanism.canDrive(joint) && joint !== mechanism.driver) {
+        this.playing.stop();
+        mechanism.drive(joint);
+        this.#changed();
+      }
+      const letter = mechanism.data.bodies.edges.find((edge) => edge.joint === joint)?.letter ?? "";
+      const ends = between[joint].map((one) => links[one]).join(" and ");
+      const what = [WORDS[letter], `${mechanism.angleOf(joint).toFixed(2)}°`, mechanism.stiff.has(joint) && "stiff"];
+      this.#told({ joint: joints[joint] }, `between links ${ends}: ${what.filter(Boolean).join(", ")}`);
+    } else if (link >= 0) this.#told({ link: links[link] }, this.#clusterTold(mechanism, link));
+    else this.#told(id, "");
+  }
+
+  /**
+   * @param {Mechanism} mechanism
+   * @param {number} link
+   */
+  #clusterTold(mechanism, link) {
+    const cluster = mechanism.clusterOf.get(link);
+    return cluster === undefined ? "" : `moves as one with ${this.shown.clusters[cluster].length - 1} other(s)`;
+  }
+
+  /**
+   * @param {{joint?: string, link?: string} | null} id
+   * @param {string} more
+   */
+  #told(id, more) {
+    this.pattern.mark(id);
+    this.bench?.changed();
+    const what = id?.joint !== undefined ? `Joint ${id.joint}` : id?.link !== undefined ? `Link ${id.link}` : "";
+    this.parts.part.textContent = what ? `${what} ${more}`.trim() : "Click a link or a joint for its number.";
+  }
+
+  /** @param {"fold" | "obj"} kind */
+  #save(kind) {
+    const mechanism = this.#mechanism;
+    if (!mechanism) return;
+    const text = kind === "fold" ? foldText(this.shown, mechanism) : objText(mechanism);
+    saved(new Blob([text], { type: "text/plain" }), this.#file(kind));
+  }
+
+  /** @param {string} kind */
+  #file(kind) {
+    return `${(this.shown.name || "pose").replace(/\.\w+$/, "")}.${kind}`;
+  }
+}
+
+const root = document.getElementById("page");
+const data = document.getElementById("data");
+if (root && data) {
+  const page = new Page(root, JSON.parse(data.textContent ?? "[]"));
+  root.dataset.ready = String(page.all.length);
+}

@@ -1,0 +1,47 @@
+/**
+ * The data of a page: docs/theory/viewer.md.
+ *
+ * @import { LinkageData } from "../solver/types.js"
+ *
+ * @typedef {object} BodyData
+ * @property {number[][]} vertices - At the pose of the file, in units of the extent.
+ * @property {number[]} owners - The link that carries each; -1 for none.
+ * @property {{link: number, vertices: number[]}[]} faces
+ * @property {{ends: [number, number], letter: string, joint: number}[]} edges - Joint -1: none.
+ *
+ * @typedef {object} WayData
+ * @property {string} told
+ * @property {number[]} rates
+ * @property {number[]} still - Places of joints.
+ * @property {number} driver
+ *
+ * @typedef {object} WaysData
+ * @property {WayData[]} all
+ * @property {boolean} singular
+ * @property {number} taken
+ *
+ * @typedef {object} MovingData
+ * @property {LinkageData} solver
+ * @property {BodyData} bodies
+ * @property {WaysData | null} ways
+ * @property {string[]} joints
+ * @property {string[]} links
+ * @property {[number, number][]} between - The links that each joint joins, by their places.
+ * @property {number} extent
+ * @property {number[]} middle
+ *
+ * @typedef {object} ShownData
+ * @property {string} name
+ * @property {string} verdict
+ * @property {string} report
+ * @property {string[]} notes
+ * @property {{light?: string, dark?: string}} pictures
+ * @property {MovingData | null} moving
+ * @property {string[]} stiff
+ * @property {string[][]} clusters
+ *
+ * @typedef {object} PageData
+ * @property {ShownData[]} shown
+ * @property {boolean} workbench - Whether there is a workbench behind the page.
+ */
+export {};

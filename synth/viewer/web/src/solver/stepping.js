@@ -1,0 +1,140 @@
+/**
+ * Steps along a path, each no longer than can be trusted: synth/folding/following/stepping.py, one joint driven.
+ *
+ * A step goes along rates at which loops stay closed, bent as the last step was, and is corrected by Newton's
+ * method. It is halved if its end does not close, lies far from where it was expected, or goes on in another
+ * direction: paths that come near each other are not confused.
+ */
+
+/** @import { Corrected, Equations } from "./newton.js" */
+import { Step } from "./step.js";
+import { added, alike, dot, largest, put } from "./vectors.js";
+
+/** Steps, radians of the joint that moves most. */
+const FIRST = 0.02, LARGEST = 0.2, LEAST = 1e-6;
+/** A corrected pose is at most this part of its step from where it was expected. */
+const STRAY = 0.5;
+/** Cosine of the angle between directions before and after a step, at least. */
+const ALIKE = 0.6;
+/** A driven joint that has less than this part of the largest rate may be about to turn back. */
+const HARDLY = 0.05;
+/** Steps of Newton's method after which a step of the path may be longer. */
+const EASY = 5;
+
+export class Stepping {
+  #length = FIRST;
+  #begun = false;
+
+  /**
+   * @param {Equations} equations
+   * @param {number} driver - Place of the joint that is driven.
+   * @param {Float64Array | null} direction - Rates to begin with at a singular pose; null: the least ones.
+   */
+  constructor(equations, driver, direction) {
+    this.equations = equations;
+    this.driver = driver;
+    this.rates = direction;
+    this.bend = new Float64Array(equations.closure.joints);
+  }
+
+  /**
+   * Go back along the path if the driven joint does not go the way it is to go.
+   *
+   * @param {number} way - 1 or -1.
+   */
+  turnTowards(way) {
+    if (this.#begun && this.rates !== null && way * this.rates[this.driver] < 0) {
+      this.rates = this.rates.map((rate) => -rate);
+    }
+  }
+
+  /**
+   * Return the rates to go on with, the largest 1 or -1; zeros if nothing moves.
+   *
+   * @param {Corrected} here
+   * @param {number} left - How far the driven joint has to go, radians.
+   */
+  onwards(here, left) {
+    const rates = this.#onwards(here, left);
+    const size = largest(rates);
+    return size ? rates.map((rate) => rate / size) : rates;
+  }
+
+  /**
+   * @param {Corrected} here
+   * @param {number} left
+   */
+  #onwards(here, left) {
+    const before = this.rates;
+    if (before !== null && !this.#begun) return before; // at a singular pose: it was chosen
+    const least = here.space.leastRates(this.driver, left);
+    if (before === null) return least;
+    const sign = Math.sign(dot(least, before));
+    const towards = least.map((rate) => sign * rate);
+    const hardly = Math.abs(towards[this.driver]) <= HARDLY * largest(towards);
+    return hardly || !alike(towards, before, ALIKE) ? here.space.projected(before) : towards;
+  }
+
+  /**
+   * Take one step of the length that can be trusted, at most to what is left of the driven joint's way.
+   *
+   * @param {Corrected} here
+   * @param {Float64Array} rates - The largest 1 or -1.
+   * @param {number} left - Radians.
+   * @returns {Step | null} Null if no closed pose is found.
+   */
+  taken(here, rates, left) {
+    const joint = this.driver;
+    const most = reach(rates[joint], this.bend[joint], left);
+    while (this.#length >= LEAST) {
+      const lands = this.#length >= most;
+      const length = lands ? most : this.#length;
+      const bent = (length * length) / 2;
+      let expected = here.angles.map((angle, i) => angle + length * rates[i] + bent * this.bend[i]);
+      const held = lands ? joint : -1;
+      if (lands) expected = put(expected, joint, here.angles[joint] + left);
+      let end = this.equations.corrected(expected, held);
+      if (end.closed && largest(added(end.angles, -1, expected)) <= STRAY * length) {
+        const arriving = end.space.projected(rates);
+        const easy = end.steps <= EASY && !lands;
+        if (lands) end = this.equations.exactlyHeld(end, joint, expected[joint]);
+        if (end.closed && alike(arriving, rates, ALIKE)) {
+          if (easy) this.#length = Math.min(1.5 * this.#length, LARGEST);
+          return new Step(this.equations, here, end, rates, arriving);
+        }
+      }
+      this.#length = length / 2;
+    }
+    this.#length = FIRST;
+    return null;
+  }
+
+  /**
+   * Go on from the end of a step.
+   *
+   * @param {Step} step
+   */
+  take(step) {
+    this.#begun = true;
+    const length = largest(added(step.after.angles, -1, step.before.angles));
+    if (!length) return;
+    this.rates = step.arriving;
+    const speed = Math.max(largest(step.arriving), LEAST);
+    const bend = step.arriving.map((rate, i) => (rate / speed - step.leaving[i]) / length);
+    this.bend = largest(bend) * this.#length <= STRAY ? bend : bend.map(() => 0);
+  }
+}
+
+/**
+ * Return after which length a joint has gone as far as it is to go; infinite if it turns back before.
+ *
+ * @param {number} speed
+ * @param {number} bend
+ * @param {number} left
+ */
+function reach(speed, bend, left) {
+  if (left < 0) [speed, bend, left] = [-speed, -bend, -left];
+  const square = speed * speed + 2 * bend * left;
+  if (square <= 0 || speed + Math.sqrt(square) <= 0) return Infinity;
+  return (2 * left) / (speed + Math.sqrt(square));
+}

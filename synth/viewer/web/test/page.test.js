@@ -1,0 +1,42 @@
+/** What the page computes beside the solver; what it shows is tested in a browser: tests/synth/viewer. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { middleOf, radiusOf, turnBack } from "../src/page/aligned.js";
+import { trianglesOf } from "../src/page/geometry.js";
+
+test("a turned body is turned back", () => {
+  const goals = [0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 3];
+  const turned = []; // by 90 degrees about z, and shifted
+  for (let n = 0; n < goals.length; n += 3) turned.push(5 - goals[n + 1], goals[n] + 7, goals[n + 2] - 1);
+  const [x, y, z, w] = turnBack(turned, goals, [0, 0, 0, 1]);
+  assert.ok(Math.abs(x) < 1e-9 && Math.abs(y) < 1e-9);
+  assert.ok(Math.abs(2 * Math.atan2(z, w) + Math.PI / 2) < 1e-6);
+});
+
+test("a body that did not turn is not turned, whatever its size", () => {
+  const places = [0, 0, 0, 1e-9, 0, 0, 0, 1e-9, 0];
+  turnBack(places, places, [0, 0, 0, 1]).forEach((x, n) => assert.ok(Math.abs(x - (n === 3 ? 1 : 0)) < 1e-9));
+});
+
+test("middle and radius", () => {
+  assert.deepEqual(middleOf([0, 0, 0, 2, 4, 6]), [1, 2, 3]);
+  assert.equal(radiusOf([-3, 0, 4, 3, 0, -4]), 5);
+});
+
+for (const turned of [false, true]) {
+  test(`a concave panel is cut into triangles of its own area, ${turned ? "clockwise" : "counter-clockwise"}`, () => {
+    const around = [[0, 0, 1], [4, 0, 1], [4, 4, 1], [2, 1, 1], [0, 4, 1]];
+    const order = turned ? [4, 3, 2, 1, 0] : [0, 1, 2, 3, 4];
+    const { corners, faces } = trianglesOf({
+      vertices: around, owners: [0, 0, 0, 0, 0], faces: [{ link: 0, vertices: order }], edges: [],
+    });
+    let area = 0;
+    for (let n = 0; n < corners.length; n += 3) {
+      const [a, b, c] = [...corners.subarray(n, n + 3)].map((corner) => around[corner]);
+      area += ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
+    }
+    assert.equal(faces.length, 3);
+    assert.equal(area, turned ? -10 : 10);
+  });
+}

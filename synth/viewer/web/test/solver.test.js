@@ -1,0 +1,100 @@
+/** The solver on small linkages whose motion is known; what Python says of others: tests/synth/viewer. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Closure } from "../src/solver/closure.js";
+import { NormalPattern } from "../src/solver/cholesky.js";
+import { Motion } from "../src/solver/motion.js";
+import { linkMotions, vertexPlaces } from "../src/solver/placement.js";
+
+/** @import { LinkageData, Centre } from "../src/solver/types.js" */
+
+/**
+ * A parallelogram in the plane, 2 by 1.
+ *
+ * @param {Centre} centre
+ * @returns {LinkageData}
+ */
+function parallelogram(centre) {
+  return {
+    points: [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]],
+    directions: Array.from({ length: 4 }, () => [0, 0, 1]),
+    angles: [0, 0, 0, 0],
+    loops: [{ joints: [0, 1, 2, 3], signs: [1, 1, 1, 1], centre, frame: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }],
+    order: [2, 0, 3, 1],
+    limited: false,
+    tree: [[0, 1, 0, 1], [1, 2, 1, 1], [2, 3, 2, 1]],
+    links: 4,
+  };
+}
+
+for (const centre of /** @type {Centre[]} */ (["infinite", "none"])) {
+  test(`a parallelogram turns opposite joints alike, its loop's centre ${centre}`, () => {
+    const motion = new Motion(parallelogram(centre), null);
+    assert.equal(motion.to(0, 1.2), "");
+    const expected = [1.2, -1.2, 1.2, -1.2];
+    expected.forEach((angle, joint) => assert.ok(Math.abs(motion.pose.angles[joint] - angle) < 1e-10));
+    assert.ok(motion.pose.error <= 1e-12);
+  });
+}
+
+test("derivatives are what residuals do beside a pose", () => {
+  const closure = new Closure(parallelogram("none"));
+  const angles = Float64Array.of(0.3, -0.2, 0.4, -0.35);
+  const { derivatives } = closure.at(Float64Array.of(0, 0, 0, 0));
+  const small = angles.map((angle) => 1e-6 * angle);
+  const linear = closure.image(derivatives, small);
+  closure.at(small).residual.forEach((off, row) => assert.ok(Math.abs(off - linear[row]) < 1e-11));
+});
+
+test("a factor solves the regularised normal equations", () => {
+  const closure = new Closure(parallelogram("none"));
+  const { derivatives } = closure.at(Float64Array.of(0.3, -0.2, 0.4, -0.35));
+  const solve = new NormalPattern(4, closure.loops, [2, 0, 3, 1]).solver(closure.loops, derivatives, 1e-3);
+  const given = Float64Array.of(1, 2, 3, 5);
+  const found = solve(given);
+  const back = closure.gathered(derivatives, closure.image(derivatives, found));
+  let most = 1;
+  for (let joint = 0; joint < 4; joint++) {
+    const unit = new Float64Array(4);
+    unit[joint] = 1;
+    const image = closure.image(derivatives, unit);
+    most = Math.max(most, image.reduce((sum, x) => sum + x * x, 0));
+  }
+  given.forEach((x, joint) => assert.ok(Math.abs(back[joint] + 1e-3 * most * found[joint] - x) < 1e-9));
+});
+
+test("a joint ends where panels lie on each other", () => {
+  const hinge = { ...parallelogram("none"), points: [[0, 0, 0]], directions: [[0, 0, 1]], angles: [0], loops: [] };
+  /** @type {LinkageData} */
+  const linkage = { ...hinge, order: [0], tree: [[0, 1, 0, 1]], links: 2, limited: true };
+  const motion = new Motion(linkage, null);
+  assert.equal(motion.to(0, 4), "limit");
+  assert.ok(Math.abs(motion.pose.angles[0] - Math.PI) < 1e-6);
+  assert.equal(motion.to(0, 1), "");
+  assert.equal(motion.pose.angles[0], 1);
+});
+
+test("a long way can be broken off, and gone on with from there", () => {
+  const whole = new Motion(parallelogram("infinite"), null), pieces = new Motion(parallelogram("infinite"), null);
+  whole.to(0, 1.5);
+  let count = 0;
+  while (pieces.to(0, 1.5, () => true) === "late") count += 1;
+  assert.ok(count > 3);
+  assert.deepEqual([...pieces.pose.angles], [...whole.pose.angles]);
+});
+
+test("a rocker turns back, and can be driven the other way from there", () => {
+  const linkage = { ...parallelogram("infinite"), points: [[0, 0, 0], [1, 0, 0], [3, 2, 0], [0, 3, 0]] };
+  const motion = new Motion(linkage, null);
+  const stops = [motion.to(3, 6), motion.to(3, -6)];
+  assert.deepEqual(stops, ["turns back", "turns back"]);
+  assert.ok(motion.pose.error <= 1e-12);
+});
+
+test("vertices go with their links; those of no link stay", () => {
+  const linkage = parallelogram("infinite");
+  const motions = linkMotions(linkage, Float64Array.of(Math.PI / 2, 0, 0, 0));
+  const places = vertexPlaces(motions, [[1, 0, 0], [1, 0, 0], [7, 8, 9]], [0, 1, -1]);
+  [1, 0, 0, 0, 1, 0, 7, 8, 9].forEach((x, n) => assert.ok(Math.abs(places[n] - x) < 1e-15));
+});

@@ -1,0 +1,49 @@
+"""The workbench begun and ended: a port nobody else has, a new token; Ctrl-C, or its last page closed."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+from collections.abc import Callable, Sequence
+
+import uvicorn
+
+from synth.viewer.shown import Shown
+from synth.viewer.workbench.app import Presence, application
+from synth.viewer.workbench.guard import Place
+
+__all__ = ["serve"]
+
+_LINGER = 1
+"""Seconds for answers that are on their way when it ends."""
+
+
+def serve(shown: Sequence[Shown], sources: Sequence[bytes | None], opened: Callable[[str], object]) -> None:
+    """Serve a workbench on this machine, until it is stopped or its last page is closed.
+
+    Parameters
+    ----------
+    shown : sequence of Shown
+        What is there when it is opened.
+    sources : sequence of bytes or None
+        The files that these were read from, where they were files.
+    opened : callable
+        Called with its address when it answers.
+
+    Raises
+    ------
+    UnsolvableError
+        If the script of the page was not built.
+    KeyboardInterrupt
+        If it was stopped.
+    """
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        place = Place(listening.getsockname()[1], secrets.token_urlsafe(24))
+        presence = Presence(lambda: setattr(server, "should_exit", True))
+        app = application(place, shown, presence, sources)
+        config = uvicorn.Config(
+            app, log_level="critical", lifespan="off", server_header=False, timeout_graceful_shutdown=_LINGER
+        )
+        server = uvicorn.Server(config)
+        opened(place.address)  # the socket listens already
+        server.run(sockets=[listening])

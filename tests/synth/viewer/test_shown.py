@@ -1,0 +1,104 @@
+"""What pages show: data of things that move, of what is rigid, of types without a pose."""
+
+import json
+
+import numpy as np
+import pytest
+
+from graphs.files.formats import read
+from graphs.mechanism.sheet import Sheet
+from synth.folding.linkage import linkage_of_sheet
+from synth.patterns.creases.tessellations import miura
+from synth.viewer.bodies import hull_faces
+from synth.viewer.shown import shown_of
+from synth.viewer.solver_data import factor_order, solver_data
+
+
+@pytest.fixture(scope="module")
+def bird_base(data):
+    return shown_of(read(data / "patterns" / "bird-base.fold"), "bird base")
+
+
+def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(bird_base):
+    shown = bird_base
+    told = json.loads(json.dumps(shown.to_json(), allow_nan=False))
+    ways = told["moving"]["ways"]
+    assert len(ways["all"]) == 16
+    assert ways["singular"]
+    assert ways["all"][ways["taken"]]["told"] == "way 13: 5 freedoms, numerical"
+    assert told["verdict"] in told["report"]
+    assert {"light", "dark"} == set(told["pictures"])
+    assert len(told["moving"]["between"]) == len(told["moving"]["joints"]) == 20
+
+
+def test_what_is_rigid_is_shown_with_the_reason(data):
+    shown = shown_of(read(data / "linkages" / "wampler-cube-locked.json"))
+    assert shown.moving.ways is None
+    assert len(shown.moving.bodies.faces) > 20
+    assert "nothing folds, which is proved" in shown.notes[0]
+    assert len(shown.stiff) == len(shown.moving.linkage.angles)
+
+
+def test_a_type_is_a_drawing(data):
+    shown = shown_of(read(data / "wiener" / "six-bar.json"))
+    assert shown.moving is None
+    assert shown.pictures["light"].startswith("<svg")
+    assert "has none" in shown.notes[0]
+
+
+def test_stiff_creases_and_clusters_are_told():
+    """Three creases about a point hold each other; the flap beside them moves."""
+    corners = ((0, 0), (2, 0), (-1, 2), (-1, -2), (3, 3))
+    faces = ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 4, 2))
+    shown = shown_of(Sheet(5, (), "", faces, corners))
+    assert len(shown.stiff) == 3
+    assert shown.clusters == (("0", "1", "2"),)
+
+
+def test_links_without_panels_are_hulls_of_their_axes(data):
+    moving = shown_of(read(data / "linkages" / "kaleidocycle-6.json")).moving
+    faces = [sum(1 for link, _ in moving.bodies.faces if link == one) for one in range(6)]
+    assert faces == [4] * 6  # tetrahedra
+    assert sorted(joint for *_, joint in moving.bodies.edges if joint >= 0) == list(range(6))
+
+
+@pytest.mark.parametrize("corners", [[], [(0, 0, 0), (1, 1, 1)], [(0, 0, 0), (1, 1, 1), (2, 2, 2)]])
+def test_points_on_a_line_have_no_faces(corners):
+    assert hull_faces(np.array(corners, dtype=float).reshape(-1, 3)) == []
+
+
+def filled_in(order, loops):
+    """Entries of a factor, by elimination one joint after the other."""
+    joints = len(order)
+    beside = [set() for _ in range(joints)]
+    for loop in loops:
+        for one in loop:
+            beside[one] |= set(loop) - {one}
+    entries = 0
+    for joint in sorted(range(joints), key=lambda joint: order[joint]):
+        entries += len(beside[joint]) + 1
+        for one in beside[joint]:
+            beside[one] = (beside[one] | beside[joint]) - {one, joint}
+    return entries
+
+
+def test_the_order_of_factors_keeps_them_sparse():
+    linkage = linkage_of_sheet(miura(8, 8, np.radians(60.0)))
+    loops = [loop.joints for loop in linkage.loops]
+    order = factor_order(len(linkage.angles), loops)
+    assert sorted(order) == list(range(len(order)))
+    others = [np.arange(len(order)), np.argsort(order), np.random.default_rng(1).permutation(len(order))]
+    assert filled_in(order, loops) < 0.85 * min(filled_in(other, loops) for other in others)
+
+
+def test_joints_that_carry_links_come_after_those_that_carry_them(bird_base):
+    linkage = bird_base.moving.linkage
+    told = solver_data(linkage, limited=True, ground=3)
+    carried = {3}
+    for near, far, joint, sign in told["tree"]:
+        assert near in carried
+        assert far not in carried
+        pair = list(linkage.graph.joints.values())[joint]
+        assert pair == ((near, far) if sign == 1 else (far, near))
+        carried.add(far)
+    assert carried == set(range(told["links"]))

@@ -1,0 +1,135 @@
+"""Who asks the workbench, and what is answered: its own page gets in, nobody else does."""
+
+import asyncio
+import random
+
+import pytest
+
+pytest.importorskip("starlette", reason="the workbench is not installed")
+
+from starlette.responses import PlainTextResponse
+
+from synth.viewer.workbench.app import Presence
+from synth.viewer.workbench.asking import file_name
+from synth.viewer.workbench.guard import MOST_BYTES, Guard, Place
+
+PLACE = Place(8123, "T0ken-of-this_one")
+OWN = [(b"host", b"127.0.0.1:8123")]
+
+
+async def inside(scope, receive, send):
+    await PlainTextResponse(f"inside {scope['path']}")(scope, receive, send)
+
+
+def asked(path="/T0ken-of-this_one/", headers=OWN, method="GET"):
+    """Status and text of one request."""
+    sent = []
+
+    async def receive():
+        return {"type": "http.request", "body": b"", "more_body": False}
+
+    async def send(message):
+        sent.append(message)
+
+    scope = {
+        "type": "http", "method": method, "path": path, "raw_path": path.encode("utf-8", "surrogateescape"),
+        "query_string": b"", "headers": headers,
+    }  # fmt: skip
+    asyncio.run(Guard(inside, PLACE)(scope, receive, send))
+    return sent[0]["status"], sent[1]["body"].decode()
+
+
+def test_its_own_page_gets_in():
+    assert asked() == (200, "inside /")
+    origin = [*OWN, (b"origin", b"http://127.0.0.1:8123"), (b"sec-fetch-site", b"same-origin")]
+    length = (b"content-length", b"17")
+    assert asked("/T0ken-of-this_one/shown", [*origin, length], "POST") == (200, "inside /shown")
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        [],
+        [(b"host", b"127.0.0.1:8124")],
+        [(b"host", b"localhost:8123")],
+        [(b"host", b"evil.example")],
+        [*OWN, *OWN],
+        [*OWN, (b"origin", b"http://evil.example")],
+        [*OWN, (b"origin", b"null")],
+        [*OWN, (b"Origin", b"http://127.0.0.1:9999")],
+        [*OWN, (b"sec-fetch-site", b"cross-site")],
+        [*OWN, (b"sec-fetch-site", b"same-site")],
+    ],
+)
+def test_another_host_or_origin_does_not(headers):
+    assert asked(headers=headers) == (403, "this page is for itself alone")
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["/", "", "/favicon.ico", "/T0ken-of-this_one", "/t0ken-of-this_one/", "/T0ken-of-this_on/", "//T0ken-of-this_one/",
+     "/../T0ken-of-this_one/", "/T0ken-of-this_one.html", "/\udcff\udcfe/", "/é/"],
+)  # fmt: skip
+def test_nor_does_who_has_no_token(path):
+    assert asked(path)[0] == 404
+
+
+@pytest.mark.parametrize(
+    ("length", "status"),
+    [(None, 411), (b"-1", 411), (b"9" * 40, 411), (b"1e3", 411), (str(MOST_BYTES + 1).encode(), 413)],
+)
+def test_bodies_are_limited(length, status):
+    headers = [*OWN, *([] if length is None else [(b"content-length", length)])]
+    assert asked(headers=headers, method="POST")[0] == status
+
+
+@pytest.mark.parametrize("method", ["PUT", "DELETE", "OPTIONS", "TRACE", "X"])
+def test_other_methods_are_refused(method):
+    assert asked(method=method)[0] == 405
+
+
+@pytest.mark.parametrize("count", [500, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_malformed_requests_get_a_message_and_nothing_else(count):
+    draw = random.Random(7)
+
+    def noise(most):
+        return bytes(draw.choices(range(256), k=draw.randrange(most)))
+
+    for _ in range(count):
+        path = "/" + noise(40).decode("utf-8", "surrogateescape")
+        headers = [(draw.choice([b"host", b"origin", noise(8)]), noise(30)) for _ in range(draw.randrange(4))]
+        status, text = asked(
+            path, [*OWN, *headers] if draw.random() < 0.5 else headers, draw.choice(["GET", "POST"])
+        )
+        assert status in (403, 404)
+        assert "inside" not in text
+
+
+@pytest.mark.parametrize(
+    "name", ["../../x.fold", "/etc/passwd", "..\\..\\x", "a\0b", "", "..", "-o", "x" * 9999 + ".fold", "\udcff"]
+)
+def test_names_of_files_stay_in_their_folder(name):
+    made = file_name(name)
+    assert made
+    assert len(made) <= 120
+    assert not set("/\\\0") & set(made)
+    assert made[0] not in ".-"
+    assert name[-5:] != ".fold" or made.endswith(".fold")
+
+
+def test_it_ends_some_time_after_the_last_page_was_closed_and_not_at_a_reload():
+    async def story():
+        ended = []
+        presence = Presence(lambda: ended.append(True), after=0.05)
+        first = presence.line()
+        await anext(first)
+        await first.aclose()
+        second = presence.line()
+        await anext(second)  # a reload
+        await asyncio.sleep(0.15)
+        before = list(ended)
+        await second.aclose()
+        await asyncio.sleep(0.15)
+        return before, ended
+
+    assert asyncio.run(story()) == ([], [True])
