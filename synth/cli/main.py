@@ -27,6 +27,7 @@ _COMMANDS = {
     "generate": "synth.cli.things.generate:generate",
     "realise": "synth.cli.things.realise:realise",
     "fold": "synth.cli.things.fold:fold",
+    "advise": "synth.cli.things.advise:advise",
     "draw": "synth.cli.things.draw:draw",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
