@@ -6,7 +6,7 @@ Theory: docs/theory/advice.md.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from math import inf, isfinite
 
@@ -17,13 +17,14 @@ from graphs.convert.table import Mechanism
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
+from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
 from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
 from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, general_pose_of_sheet
 from synth.advice.locks import Cost, cheapest_sets, held
-from synth.advice.search import Candidates, smallest_sets
+from synth.advice.search import Candidates, freedoms_when_left_out, smallest_sets
 from synth.folding.closure import ClosureEquations
 from synth.moving.linkages import linkage_of, sheet_of
 
@@ -60,6 +61,7 @@ def advise(
     flaps: bool = True,
     limit: int = _LIMIT,
     size: int | None = None,
+    leave_out: bool = False,
 ) -> Advice:
     """Say which joints to lock, or which panels to crease, for a number of freedoms.
 
@@ -82,6 +84,9 @@ def advise(
         So many sets are listed at most.
     size : int, optional
         Of the largest set of diagonals that is looked for; by default one more than K - M.
+    leave_out : bool, optional
+        Tell of each set to lock what a flat sheet has without these creases, too: left out they stay at 0, which
+        is a special angle.
 
     Raises
     ------
@@ -121,6 +126,8 @@ def advise(
     flapping = tuple(every[place] for place in pose.flaps)
     if freedoms <= pose.freedoms:
         locks, more = _locks(pose, pose.freedoms - freedoms, kept, limit)
+        if leave_out:
+            locks = tuple(_with_left_out(lock, sheet) for lock in locks)
         return Advice(pose.freedoms, freedoms, pose.branch, flapping, locks, more=more, mended=pose.mended)
     largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
     _check_number("size", largest, freedoms - pose.freedoms)
@@ -147,6 +154,14 @@ def _locks(pose: GeneralPose, size: int, kept: _Kept, limit: int) -> tuple[tuple
     ]
     first = list(islice(cheapest_sets(pose.rates, size, costs, allowed), limit + 1))
     return tuple(_locked(pose, places, costs) for places in first[:limit]), len(first) > limit
+
+
+def _with_left_out(lock: Locked, sheet: Sheet | None) -> Locked:
+    """Return a set with what a flat sheet has without its creases."""
+    if sheet is None or not lies_flat(sheet):
+        raise UnsolvableError("creases are left out of flat sheets: what is folded is locked where it is")
+    joints = [joint for joint in lock.joints if isinstance(joint, int)]  # numbers of edges
+    return replace(lock, left_out=freedoms_when_left_out(sheet, joints))
 
 
 def _free_joints(pose: GeneralPose, kept: _Kept) -> list[int]:

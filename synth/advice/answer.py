@@ -36,6 +36,8 @@ class Locked:
         How much larger, at most, the play of the rest is than that of the locked joints (root of summed squares).
     freedoms : int or None
         By the rank of the closure equations without these joints; None where singular values do not tell.
+    left_out : int or None
+        Of the flat sheet without these creases, on its freest way; None where that was not asked, or is not known.
     """
 
     joints: tuple[JointId, ...]
@@ -44,6 +46,7 @@ class Locked:
     still: tuple[JointId, ...]
     play: float
     freedoms: int | None
+    left_out: int | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
@@ -54,6 +57,7 @@ class Locked:
             "still": list(self.still),
             "play": self.play,
             "freedoms": self.freedoms,
+            "left_out": self.left_out,
         }
 
 
@@ -149,14 +153,23 @@ class Advice:
 
     def _locking(self) -> list[Block]:
         size = numbered(self.freedoms - self.wanted, "joint")
-        rows = [
-            (_names(one.joints), f"{one.weight:g}", _names(one.flaps), _names(one.still), _play(one.play),
-             "?" if one.freedoms is None else str(one.freedoms))
+        rows: list[tuple[str, ...]] = [
+            (
+                _names(one.joints),
+                f"{one.weight:g}",
+                _names(one.flaps),
+                _names(one.still),
+                _play(one.play),
+                _number(one.freedoms),
+                _number(one.left_out),
+            )
             for one in self.locks
-        ]  # fmt: skip
-        columns = ("lock", "weight", "flaps", "still then", "play", "freedoms")
+        ]
+        columns: tuple[str, ...] = ("lock", "weight", "flaps", "still then", "play", "freedoms", "left out")
+        if all(one.left_out is None for one in self.locks):
+            columns, rows = columns[:-1], [row[:-1] for row in rows]
         told = f"lock {size}: " + _how_many(len(self.locks), self.more)
-        return [told, TableBlock(columns, rows, ["weight", "play", "freedoms"])]
+        return [told, TableBlock(columns, rows, ["weight", "play", "freedoms", "left out"])]
 
     def _creasing(self) -> list[Block]:
         lines: list[Block] = []
@@ -199,6 +212,10 @@ def _how_many(listed: int, more: bool) -> str:
 
 def _names(joints: tuple[JointId, ...]) -> str:
     return " ".join(map(shown, joints)) or "-"
+
+
+def _number(number: int | None) -> str:
+    return "?" if number is None else str(number)
 
 
 def _play(play: float) -> str:

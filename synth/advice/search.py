@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.creasing.edits import crease_sheet
+from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
 from synth.advice.diagonals import Diagonal
 from synth.folding.prepared import prepared
 
-__all__ = ["Candidates", "Found", "freedoms_when_creased", "smallest_sets"]
+__all__ = ["Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
 
 _ZERO = 1e-8
 """A column this small beside those of a set is made of them."""
@@ -137,7 +137,31 @@ def freedoms_when_creased(sheet: Sheet, diagonals: Sequence[Diagonal]) -> int | 
     """
     for diagonal in diagonals:
         sheet = crease_sheet(sheet, *diagonal.ends).sheet
-    found = prepared(sheet).branches
+    return _freest(sheet)
+
+
+def freedoms_when_left_out(sheet: Sheet, joints: Sequence[int]) -> int | None:
+    """Return the freedoms of a sheet without some creases, on its freest way from its pose; None if not known.
+
+    Examples
+    --------
+    A strip of three panels, flat, without its first crease:
+
+    >>> corners = ((0, 0), (1, 0), (2, 0), (3, 0), (3, 1), (2, 1), (1, 1), (0, 1))
+    >>> strip = Sheet(8, ((1, 6), (2, 5)), "VM", ((0, 1, 6, 7), (1, 2, 5, 6), (2, 3, 4, 5)), corners)
+    >>> freedoms_when_left_out(strip, [0])
+    1
+    """
+    for joint in joints:
+        sheet = lock_crease(sheet, joint).sheet
+    return _freest(sheet)
+
+
+def _freest(sheet: Sheet) -> int | None:
+    pattern = prepared(sheet)
+    if not pattern.linkage.graph.joints:
+        return 0
+    found = pattern.branches
     if found is None:
         return None
     known = [branch.freedoms for branch in found.branches if branch.certainty != "not known"]

@@ -25,6 +25,7 @@ __all__ = ["advise"]
 )
 @click.option("--limit", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Sets to list.")
 @click.option("--size", type=click.IntRange(1), metavar="N", help="Largest set of diagonals; K - M + 1.")
+@click.option("--leave-out", is_flag=True, help="Of a flat sheet: tell what it has without these creases, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def advise(
     file: str,
@@ -36,6 +37,7 @@ def advise(
     flaps: bool,
     limit: int,
     size: int | None,
+    leave_out: bool,
     as_json: bool,
 ) -> None:
     """Say which joints to lock, or which panels to crease along diagonals, so that K freedoms are left.
@@ -73,6 +75,7 @@ def advise(
             flaps=flaps,
             limit=limit,
             size=size,
+            leave_out=leave_out,
         )
     if as_json:
         print_json({"file": file, **found.to_json()})

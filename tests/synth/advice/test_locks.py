@@ -112,6 +112,23 @@ def test_locked_creases_of_a_sheet_are_rigid_by_its_panels(name, has):
         assert pose_mobility(held).dof == has - 2 == lock.freedoms
 
 
+def test_creases_left_out_may_leave_what_locked_ones_do_not():
+    """A vertex of six creases, pairs of them in line: locked, any three hold all; of those left two may be in line."""
+    at = [(0, 0), (1, 0), (0.5, 0.9), (-0.5, 0.9), (-1, 0), (-0.5, -0.9), (0.5, -0.9)]
+    faces = tuple((0, 1 + k, 1 + (k + 1) % 6) for k in range(6))
+    sheet = Sheet(7, tuple((0, k) for k in range(1, 7)), "MVVMVV", faces, tuple(at))
+    locks = advise(sheet, 0, leave_out=True).locks
+    assert len(locks) == 20
+    for lock in locks:
+        folds = set(range(6)) - set(lock.joints)
+        assert (lock.freedoms, lock.left_out) == (0, int(any(k + 3 in folds for k in folds)))
+
+
+def test_what_is_folded_is_locked_where_it_is():
+    with pytest.raises(UnsolvableError, match="creases are left out of flat sheets"):
+        advise(flapped(), 2, leave_out=True)
+
+
 def test_a_pop_up_stops_with_any_of_its_creases():
     advice = advise(generate("box-pop-up").mechanism, 0)
     creases = {lock.joints[0] for lock in advice.locks}
