@@ -24,7 +24,7 @@ from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
 from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, general_pose_of_sheet
 from synth.advice.locks import Cost, cheapest_sets, held
-from synth.advice.search import Candidates, freedoms_when_left_out, smallest_sets
+from synth.advice.search import Bounds, Candidates, freedoms_when_left_out, smallest_sets
 from synth.folding.closure import ClosureEquations
 from synth.moving.linkages import linkage_of, sheet_of
 
@@ -199,20 +199,19 @@ def _freedoms_without(pose: GeneralPose, places: tuple[int, ...]) -> int | None:
     return None if rank is None else others.shape[1] - rank
 
 
-def _creased(
-    pose: GeneralPose, freedoms: int, kept: _Kept, bounds: tuple[int, int], given: Sheet | None
-) -> Advice:
+def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int], given: Sheet | None) -> Advice:
     """Return the smallest sets of diagonals that bring the freedoms wanted."""
     if pose.sheet is None:
         raise UnsolvableError(
             f"{numbered(pose.freedoms, 'freedom')}, and {freedoms} wanted: only panels of a sheet can be creased"
         )
-    largest, limit = bounds
+    largest, limit = most
     diagonals = diagonals_of(pose, kept.links)
     loads, flaps = loads_on_stresses(pose, diagonals)
     chosen = [place for place, flap in enumerate(flaps) if not (flap and kept.flaps)]
     candidates = Candidates([diagonals[place] for place in chosen], loads[:, chosen])
-    found = smallest_sets(pose.sheet, candidates, (pose.freedoms, freedoms, largest), limit)
+    bounds = Bounds(pose.freedoms, pose.rates.shape[1], freedoms, largest)
+    found = smallest_sets(pose.sheet, candidates, bounds, limit)
     creases = tuple(
         Creased(
             tuple(_as_given(candidates.diagonals[place], given) for place in places),

@@ -112,7 +112,7 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
     Raises
     ------
     NumericalError
-        If the rank of the closure equations is not what the freedoms say.
+        If the rank of the closure equations is not that of the equations about centres.
 
     Examples
     --------
@@ -131,10 +131,10 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
             matrix[6 * number : 6 * number + 6, joint] += sign * twist
     left, values, _ = np.linalg.svd(matrix)
     rank = int((values > _ZERO * values.max(initial=0.0)).sum())
-    if rank != len(linkage.angles) - pose.freedoms:
+    expected = len(linkage.angles) - pose.rates.shape[1]
+    if rank != expected:
         raise NumericalError(
-            f"the closure equations in space have rank {rank} at this pose; expected "
-            f"{len(linkage.angles) - pose.freedoms} of {len(linkage.angles)} joints and {pose.freedoms} freedom(s)"
+            f"the closure equations in space have rank {rank} at this pose; expected {expected}, as about centres"
         )
     columns = np.array([_column(pose, one) for one in diagonals]).reshape(len(diagonals), len(matrix))
     flaps = [not column.any() for column in columns]

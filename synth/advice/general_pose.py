@@ -44,6 +44,8 @@ class GeneralPose:
         Of the sheet.
     mended : tuple of str
         What was done to rounded coordinates before.
+    rigid : bool
+        Whether it is proved that nothing moves from the pose given, whatever rates there are.
     """
 
     linkage: PosedLinkage
@@ -52,11 +54,12 @@ class GeneralPose:
     sheet: Sheet | None = None
     mechanism: SheetMechanism | None = None
     mended: tuple[str, ...] = ()
+    rigid: bool = False
 
     @property
     def freedoms(self) -> int:
         """Finite ones, M."""
-        return int(self.rates.shape[1])
+        return 0 if self.rigid else int(self.rates.shape[1])
 
     @property
     def flaps(self) -> tuple[int, ...]:
@@ -81,7 +84,8 @@ def general_pose_of_sheet(sheet: Sheet, branch: int | str | None = None) -> Gene
     Raises
     ------
     UnsolvableError
-        If the sheet has no coordinates, its panels do not fit, nothing moves, or it has too many creases.
+        If the sheet has no coordinates, its panels do not fit, nothing that moves was found though that is not
+        proved, or it has too many creases or none.
     NumericalError
         If the pose that was reached is singular too.
 
@@ -93,13 +97,17 @@ def general_pose_of_sheet(sheet: Sheet, branch: int | str | None = None) -> Gene
     """
     pattern = prepared(sheet)
     if not pattern.linkage.graph.joints:
-        raise UnsolvableError("there is nothing to lock and nothing that moves: the sheet has no creases")
+        raise UnsolvableError("there is nothing to advise: the sheet has no creases between panels")
+    mended = tuple(map(str, pattern.repairs))
+    if pattern.branches is not None and pattern.branches.no_motion == "proved":
+        rates = rates_at(pattern.closure, pattern.linkage.angles)
+        return GeneralPose(pattern.linkage, rates, None, pattern.sheet, pattern.mechanism, mended, rigid=True)
     marks = pattern.marks if pattern.marks.any() else np.ones(len(pattern.linkage.angles))
     angles, number = _general_angles(pattern.linkage, pattern.branches, Wanted(branch, marks, (), np.zeros(0)))
     placed = pattern.sheet if number is None else _placed(pattern, angles)
     linkage = linkage_of_sheet(placed, pattern.mechanism)
     rates = _rates(linkage, pattern.branches, number)
-    return GeneralPose(linkage, rates, number, placed, pattern.mechanism, tuple(map(str, pattern.repairs)))
+    return GeneralPose(linkage, rates, number, placed, pattern.mechanism, mended)
 
 
 def general_pose_of_linkage(linkage: PosedLinkage, branch: int | str | None = None) -> GeneralPose:
@@ -132,7 +140,7 @@ def general_pose_of_linkage(linkage: PosedLinkage, branch: int | str | None = No
     """
     joints = len(linkage.angles)
     if not joints:
-        raise UnsolvableError("there is nothing to lock and nothing that moves: the linkage has no joints")
+        raise UnsolvableError("there is nothing to advise: the linkage has no joints")
     found = None if joints > MOST_JOINTS else branches_of(linkage, None, search_for(joints, None))
     angles, number = _general_angles(linkage, found, Wanted(branch, np.ones(joints), (), np.zeros(0)))
     posed = linkage if number is None else moved(linkage, angles)

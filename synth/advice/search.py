@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.advice.diagonals import Diagonal
 from synth.folding.prepared import prepared
 
-__all__ = ["Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
+__all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
 
 _ZERO = 1e-8
 """A column this small beside those of a set is made of them."""
@@ -69,6 +70,15 @@ class Candidates:
                 yield from self._grown((*chosen, place), loads - np.outer(along, along @ loads), rank - 1, size)
 
 
+class Bounds(NamedTuple):
+    """What is searched for: the freedoms and rates there are, the freedoms wanted, the largest size of a set."""
+
+    freedoms: int
+    rates: int
+    wanted: int
+    largest: int
+
+
 @dataclass(frozen=True, slots=True)
 class Found:
     """What a search found.
@@ -91,7 +101,7 @@ class Found:
     refused: int
 
 
-def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: tuple[int, int, int], limit: int) -> Found:
+def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: int) -> Found:
     """Return the smallest sets of diagonals that give a sheet its freedoms.
 
     Parameters
@@ -99,27 +109,25 @@ def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: tuple[int, int, 
     sheet : Sheet
         At a general pose.
     candidates : Candidates
-    bounds : (int, int, int)
-        The freedoms it has, those wanted, and the largest size of a set.
+    bounds : Bounds
     limit : int
         So many sets are returned at most.
     """
-    has, wanted, largest = bounds
     refused = 0
-    for size in range(wanted - has, largest + 1):
+    for size in range(bounds.wanted - bounds.freedoms, bounds.largest + 1):
         sets: list[tuple[int, ...]] = []
         more = False
-        for folded, places in enumerate(candidates.dependent(size, wanted - has)):
+        for folded, places in enumerate(candidates.dependent(size, bounds.wanted - bounds.rates)):
             if len(sets) == limit or folded == MOST_FOLDED:
                 more = True
                 break
-            if freedoms_when_creased(sheet, [candidates.diagonals[place] for place in places]) == wanted:
+            if freedoms_when_creased(sheet, [candidates.diagonals[place] for place in places]) == bounds.wanted:
                 sets.append(places)
             else:
                 refused += 1
         if sets or more:
             return Found(tuple(sets), size, more, refused)
-    return Found((), largest, False, refused)
+    return Found((), bounds.largest, False, refused)
 
 
 def freedoms_when_creased(sheet: Sheet, diagonals: Sequence[Diagonal]) -> int | None:
