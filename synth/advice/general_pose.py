@@ -142,6 +142,8 @@ def general_pose_of_linkage(linkage: PosedLinkage, branch: int | str | None = No
     if not joints:
         raise UnsolvableError("there is nothing to advise: the linkage has no joints")
     found = None if joints > MOST_JOINTS else branches_of(linkage, None, search_for(joints, None))
+    if found is not None and found.no_motion == "proved":
+        return GeneralPose(linkage, rates_at(ClosureEquations(linkage), linkage.angles), None, rigid=True)
     angles, number = _general_angles(linkage, found, Wanted(branch, np.ones(joints), (), np.zeros(0)))
     posed = linkage if number is None else moved(linkage, angles)
     return GeneralPose(posed, _rates(posed, found, number), number)

@@ -8,6 +8,7 @@ import pytest
 
 from graphs.creasing.edits import lock_crease
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.files.formats import read
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
@@ -172,5 +173,8 @@ def test_what_is_not_there_is_refused(asked, told):
         advise(flapped(), 1, **asked)
 
 
-def test_as_many_as_there_are_need_nothing():
+def test_as_many_as_there_are_need_nothing(data):
     assert "nothing to do" in str(advise(flapped(), 3))
+    assert "0 freedoms at the pose given; wanted 0" in str(
+        advise(read(data / "linkages" / "wampler-cube-locked.json"), 0)
+    )
