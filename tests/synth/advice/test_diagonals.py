@@ -96,22 +96,18 @@ def test_where_nothing_is_idle_each_diagonal_is_a_freedom():
     assert [made.flaps for made in advice.creases] == [0, 1]
 
 
-def test_what_is_rigid_gets_its_first_freedom():
+@pytest.mark.parametrize("height", [0.0, pytest.param(0.5, marks=pytest.mark.slow)])
+def test_what_is_rigid_gets_its_first_freedom(height):
     """Three creases in a point, of panels with four corners: flat, with rates that go nowhere, and folded."""
-    around = [(np.cos(k * np.pi / 3 + 0.02 * k * k), np.sin(k * np.pi / 3 + 0.02 * k * k)) for k in range(6)]
+    around = [(np.cos(k * np.pi / 3 + 0.02 * k * k), np.sin(k * np.pi / 3 + 0.02 * k * k), 0.0) for k in range(6)]
+    at = np.array([(0.0, 0.0, height), *around])
+    if height:  # the outer corner of a panel is in its plane
+        at[[2, 4, 6]] = 0.6 * (at[[1, 3, 5]] + at[[3, 5, 1]]) - 0.2 * at[0]
     faces = ((0, 1, 2, 3), (0, 3, 4, 5), (0, 5, 6, 1))
-    for height in (0.0, 0.5):
-        at = ((0.0, 0.0, height), *((x, y, 0.0) for x, y in around))
-        if height:  # panels are plane: corners between creases lie on the line between those of the creases
-            at = tuple(
-                tuple((np.array(at[k - 1]) + np.array(at[k % 6 + 1])) * 0.6 - 0.2 * np.array(at[0]))
-                if k in (2, 4, 6)
-                else at[k]
-                for k in range(7)
-            )
-        advice = advise(Sheet(7, ((0, 1), (0, 3), (0, 5)), "VVV", faces, at), 1, flaps=False)
-        assert (advice.freedoms, advice.branch) == (0, None)
-        assert {made.diagonals[0].ends for made in advice.creases} == {(0, 2), (0, 4), (0, 6)}
+    sheet = Sheet(7, ((0, 1), (0, 3), (0, 5)), "VVV", faces, tuple(map(tuple, at.tolist())))
+    advice = advise(sheet, 1, flaps=False)
+    assert (advice.freedoms, advice.branch) == (0, None)
+    assert {made.diagonals[0].ends for made in advice.creases} == {(0, 2), (0, 4), (0, 6)}
 
 
 def test_what_has_no_panels_is_not_creased(data):

@@ -57,7 +57,7 @@ def tried(columns, freedoms, allowed):
     return set()
 
 
-@pytest.mark.parametrize(("seed", "loops", "joints"), [(0, 2, 8), (1, 2, 9), (2, 3, 11), (3, 3, 12), (4, 2, 10)])
+@pytest.mark.parametrize(("seed", "loops", "joints"), [(1, 2, 9), (3, 3, 12)])
 def test_sets_are_the_smallest_and_all_of_them(seed, loops, joints):
     solids, columns = random_mechanism(seed, loops, joints)
     has = freedoms_without(columns, ())
