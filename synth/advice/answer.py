@@ -1,0 +1,222 @@
+"""Advice, as data and in print.
+
+Theory: docs/theory/advice.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from graphs.errors import numbered, shown
+from graphs.ids import JointId
+from graphs.printing import Block, TableBlock, html_of, text_of
+from synth.advice.diagonals import Diagonal
+
+__all__ = ["Advice", "Creased", "Locked"]
+
+_LOOSE = 1e4
+"""Play that is made so many times larger is told as more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Locked:
+    """Joints to lock.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+    weight : float
+        Sum of their weights.
+    flaps : tuple of joint ids
+        Those of them that are in no loop: they stop a flap, and nothing else.
+    still : tuple of joint ids
+        Joints that stand still then, besides.
+    play : float
+        How much larger, at most, the play of the rest is than that of the locked joints (root of summed squares).
+    freedoms : int or None
+        By the rank of the closure equations without these joints; None where singular values do not tell.
+    left_out : int or None
+        Of the flat sheet without these creases, on its freest way; None where that was not asked, or is not known.
+    """
+
+    joints: tuple[JointId, ...]
+    weight: float
+    flaps: tuple[JointId, ...]
+    still: tuple[JointId, ...]
+    play: float
+    freedoms: int | None
+    left_out: int | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "joints": list(self.joints),
+            "weight": self.weight,
+            "flaps": list(self.flaps),
+            "still": list(self.still),
+            "play": self.play,
+            "freedoms": self.freedoms,
+            "left_out": self.left_out,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Creased:
+    """Diagonals of panels to crease.
+
+    Attributes
+    ----------
+    diagonals : tuple of Diagonal
+    flaps : int
+        How many only cut a corner off, which hangs on them.
+    freedoms : int
+        Of the sheet with them, folded.
+    """
+
+    diagonals: tuple[Diagonal, ...]
+    flaps: int
+    freedoms: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        told = [{"panel": one.panel, "face": one.face, "vertices": list(one.ends)} for one in self.diagonals]
+        return {"diagonals": told, "flaps": self.flaps, "freedoms": self.freedoms}
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Advice:
+    """What to lock or to crease. It prints as ``synth advise`` does.
+
+    Attributes
+    ----------
+    freedoms : int
+        That there are, M.
+    wanted : int
+        K.
+    branch : int or None
+        The way to move on which that holds; None where the pose given is a general one.
+    flaps : tuple of joint ids
+        Joints in no loop: each a freedom by itself.
+    locks : tuple of Locked
+        Where there are too many freedoms: sets of M - K joints, cheapest first, of equal weight those with fewest
+        flaps, then those whose joints move most.
+    creases : tuple of Creased
+        Where there are too few: the smallest sets of diagonals.
+    more : bool
+        Whether there are, or may be, more sets as small.
+    searched : int or None
+        The largest number of diagonals that was looked through.
+    refused : int
+        Sets of diagonals that have the rates and, folded, not the freedoms.
+    mended : tuple of str
+        What was done to rounded coordinates before.
+    """
+
+    freedoms: int
+    wanted: int
+    branch: int | None
+    flaps: tuple[JointId, ...] = ()
+    locks: tuple[Locked, ...] = ()
+    creases: tuple[Creased, ...] = ()
+    more: bool = False
+    searched: int | None = None
+    refused: int = 0
+    mended: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        return {
+            "freedoms": self.freedoms,
+            "wanted": self.wanted,
+            "branch": self.branch,
+            "flaps": list(self.flaps),
+            "locks": [one.to_json() for one in self.locks],
+            "creases": [one.to_json() for one in self.creases],
+            "more": self.more,
+            "searched": self.searched,
+            "refused": self.refused,
+            "mended": list(self.mended),
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        where = "at the pose given" if self.branch is None else f"beside it, on way {self.branch}"
+        lines: list[Block] = [f"mended: {repair}" for repair in self.mended]
+        lines.append(f"{numbered(self.freedoms, 'freedom')} {where}; wanted {self.wanted}")
+        if self.flaps:
+            joints = ", ".join(map(shown, self.flaps))
+            lines.append(f"in no loop, each a freedom by itself (flaps): {joints}")
+        if self.wanted < self.freedoms:
+            return [*lines, *self._locking()]
+        return [*lines, *self._creasing()] if self.wanted > self.freedoms else [*lines, "nothing to do"]
+
+    def _locking(self) -> list[Block]:
+        size = numbered(self.freedoms - self.wanted, "joint")
+        rows: list[tuple[str, ...]] = [
+            (
+                _names(one.joints),
+                f"{one.weight:g}",
+                _names(one.flaps),
+                _names(one.still),
+                _play(one.play),
+                _number(one.freedoms),
+                _number(one.left_out),
+            )
+            for one in self.locks
+        ]
+        columns: tuple[str, ...] = ("lock", "weight", "flaps", "still then", "play", "freedoms", "left out")
+        if all(one.left_out is None for one in self.locks):
+            columns, rows = columns[:-1], [row[:-1] for row in rows]
+        told = f"lock {size}: " + _how_many(len(self.locks), self.more)
+        return [told, TableBlock(columns, rows, ["weight", "play", "freedoms", "left out"])]
+
+    def _creasing(self) -> list[Block]:
+        lines: list[Block] = []
+        if self.refused:
+            lines.append(
+                f"{numbered(self.refused, 'set')} of diagonals could begin to move so, and when folded did not"
+            )
+        if not self.creases:
+            ended = "the search ended at a limit" if self.more else "all were looked through"
+            return [*lines, f"no set of {numbered(self.searched or 0, 'diagonal')} or fewer was found: {ended}"]
+        size = numbered(len(self.creases[0].diagonals), "diagonal")
+        rows = [
+            (
+                ", ".join(f"{one.ends[0]}-{one.ends[1]} (panel {one.panel})" for one in made.diagonals),
+                str(made.flaps),
+                str(made.freedoms),
+            )
+            for made in self.creases
+        ]
+        told = f"crease {size}: " + _how_many(len(self.creases), self.more)
+        return [
+            *lines,
+            told,
+            TableBlock(("from vertex to vertex", "flaps", "freedoms"), rows, ["flaps", "freedoms"]),
+        ]
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<Advice: {self.freedoms} to {self.wanted} freedoms, {len(self.locks) + len(self.creases)} sets>"
+
+
+def _how_many(listed: int, more: bool) -> str:
+    return f"the first {listed} sets" if more else f"{numbered(listed, 'set')}, all there are"
+
+
+def _names(joints: tuple[JointId, ...]) -> str:
+    return " ".join(map(shown, joints)) or "-"
+
+
+def _number(number: int | None) -> str:
+    return "?" if number is None else str(number)
+
+
+def _play(play: float) -> str:
+    return f"> {_LOOSE:.0f}" if play > _LOOSE else f"{play:.3g}"

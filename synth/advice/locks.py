@@ -1,0 +1,116 @@
+"""Which joints to lock: sets that each take a freedom more, cheapest first.
+
+Rates of M freedoms are the columns of a matrix with a row for each joint. To lock joints takes as many freedoms as
+the rank of their rows, so the sets that take one each are the independent sets of a matroid, the dual of that of
+the closure columns (Oxley, Matroid Theory, 2.1). Those of one size, with fewer than M joints or as many, are the
+bases of its truncation: there the greedy choice is the cheapest (Edmonds 1971). Theory: docs/theory/advice.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from heapq import heappop, heappush
+
+import numpy as np
+
+from graphs.arrays import Floats
+
+__all__ = ["HOLDS", "Cost", "cheapest_sets", "held"]
+
+HOLDS = 1e-6
+"""A joint that moves less than this against those locked already holds nothing: play in them would move it too."""
+
+Cost = tuple[float, ...]
+"""Weights, the first above all; compared as words are."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Choices:
+    """A part of all sets: those that hold the first joints of one, and not some others."""
+
+    cost: Cost
+    chosen: tuple[int, ...]
+    kept: tuple[int, ...]
+    left_out: frozenset[int]
+
+
+def held(rates: Floats, joints: Collection[int]) -> int:
+    """Return how many freedoms a set of joints takes when it is locked.
+
+    Parameters
+    ----------
+    rates : float[J, M]
+        Columns span the rates of all motions, orthonormal.
+    joints : collection of int
+        Rows.
+
+    Examples
+    --------
+    Two joints that turn alike, and one by itself:
+
+    >>> rates = np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]])
+    >>> held(rates, (0, 1)), held(rates, (1, 2))
+    (1, 2)
+    """
+    return len(_greedy(rates, (), sorted(joints), rates.shape[1]))
+
+
+def cheapest_sets(
+    rates: Floats, size: int, costs: Sequence[Cost], allowed: Collection[int]
+) -> Iterator[tuple[int, ...]]:
+    """Yield all sets of joints of a size that take a freedom each, cheapest first; of equal cost by their places.
+
+    The cheapest is found greedily. Its rivals are parted by the first joint in which they differ from it, and the
+    cheapest of each part is found likewise (Lawler, Management Science 18, 1972).
+
+    Parameters
+    ----------
+    rates : float[J, M]
+        Columns span the rates of all motions, orthonormal.
+    size : int
+        Of each set, M at most.
+    costs : sequence of tuple of float
+        Of each joint.
+    allowed : collection of int
+        Joints that may be locked.
+
+    Examples
+    --------
+    >>> rates = np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]])
+    >>> list(cheapest_sets(rates, 2, [(2.0,), (1.0,), (1.0,)], range(3)))
+    [(1, 2), (0, 2)]
+    """
+    order = sorted(allowed, key=lambda joint: (costs[joint], joint))
+    queue: list[tuple[Cost, tuple[int, ...], int, _Choices]] = []
+    made = 0
+
+    def enter(kept: tuple[int, ...], left_out: frozenset[int]) -> None:
+        nonlocal made
+        chosen = _greedy(rates, kept, [joint for joint in order if joint not in left_out], size)
+        if len(chosen) == size:
+            cost = tuple(map(sum, zip(*(costs[joint] for joint in chosen), strict=True)))
+            made += 1
+            heappush(queue, (cost, tuple(sorted(chosen)), made, _Choices(cost, chosen, kept, left_out)))
+
+    enter((), frozenset())
+    while queue:
+        _, joints, _, best = heappop(queue)
+        yield joints
+        for place in range(len(best.kept), size):
+            enter(best.chosen[:place], best.left_out | {best.chosen[place]})
+
+
+def _greedy(rates: Floats, kept: tuple[int, ...], order: Sequence[int], size: int) -> tuple[int, ...]:
+    """Return joints that take a freedom each: those kept, then each in order that adds to them, up to a size."""
+    free, chosen = np.array(rates), list[int]()
+    for joint in (*kept, *order):
+        if len(chosen) == size:
+            break
+        left = float(np.linalg.norm(free[joint]))
+        if left <= HOLDS or joint in chosen:
+            continue
+        along = free[joint] / left
+        free -= np.outer(free @ along, along)
+        chosen.append(joint)
+    return tuple(chosen)
