@@ -23,7 +23,7 @@ from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
-__all__ = ["oriented_panels", "ring_area", "scd_from_panels", "scd_of_placed_panels"]
+__all__ = ["oriented_panels", "ring_area", "rings_of", "scd_from_panels", "scd_of_placed_panels"]
 
 Panel = tuple[Any, ...]
 
@@ -241,8 +241,22 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
     places = np.zeros((sheet.vertices, 3))
     given = np.asarray(sheet.coordinates, dtype=float)
     places[:, : given.shape[1]] = given
-    rings: list[list[int]] = []
-    seen: set[int] = set()
+    rings = rings_of(after)
+    if len(rings) < 2:
+        return None
+    widest = max(rings, key=lambda ring: float(np.linalg.norm(ring_area(places[list(ring)]))))
+    return widest[0], widest[1]
+
+
+def rings_of(after: Mapping[int, int]) -> list[tuple[int, ...]]:
+    """Return the rings of vertices that follow each other, each from the first that is named.
+
+    Examples
+    --------
+    >>> rings_of({0: 1, 5: 6, 1: 2, 6: 5, 2: 0})
+    [(0, 1, 2), (5, 6)]
+    """
+    rings, seen = [], set[int]()
     for start in after:
         ring, here = [], start
         while here not in seen:
@@ -250,11 +264,8 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
             ring.append(here)
             here = after[here]
         if ring:
-            rings.append(ring)
-    if len(rings) < 2:
-        return None
-    widest = max(rings, key=lambda ring: float(np.linalg.norm(ring_area(places[ring]))))
-    return widest[0], widest[1]
+            rings.append(tuple(ring))
+    return rings
 
 
 def ring_area(ring: Floats) -> Floats:

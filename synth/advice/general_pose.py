@@ -22,6 +22,7 @@ from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.placement import moved, vertex_places
 from synth.folding.prepared import Prepared, prepared
 from synth.folding.second_order import rates_at
+from synth.verdict.words import flaps_of
 
 __all__ = ["GeneralPose", "general_pose_of_linkage", "general_pose_of_sheet"]
 
@@ -64,8 +65,8 @@ class GeneralPose:
     @property
     def flaps(self) -> tuple[int, ...]:
         """Places of the joints in no loop: of flaps, and of what hangs on them."""
-        in_loops = {joint for loop in self.linkage.loops for joint in loop.joints}
-        return tuple(sorted(set(range(len(self.linkage.angles))) - in_loops))
+        loose = set(flaps_of(self.linkage.graph))
+        return tuple(place for place, joint in enumerate(self.linkage.graph.joints) if joint in loose)
 
     def __repr__(self) -> str:
         return f"<GeneralPose: {self.freedoms} freedoms of {self.linkage!r}>"
@@ -102,8 +103,9 @@ def general_pose_of_sheet(sheet: Sheet, branch: int | str | None = None) -> Gene
     if pattern.branches is not None and pattern.branches.no_motion == "proved":
         rates = rates_at(pattern.closure, pattern.linkage.angles)
         return GeneralPose(pattern.linkage, rates, None, pattern.sheet, pattern.mechanism, mended, rigid=True)
-    marks = pattern.marks if pattern.marks.any() else np.ones(len(pattern.linkage.angles))
-    angles, number = _general_angles(pattern.linkage, pattern.branches, Wanted(branch, marks, (), np.zeros(0)))
+    angles, number = _general_angles(
+        pattern.linkage, pattern.branches, Wanted(branch, pattern.wanted, (), np.zeros(0))
+    )
     placed = pattern.sheet if number is None else _placed(pattern, angles)
     linkage = linkage_of_sheet(placed, pattern.mechanism)
     rates = _rates(linkage, pattern.branches, number)

@@ -219,9 +219,10 @@ def fold(
     joints = tuple(linkage.graph.joints)
     if not joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
-    marks = pattern.marks if pattern.marks.any() else np.ones(len(joints))
     drive, along, doubt = drive or {}, along or {}, pattern.doubt
-    asked = Asked(drive, _WHOLE, branch, marks, frames, limited=True, doubt=doubt, report=report, along=along)
+    asked = Asked(
+        drive, _WHOLE, branch, pattern.wanted, frames, limited=True, doubt=doubt, report=report, along=along
+    )
     driven = driven_from(linkage, closure, found, asked)
     path = driven.path
     if collisions:

@@ -83,12 +83,17 @@ class Prepared:
         return marks_of(self.sheet, self.linkage)
 
     @property
+    def wanted(self) -> Floats:
+        """Which way joints are to go, 1 or -1: as they are marked, or all alike where nothing is."""
+        return _wanted(self.marks)
+
+    @property
     def doubt(self) -> str:
         """What rounded coordinates leave open where nothing moves; empty if they are exact."""
         precision = precision_of_sheet(self.sheet)
         if precision.size <= EXACT or self.branches is None or self.branches.branches:
             return doubt_of(precision)
-        wanted, most = _wanted(self.marks), _most(self.linkage)
+        wanted, most = self.wanted, _most(self.linkage)
         near = nearly_agreeing(self.linkage, precision, wanted, most)
         misfits = [least_misfit(self.closure, self.linkage.angles, rates) for rates in islice(near, _TURNED_WAYS)]
         return doubt_of(precision, min(misfits, default=None))

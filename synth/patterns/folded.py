@@ -38,7 +38,7 @@ def folded(sheet: Sheet, angle: float) -> Sheet:
     <Sheet: 4 faces, 4 creases, 9 vertices, folded>
     """
     pattern = prepared(sheet)
-    marks = pattern.marks if pattern.marks.any() else np.ones(len(pattern.marks))
+    marks = pattern.wanted
     number, rates = beginning(
         pattern.closure, pattern.linkage, pattern.branches, Wanted(None, marks, [], np.zeros(0))
     )

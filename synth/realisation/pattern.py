@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
+from graphs.convert.panels import rings_of
 from graphs.errors import UnsolvableError
 from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass
@@ -178,16 +179,7 @@ def _rings(scd: SCDGraph) -> list[tuple[int, ...]]:
     for link, sides in scd.rotation.items():
         around = scd.vertices[link]
         after.update({around[i]: around[i - 1] for i, side in enumerate(sides) if side is None})
-    rings, seen = [], set[int]()
-    for start in after:
-        ring, here = [], start
-        while here not in seen:
-            seen.add(here)
-            ring.append(here)
-            here = after[here]
-        if ring:
-            rings.append(tuple(ring))
-    return rings
+    return rings_of(after)
 
 
 def _border_vertex(scd: SCDGraph, face: int) -> int | None:

@@ -42,7 +42,7 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
         loose = Way("+" * len(joints), len(joints), "proved", (), 0.0)
         text = text_of_motion(Told(posed, (loose,), None, True, generic, (), loose), len(joints), "proved")
         return Verdict(len(joints), "pose", "proved", text, (loose,), True)
-    wanted = pattern.marks if pattern.marks.any() else np.ones(len(joints))
+    wanted = pattern.wanted
     begun = begun_near(closure, linkage, wanted)
     rates = begun.rates
     end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]

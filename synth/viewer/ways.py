@@ -95,7 +95,7 @@ def ways_of_pattern(pattern: Prepared) -> Ways:
     >>> [one.told for one in ways.all], ways.singular
     (['way 0: 1 freedom, proved', 'way 1: 1 freedom, proved'], True)
     """
-    marks = pattern.marks if pattern.marks.any() else np.ones(len(pattern.linkage.angles))
+    marks = pattern.wanted
     return _ways(
         pattern.linkage, pattern.closure, pattern.branches, Wanted(None, marks, [], np.zeros(0), pattern.doubt)
     )
