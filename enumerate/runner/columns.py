@@ -94,18 +94,18 @@ def _as_list(value: Any) -> Any:
     return [_as_list(item) for item in value] if isinstance(value, tuple) else value
 
 
-def stored(values: tuple[Any, ...]) -> str:
-    """Return a list as compact JSON text.
+def stored(values: tuple[Any, ...] | None) -> str | None:
+    """Return a list as compact JSON text; None where a row has none.
 
     Examples
     --------
     >>> stored(((0, 1), (2, 3)))
     '[[0,1],[2,3]]'
     """
-    return json.dumps(values, separators=(",", ":"))
+    return None if values is None else json.dumps(values, separators=(",", ":"))
 
 
-def unstored(text: str) -> tuple[Any, ...]:
+def unstored(text: str | None) -> tuple[Any, ...] | None:
     """Return the list of a JSON text, as it stands in a row.
 
     Examples
@@ -113,7 +113,7 @@ def unstored(text: str) -> tuple[Any, ...]:
     >>> unstored("[[0,1],[2,3]]")
     ((0, 1), (2, 3))
     """
-    return tuple(_as_tuple(item) for item in json.loads(text))
+    return None if text is None else tuple(_as_tuple(item) for item in json.loads(text))
 
 
 def _as_tuple(value: Any) -> Any:

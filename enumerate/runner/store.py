@@ -70,7 +70,7 @@ class SqliteSink:
         self._rows: dict[int, int] = {}
         self._complete = False
         self._next, self._first = 0, 1
-        self._lists: list[tuple[int, Callable[[Any], str]]] = []
+        self._lists: list[tuple[int, Callable[[Any], str | None]]] = []
 
     def start(self, job: Job) -> Collection[int]:
         """Make the file, or look through it; return the numbers of the units that it holds.
@@ -270,7 +270,7 @@ def _meta_of(job: Job) -> dict[str, Any]:
     }
 
 
-def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[Any], str]]]:
+def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[Any], str | None]]]:
     """Return the place of each column of lists, and what makes text of them.
 
     Each column remembers its own: lists that are equal, of numbers of different types, are not one text.

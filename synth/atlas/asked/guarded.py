@@ -1,0 +1,137 @@
+"""An atlas opened so that a statement, whoever wrote it, can read types and do nothing else.
+
+SQLite's authorizer refuses all but SELECT on the views and tables of the atlas; the file is opened read-only,
+nothing is written beside it, and a statement has limits of time, of rows, and of the length of a value.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from time import monotonic
+from typing import Any, NamedTuple
+
+from enumerate.runner.store_units import COMPLAINTS
+from graphs.errors import InvariantError, StoreError, UnsolvableError
+
+__all__ = ["Rows", "open_guarded", "selected"]
+
+_READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
+_ALLOWED = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE}
+_REFUSED = {"load_extension", "fts3_tokenizer", "randomblob", "zeroblob"}
+"""Functions that do more than compute with what is there, or make values of any length."""
+
+_EXPECTED = "one SELECT on types or relations"
+_STEPS = 10_000
+"""Steps of SQLite's machine between two looks at the clock."""
+_LONGEST_VALUE = 2_000_000
+_LONGEST_STATEMENT = 100_000
+_LONGEST_PATTERN = 200
+
+
+class Rows(NamedTuple):
+    """What a statement selects.
+
+    Attributes
+    ----------
+    columns : tuple of str
+    rows : list of tuples
+    more : bool
+        Whether there are more than the limit of rows.
+    """
+
+    columns: tuple[str, ...]
+    rows: list[tuple[Any, ...]]
+    more: bool
+
+
+@contextmanager
+def open_guarded(path: Path) -> Iterator[sqlite3.Connection]:
+    """Open an atlas for statements that only select.
+
+    Raises
+    ------
+    StoreError
+        If there is no such file, or it cannot be read as a database.
+    """
+    if not path.is_file():
+        raise StoreError(f"{path}: no such file")
+    connection = None
+    try:
+        connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None)
+        connection.execute("PRAGMA temp_store=MEMORY")
+        connection.execute("PRAGMA trusted_schema=OFF")
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LONGEST_VALUE)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_SQL_LENGTH, _LONGEST_STATEMENT)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LIKE_PATTERN_LENGTH, _LONGEST_PATTERN)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_ATTACHED, 0)
+        connection.execute("SELECT 1 FROM json_each('[]')")  # made when it is first used, which none may do later
+        connection.set_authorizer(_authorized)
+        yield connection
+    except sqlite3.DatabaseError as error:
+        raise StoreError(f"{path}: cannot be read as an atlas: {_said(error)}") from None
+    finally:
+        if connection is not None:
+            connection.close()
+
+
+def _authorized(action: int, first: str | None, second: str | None, *_: str | None) -> int:
+    if action in _ALLOWED:
+        return sqlite3.SQLITE_OK
+    if action == sqlite3.SQLITE_READ and (first or "").lower() in _READABLE:
+        return sqlite3.SQLITE_OK
+    if action == sqlite3.SQLITE_FUNCTION and (second or "").lower() not in _REFUSED:
+        return sqlite3.SQLITE_OK
+    return sqlite3.SQLITE_DENY
+
+
+def selected(
+    connection: sqlite3.Connection, statement: str, values: Sequence[Any], *, limit: int, seconds: float
+) -> Rows:
+    """Return what a statement selects, up to a number of rows.
+
+    Parameters
+    ----------
+    connection : sqlite3.Connection
+        From `open_guarded`.
+    statement : str
+    values : sequence
+        For its marks.
+    limit : int
+        Rows at most.
+    seconds : float
+        Time at most.
+
+    Raises
+    ------
+    InvariantError
+        If the statement is no SELECT on what an atlas holds, with what SQLite says of it.
+    UnsolvableError
+        If it takes longer.
+    """
+    end = monotonic() + seconds
+    connection.set_progress_handler(lambda: monotonic() > end, _STEPS)
+    try:
+        cursor = connection.execute(statement, values)
+        rows = cursor.fetchmany(limit + 1)
+    except sqlite3.OperationalError as error:
+        if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF == sqlite3.SQLITE_INTERRUPT:
+            raise UnsolvableError(
+                f"the query takes longer than {seconds:g} s: narrow it, or give it more"
+            ) from None
+        raise InvariantError("statement", _said(error), _EXPECTED) from None
+    except (*COMPLAINTS, ValueError, OverflowError) as error:
+        raise InvariantError("statement", _said(error), _EXPECTED) from None
+    finally:
+        connection.set_progress_handler(None, 0)
+    if cursor.description is None:
+        raise InvariantError("statement", "it selects nothing", _EXPECTED)
+    return Rows(tuple(head[0] for head in cursor.description), rows[:limit], len(rows) > limit)
+
+
+def _said(error: Exception) -> str:
+    """Return what is said of an error, in one printable line: it may quote the statement."""
+    text = " ".join(str(error).split())[:300] or type(error).__name__
+    return text if text.isprintable() else ascii(text)[1:-1]

@@ -1,0 +1,1 @@
+"""Making an atlas: what is in it, its rows, coordinates of its types, the file."""

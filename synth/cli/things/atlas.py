@@ -1,0 +1,229 @@
+"""``synth atlas``: all types up to a size in one file, asked in plain words."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from synth.cli.output import FORCE, about, check_output, console, entries, plain, print_json
+from synth.cli.runner import RunOptions, run_resumable, runner_options
+
+if TYPE_CHECKING:
+    from synth.atlas.asked.opened import AtlasRows
+
+__all__ = ["atlas_group"]
+
+JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+ATLAS = click.argument("atlas", metavar="ATLAS.sqlite")
+
+
+@click.group("atlas", short_help="All types up to a size in one file: build, query, show, find.")
+def atlas_group() -> None:
+    """Build an atlas of types, and ask it.
+
+    \b
+    Examples:
+      synth atlas build -o atlas.sqlite --max-links 8
+      synth atlas query atlas.sqlite "links = 8 and dof = 1 and centres >= 3 and all_explicit"
+      synth atlas show atlas.sqlite "Watt chain"
+      synth atlas find atlas.sqlite data/wiener/fortune-teller.json
+    """
+
+
+@atlas_group.command()
+@click.option(
+    "--max-links", type=int, default=8, show_default=True, metavar="N", help="SC and SCD graphs to N links."
+)
+@click.option(
+    "--dof", "dofs", type=int, multiple=True, default=(1,), metavar="M", help="Freedoms; may be repeated."
+)
+@click.option("--max-degree", type=int, default=4, show_default=True, metavar="D", help="Most sides of a link.")
+@click.option("--chain-links", type=int, metavar="N", help="Chains to N links; by default as SC graphs.")
+@click.option(
+    "--creases", type=int, default=6, show_default=True, metavar="N", help="R/- strings to N creases; 0: none."
+)
+@click.option(
+    "--orders-of", multiple=True, default=("watt", "stephenson"), show_default=True, metavar="CHAIN",
+    help="Chains (name or k1:...) whose joints are put round a cone in every order; none: nothing.",
+)  # fmt: skip
+@click.option(
+    "--spatial", type=int, default=0, show_default=True, metavar="S", help="Also hybrids of 1 to S spatial loops."
+)
+@click.option("--infinite", is_flag=True, help="Also centres at infinity.")
+@click.option(
+    "--realise/--no-realise", "realised", default=True, show_default=True, help="Coordinates and folding."
+)
+@runner_options
+def build(**options: Any) -> None:
+    """List chains, SC and SCD graphs, strings and conical orders, and put all that is known of them in one file.
+
+    A build that was stopped goes on with --resume. Columns: synth atlas query --columns help.
+    """
+    from synth.atlas.asked.opened import open_atlas
+    from synth.atlas.made.building import AtlasSink
+    from synth.atlas.made.job import AtlasJob
+    from synth.atlas.made.plan import AtlasPlan
+
+    running = RunOptions.taken_from(options, counting=True)
+    if running.output is None:
+        raise click.UsageError("an atlas needs a place: -o FILE.sqlite")
+    orders = tuple(name for name in options.pop("orders_of") if name != "none")
+    plan = AtlasPlan(orders_of=orders, **options)
+    sink = partial(AtlasSink, running.output, plan.command, resume=running.resume, force=running.force)
+    run_resumable(AtlasJob(plan), sink, running)
+    told = open_atlas(str(running.output)).about()
+    if running.as_json:
+        print_json({"output": running.output, **told})
+        return
+    for kind, number in told["types"].items():
+        click.echo(f"{number:>9}  {kind}")
+    click.echo(f"written: {plain(running.output, 4096)}")
+
+
+@atlas_group.command()
+@ATLAS
+@click.argument("condition", required=False, default="")
+@click.option("--sql", "statement", metavar="SELECT", help="A statement of SQL in place of a condition.")
+@click.option("--columns", metavar="A,B,...", help="Columns to show; help lists them.")
+@click.option("--sort", default="", metavar="[-]COLUMN", help="Sort by a column; - before it: falling.")
+@click.option(
+    "--limit", type=click.IntRange(min=1), default=1000, show_default=True, metavar="N", help="Rows at most."
+)
+@click.option(
+    "--seconds", type=click.FloatRange(min=0, min_open=True), default=30.0, show_default=True, help="At most."
+)
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT",
+    help="Write .csv, .json, .jsonl, .parquet, a picture (.svg, .png, .pdf), or a folder of mechanisms.",
+)
+@FORCE
+@JSON
+def query(
+    atlas: str,
+    condition: str,
+    statement: str | None,
+    columns: str | None,
+    output: str | None,
+    force: bool,
+    as_json: bool,
+    **how: Any,
+) -> None:
+    """Print the types that fulfil a condition.
+
+    \b
+    Examples of conditions:
+      links = 8 and dof = 1 and centres >= 3 and all_explicit
+      kind = scd and 4 <= links <= 6 and fold_deg > 170
+      assortment = (4, 2) or name like '%watt%'
+      loop_sizes contains 5 and not (symmetry = 1)
+      kind in ('sc', 'scd') and ride_alongs is known
+    """
+    from synth.atlas.asked.opened import open_atlas
+
+    if columns == "help":
+        _print_columns()
+        return
+    if statement is not None and (condition or columns or how["sort"]):
+        raise click.UsageError("--sql says all: no condition, --columns or --sort beside it")
+    if output is not None and as_json:
+        raise click.UsageError("give -o or --json, not both")
+    check_output(output if output is None or Path(output).suffix else None, force=force)
+    opened = open_atlas(atlas)
+    if statement is not None:
+        rows = opened.sql(statement, limit=how["limit"], seconds=how["seconds"])
+    else:
+        names = [name.strip() for name in columns.split(",")] if columns else []
+        rows = opened.query(condition, columns=names, **how)
+    if output is not None:
+        _write(rows, output, force)
+    elif as_json:
+        print_json(rows.to_json())
+    else:
+        _print(rows)
+    if rows.more:
+        click.echo(f"there are more than {len(rows)}: --limit", err=True)
+
+
+def _print(rows: AtlasRows) -> None:
+    out = console()
+    for block in rows.blocks()[:1]:
+        out.print(block)
+
+
+def _print_columns() -> None:
+    from graphs.printing import TableBlock
+    from synth.atlas.columns import COLUMNS
+
+    rows = [(name, " ".join(column.kinds), column.says) for name, column in COLUMNS.items()]
+    console().print(TableBlock(("column", "of kinds", "what it is"), rows))
+
+
+def _write(rows: AtlasRows, output: str, force: bool) -> None:
+    from synth.atlas.asked.written import write_rows
+
+    for place in write_rows(rows, output, force=force):
+        click.echo(f"written: {plain(str(place), 4096)}")
+
+
+@atlas_group.command()
+@ATLAS
+@click.argument("type_id", metavar="ID")
+@click.option("-o", "--output", metavar="FILE.fold", help="Write the realised type.")
+@FORCE
+@JSON
+def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
+    """Print all that is known of a type, by its id or its name, and of those it is related to."""
+    from synth.atlas.asked.opened import open_atlas
+
+    check_output(output, force=force)
+    report = open_atlas(atlas).show(type_id)
+    if output is not None:
+        from graphs.errors import UnsolvableError
+        from graphs.files.atomic import write_text
+
+        text = report.values.get("fold_file")
+        if text is None:
+            raise UnsolvableError(f"{plain(type_id)}: the atlas holds no coordinates of it")
+        write_text(Path(output), text, force=force)
+    if as_json:
+        print_json(report.to_json())
+        return
+    out = console()
+    for block in report.blocks():
+        out.print(block)
+    if output is not None:
+        click.echo(f"written: {plain(output, 4096)}")
+
+
+@atlas_group.command()
+@ATLAS
+@click.argument("files", metavar="FILE...", nargs=-1, required=True)
+@JSON
+def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
+    """Tell which type of the atlas the mechanism of a file is, and which types are one edit away."""
+    from synth.atlas.asked.finding import find_type
+    from synth.atlas.asked.opened import open_atlas
+
+    opened = open_atlas(atlas)
+    failures: list[str] = []
+    found_all = []
+    out = console()
+    for entry in entries(files, failures):
+        with about(entry.label):
+            found = find_type(opened, entry.mechanism)
+        found_all.append({"file": entry.label, **found.to_json()})
+        if not as_json:
+            click.echo(plain(entry.label, 4096))
+            for block in found.blocks():
+                out.print(block)
+    if as_json:
+        print_json(found_all)
+    for failure in failures:
+        click.echo(failure, err=True)
+    if failures:
+        click.get_current_context().exit(2)

@@ -1,0 +1,19 @@
+"""A small atlas that the tests of this folder ask."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from synth.atlas.asked.opened import Atlas, open_atlas
+from synth.atlas.made.building import build_atlas
+from synth.atlas.made.plan import AtlasPlan
+
+
+@pytest.fixture(scope="session")
+def small_atlas(tmp_path_factory: pytest.TempPathFactory) -> Atlas:
+    """Return an atlas of types of up to six links, without coordinates."""
+    place: Path = tmp_path_factory.mktemp("atlas") / "small.sqlite"
+    build_atlas(place, AtlasPlan(6, realised=False))
+    return open_atlas(place)
