@@ -17,7 +17,16 @@ if TYPE_CHECKING:
     from enumerate.runner.columns import Column
     from enumerate.runner.job import Job, Progress, Row, Sink
 
-__all__ = ["LimitsType", "RunOptions", "cores", "run_count", "run_resumable", "run_rows", "runner_options"]
+__all__ = [
+    "LimitsType",
+    "RunOptions",
+    "cores",
+    "run_count",
+    "run_resumable",
+    "run_rows",
+    "run_whole",
+    "runner_options",
+]
 
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
@@ -165,6 +174,11 @@ def run_resumable(job: Job, made: Callable[..., Sink], options: RunOptions) -> N
     """Run a job into a sink that keeps what is done: ``made`` takes where to tell of a store, and to look."""
     meter = _Meter.of(options)
     _run(job, made(tell=meter.tell, looking=meter.look), options, meter, stored=True)
+
+
+def run_whole(job: Job, sink: Sink, options: RunOptions) -> None:
+    """Run a job into a sink that is whole or not there."""
+    _run(job, sink, options, _Meter.of(options))
 
 
 def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:

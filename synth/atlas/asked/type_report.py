@@ -80,14 +80,14 @@ class TypeReport:
             if name != "fold_file"
         ]
         lines.append(TableBlock(("what", "value", "meaning"), rows))
-        told, unlisted = self._told_neighbours()
+        told, unlisted = self.told_neighbours()
         if told:
             lines.append(TableBlock(("relation", "id", "name", "in this atlas"), told))
         if self.more + unlisted:
             lines.append(f"and {self.more + unlisted} more that are related to it")
         return lines
 
-    def _told_neighbours(self) -> tuple[list[tuple[str, str, str, str]], int]:
+    def told_neighbours(self) -> tuple[list[tuple[str, str, str, str]], int]:
         """Return rows of the first neighbours of each relation, named ones first; and how many are left."""
         ranked = sorted(self.neighbours, key=lambda one: (one.relation, one.name is None))
         rows: list[tuple[str, str, str, str]] = []

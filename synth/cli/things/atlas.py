@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from synth.cli.output import FORCE, about, check_output, console, entries, plain, print_json
-from synth.cli.runner import RunOptions, run_resumable, runner_options
+from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 if TYPE_CHECKING:
     from synth.atlas.asked.opened import AtlasRows
@@ -198,6 +198,27 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
         out.print(block)
     if output is not None:
         click.echo(f"written: {plain(output, 4096)}")
+
+
+@atlas_group.command()
+@ATLAS
+@click.argument("condition", required=False, default="")
+@click.option("-o", "--output", required=True, metavar="FOLDER", help="A new folder.")
+@click.option("--title", default="", help="Of the site.")
+@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Processes; one a core by default.")
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+def page(atlas: str, condition: str, output: str, title: str, workers: int | None, quiet: bool) -> None:
+    """Write a site: search, filter and sort types, a page for each with its drawing, and the thing that folds.
+
+    It needs no server and no network: open index.html. Conditions are those of synth atlas query.
+    """
+    from synth.atlas.asked.opened import open_atlas
+    from synth.atlas.site.writing import SiteSink, site_of
+
+    site, first = site_of(open_atlas(atlas), condition, title)
+    running = RunOptions(output, workers, None, False, quiet, False)
+    run_whole(site, SiteSink(output, first), running)
+    click.echo(f"written: {plain(str(Path(output) / 'index.html'), 4096)}")
 
 
 @atlas_group.command()
