@@ -422,6 +422,7 @@ def test_shell_completion_knows_the_commands():
         "mobility",
         "fold",
         "advise",
+        "atlas",
         "draw",
         "view",
         "reduce",

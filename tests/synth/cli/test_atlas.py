@@ -1,0 +1,68 @@
+"""`synth atlas`."""
+
+import json
+
+import pytest
+
+from graphs.files.formats import read
+from tests.support.commands import run
+
+
+@pytest.fixture(scope="module")
+def atlas(tmp_path_factory):
+    place = tmp_path_factory.mktemp("atlas") / "atlas.sqlite"
+    told = run("atlas", "build", "-o", place, "--max-links", 4, "--creases", 2, "--workers", 1, "--quiet").output
+    assert "7  scd" in told
+    return place
+
+
+def test_query(atlas):
+    assert "four-bar chain" in run("atlas", "query", atlas, "kind = chain").output
+    rows = json.loads(run("atlas", "query", atlas, "all_explicit and fold_deg > 170", "--json").output)
+    assert rows
+    assert all(row["all_explicit"] is True for row in rows)
+    assert run("atlas", "query", atlas, "links > 100").output.strip() == "none"
+    [row] = json.loads(run("atlas", "query", atlas, "--sql", "SELECT count(*) AS n FROM types", "--json").output)
+    assert row["n"] == 12
+    assert "[linsk]" in run("atlas", "query", atlas, "linsk = 4", code=2).output
+    assert "not authorized" in run("atlas", "query", atlas, "--sql", "DELETE FROM type", code=2).output
+    assert "there are more than 2" in run("atlas", "query", atlas, "--limit", 2).output
+    assert "what it is" in run("atlas", "query", atlas, "--columns", "help").output
+
+
+def test_query_writes(atlas, tmp_path):
+    run("atlas", "query", atlas, "--columns", "id,links", "-o", tmp_path / "rows.csv")
+    assert (tmp_path / "rows.csv").read_text().splitlines()[1] == "k1:Cr,4"
+    assert "exists already" in run("atlas", "query", atlas, "-o", tmp_path / "rows.csv", code=2).output
+    run("atlas", "query", atlas, "kind = scd", "-o", tmp_path / "types")
+    assert len(list((tmp_path / "types").iterdir())) == 7
+
+
+def test_show_and_find(atlas, tmp_path, data):
+    assert "Reuleaux" in run("atlas", "show", atlas, "k1:Cr").output
+    row = json.loads(run("atlas", "query", atlas, "kind = scd and all_explicit", "--json").output)[0]
+    run("atlas", "show", atlas, row["id"], "-o", tmp_path / "type.fold")
+    [found] = json.loads(run("atlas", "find", atlas, tmp_path / "type.fold", "--json").output)
+    assert found["drawing"] == row["id"]
+    assert [one["id"] for one in found["types"]] == [row["id"], "k1:Cr"]
+    assert read(tmp_path / "type.fold") is not None
+    assert "no coordinates" in run("atlas", "show", atlas, "k1:Cr", "-o", tmp_path / "no.fold", code=2).output
+    assert "fortune teller" in run("atlas", "find", atlas, data / "wiener" / "fortune-teller.json").output
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("build",), "needs a place"),
+        (("build", "-o", "a.sqlite", "--max-links", 3), "4 or more"),
+        (("build", "-o", "a.sqlite", "--dof", 0), "1 or more"),
+        (("query", "nowhere.sqlite"), "no such file"),
+        (("show", "nowhere.sqlite", "k1:Cr"), "no such file"),
+        (("page", "nowhere.sqlite", "-o", "site"), "no such file"),
+    ],
+)
+def test_what_cannot_be_is_one_line(tmp_path, monkeypatch, words, told):
+    monkeypatch.chdir(tmp_path)
+    output = run("atlas", *words, code=2).output
+    assert told in output
+    assert list(tmp_path.iterdir()) == []
