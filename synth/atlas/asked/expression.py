@@ -34,7 +34,7 @@ __all__ = ["Condition", "ExpressionError", "condition_of"]
 _LONGEST, _DEEPEST = 10_000, 60
 """Letters of an expression, and brackets in brackets, at most."""
 _AROUND = 40
-"""Letters shown on either side of the word that is wrong."""
+"""Letters shown of the word that is wrong, and on either side of it."""
 
 _TOKEN = re.compile(
     r"""\s*(?:(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\w.])
@@ -172,7 +172,7 @@ class _Reader:
         left = ("..." if len(before) > _AROUND else "") + before[-_AROUND:]
         right = after[:_AROUND] + ("..." if len(after) > _AROUND else "")
         place = " ".join(f"{left}[{token.text[:_AROUND]}]{right}".split())
-        raise ExpressionError("condition", f"{plain(place)}: {what}", expected)
+        raise ExpressionError("condition", f"{plain(place, 3 * _AROUND)}: {what}", expected)
 
     def _condition(self) -> Condition:
         return self._joined("or", lambda: self._joined("and", self._negation))
@@ -195,19 +195,13 @@ class _Reader:
             if self._takes("not"):
                 inner = self._negation()
                 return Condition(f"(NOT {inner.sql})", inner.values)
-            if token.text == "(" and not self._is_list():
-                self._take()
+            if self._takes("("):
                 inner = self._condition()
                 self._must_take(")")
                 return inner
             return self._comparison()
         finally:
             self._depth -= 1
-
-    def _is_list(self) -> bool:
-        """Tell whether the bracket that comes opens a list of numbers, not a condition."""
-        tokens = self._tokens[self._next + 1 : self._next + 3]
-        return tokens[0].kind == "number" and tokens[-1].text in (",", ")")
 
     def _comparison(self) -> Condition:
         left = self._operand(None)
