@@ -9,7 +9,7 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow test-web page check data pictures clean help
+.PHONY: demo test test-slow test-web page check data pictures docs examples clean help
 
 help:
 	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
@@ -20,6 +20,8 @@ help:
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
 	@echo "make pictures   make the pictures of README.md and docs/ anew"
+	@echo "make docs       make the site of docs/ in docs/_build, with its pictures, without a warning"
+	@echo "make examples   write what the commands of README.md and docs/ print into them anew"
 	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
 
 $(STAMP): pyproject.toml
@@ -95,6 +97,13 @@ check: $(STAMP)
 data: $(STAMP)
 	$(BIN)/python data/make.py
 	$(BIN)/python data/realised.py
+
+docs: pictures
+	$(BIN)/python -m pip install --quiet -e '.[docs,draw]'
+	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+
+examples: $(STAMP)
+	$(BIN)/python docs/examples.py
 
 pictures: $(STAMP)
 	@BIN=$(BIN) sh docs/pictures.sh

@@ -5,6 +5,8 @@ cd "$(dirname "$0")/.."
 synth="${BIN:+$BIN/}synth"
 mkdir -p docs/pictures
 
+"${BIN:+$BIN/}python" docs/overview.py
+
 "$synth" draw data/patterns/bird-base.fold --graph --colour centres --force -o docs/pictures/bird-base-centres.svg
 "$synth" draw data/patterns/bird-base.fold --colour branch --branch 1 --force -o docs/pictures/bird-base-branch.svg
 "$synth" fold data/patterns/bird-base.fold --all --frames 11 --force -o docs/pictures/bird-base-folding.svg

@@ -1,13 +1,18 @@
 """Paths, links and names in the project's papers resolve; nothing cites what is not in the project."""
 
+import inspect
 import re
 from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
+from types import FunctionType
 
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PAPERS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
+PAPERS = sorted(
+    [*ROOT.glob("*.md"), *(path for path in ROOT.glob("docs/**/*.md") if "reference" not in path.parts)]
+)
 CODE = sorted(path for folder in ("graphs", "enumerate", "synth", "tests", "data", "benchmarks")
               for path in (ROOT / folder).rglob("*.py"))  # fmt: skip
 FOLDERS = ("graphs", "enumerate", "synth", "data", "docs", "tests", "benchmarks")
@@ -71,5 +76,42 @@ def test_every_document_that_is_cited_is_in_the_project():
 
 def test_every_theory_page_is_cited_by_code():
     code = "".join(path.read_text(encoding="utf-8") for path in CODE)
-    for page in (ROOT / "docs" / "theory").glob("*.md"):
+    for page in {*(ROOT / "docs" / "theory").glob("*.md")} - {ROOT / "docs" / "theory" / "index.md"}:
         assert f"docs/theory/{page.name}" in code, page
+
+
+def test_every_theory_page_is_in_its_index():
+    index = (ROOT / "docs" / "theory" / "index.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^[a-z0-9-]+$", index, re.MULTILINE)
+    assert sorted(listed) == sorted(
+        page.stem for page in (ROOT / "docs" / "theory").glob("*.md") if page.stem != "index"
+    )
+
+
+def offered_functions():
+    """Functions that faces of rooms offer, once each."""
+    found = {}
+    for package in ("graphs", "enumerate", "synth"):
+        for info in iter_modules(import_module(package).__path__):
+            module = import_module(f"{package}.{info.name}")
+            for name in getattr(module, "__all__", ()):
+                thing = getattr(module, name)
+                if isinstance(thing, FunctionType):
+                    found[id(thing)] = (f"{module.__name__}.{name}", thing)
+    return list(found.values())
+
+
+def test_docstrings_of_what_rooms_offer():
+    """Those without a section are counted: there may be fewer, not more."""
+    functions = offered_functions()
+    assert len(functions) > 200
+    told = {name: inspect.getdoc(function) or "" for name, function in functions}
+    assert all(told.values())
+    without_parameters = [
+        name
+        for name, function in functions
+        if inspect.signature(function).parameters and "Parameters\n---" not in told[name]
+    ]
+    without_example = [name for name, text in told.items() if ">>>" not in text]
+    assert len(without_parameters) <= 87, without_parameters
+    assert len(without_example) <= 42, without_example

@@ -18,7 +18,7 @@ PRIMES = (2**61 - 1, 2**61 - 31)
 
 
 class Field(Protocol):
-    """Numbers with + - *, drawn at random, inverted, and told from zero."""
+    """Numbers that are added, multiplied, drawn at random, inverted, and told from zero."""
 
     def random(self) -> Any:
         """Return a random number."""

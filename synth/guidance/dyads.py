@@ -40,7 +40,7 @@ class Dyad:
     moving : float[3]
         W, in the body, chosen likewise.
     residual : float
-        Largest |G . (M_i - M_1) W|, of unit vectors.
+        Largest ``|G . (M_i - M_1) W|``, of unit vectors.
     link_angle : float
         Mean angle between the axes, radians.
     misfit : float

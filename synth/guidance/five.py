@@ -55,7 +55,7 @@ class DyadsOfFive:
     complex_solutions : int
         How many of the six are complex.
     residual : float
-        Largest |G . (M_i - M_1) W| / |M_i - M_1| of all six, complex ones included.
+        Largest ``|G . (M_i - M_1) W| / |M_i - M_1|`` of all six, complex ones included.
     smallest_singular_value : float
         The least of those that are zero where dyads are infinitely many: of the twelve equations, relative to the
         largest, and of the conditions on the other axis at each solution, but one.

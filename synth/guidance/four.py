@@ -43,7 +43,7 @@ class AxisCurve:
     moving : float[m, 3]
         The moving axis of each, in the body.
     residuals : float[m]
-        Largest |G . (M_i - M_1) W| of each.
+        Largest ``|G . (M_i - M_1) W|`` of each.
     verdicts : int8[m]
         1 where a counter-clockwise crank keeps the order, -1 a clockwise one, 0 neither
         (:func:`synth.guidance.order.order_verdicts`).

@@ -1,0 +1,30 @@
+"""How the site is made: Sphinx with MyST and numpydoc. ``make docs`` builds it, without a network."""
+
+from __future__ import annotations
+
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from reference_pages import write_reference  # noqa: E402
+
+project = "synthedra"
+release = version_of("synthedra")
+extensions = ["myst_parser", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.autosummary"]
+source_suffix = {".md": "markdown"}
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = f"synthedra {release}"
+html_show_sourcelink = False
+html_copy_source = False
+myst_heading_anchors = 3
+autosummary_generate = False
+numpydoc_show_class_members = False
+autodoc_typehints = "none"
+default_role = "py:obj"
+suppress_warnings = ["myst.xref_missing"]  # links to files of the project that are no pages: a test follows them
+
+write_reference(HERE / "reference")

@@ -1,0 +1,43 @@
+"""The first picture of README.md: a crease pattern, what is said of it, and poses on its way.
+
+``make pictures`` runs it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+import synth
+from synth.drawing.scene.moving import moved
+from synth.drawing.scene.shapes import Label, Layer, Scene
+from synth.drawing.scene.writing import save_scene
+from synth.drawing.space.poses import pose_scenes
+
+PLACE = Path(__file__).resolve().parent / "pictures" / "overview.svg"
+POSES = (2, 6, 10, 14)
+SIZE, GAP = 130.0, 16.0
+
+
+def main() -> None:
+    """Draw it."""
+    made = synth.generate("miura", rows=4, columns=5)
+    sheet = made.mechanism
+    folding = synth.fold(sheet, frames=16)
+    pattern = synth.draw(sheet, numbers=False, box=(190.0, 190.0), caption=None)
+    poses = list(pose_scenes(sheet, folding.places[np.array(POSES)], SIZE))
+    high = max(pattern.height, SIZE)
+    verdict = synth.mobility(sheet).verdict
+    assert verdict is not None
+    layers = [moved(layer, 0.0, (high - pattern.height) / 2) for layer in pattern.layers]
+    for place, pose in enumerate(poses):
+        right = pattern.width + GAP + place * SIZE
+        layers += [moved(layer, right, (high - SIZE) / 2) for layer in pose.layers if layer.shapes]
+    width = pattern.width + GAP + len(poses) * SIZE
+    layers.append(Layer("verdict", (Label((width / 2, high + 14), verdict.text, 9.0, halo=False, widest=200),)))
+    save_scene(Scene(width, high + 28, tuple(layers), "Miura sheet"), PLACE, force=True)
+
+
+if __name__ == "__main__":
+    main()

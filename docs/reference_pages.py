@@ -1,0 +1,104 @@
+"""Pages of the reference, one a room, made of what the rooms' faces offer; `conf.py` runs it."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from inspect import getdoc
+from pathlib import Path
+from pkgutil import iter_modules
+from types import FunctionType
+
+__all__ = ["write_reference"]
+
+_PACKAGES = ("graphs", "enumerate", "synth")
+_INSIDE = ("cli", "ids", "lazy", "arrays")
+"""Modules that are no part of the reference."""
+
+
+def write_reference(folder: Path) -> None:
+    """Write the pages of the rooms into a folder, the front door, and the list of them.
+
+    Parameters
+    ----------
+    folder : Path
+        ``reference`` of the documentation.
+    """
+    (folder / "rooms").mkdir(parents=True, exist_ok=True)
+    place_of: dict[int, str] = {}
+    made = []
+    for module in (f"{package}.{room}" for package in _PACKAGES for room in _rooms_of(package)):
+        names = _offered_by(module)
+        if names:
+            made.append(module)
+            _replace(folder / "rooms" / f"{module}.md", _page_of_room(module, names, place_of))
+    _replace(folder / "index.md", _front_door(place_of, made))
+
+
+def _rooms_of(package: str) -> list[str]:
+    found = iter_modules(import_module(package).__path__)
+    return sorted(info.name for info in found if info.name not in _INSIDE)
+
+
+def _offered_by(module: str) -> list[str]:
+    """Return the functions and classes that a room offers."""
+    room = import_module(module)
+    return [name for name in getattr(room, "__all__", ()) if isinstance(getattr(room, name), FunctionType | type)]
+
+
+def _page_of_room(module: str, names: list[str], place_of: dict[int, str]) -> str:
+    """Return the page of a room; what another room has documented is named there only."""
+    room = import_module(module)
+    new = [
+        name
+        for name in names
+        if place_of.setdefault(id(getattr(room, name)), f"{module}.{name}") == f"{module}.{name}"
+    ]
+    rows = [f"   {place_of[id(getattr(room, name))]}" for name in names]
+    parts = [getdoc(room) or "", ".. autosummary::\n   :nosignatures:\n\n" + "\n".join(rows)]
+    parts += [_directive(module, name, getattr(room, name)) for name in new]
+    return f"# {module}\n\n```{{eval-rst}}\n" + "\n\n".join(parts) + "\n```\n"
+
+
+def _directive(module: str, name: str, thing: object) -> str:
+    if isinstance(thing, FunctionType):
+        return f".. autofunction:: {module}.{name}"
+    return f".. autoclass:: {module}.{name}\n   :members:"
+
+
+def _front_door(place_of: dict[int, str], rooms: list[str]) -> str:
+    """Return the first page: what `import synth` offers, and the rooms."""
+    synth = import_module("synth")
+    rows = [
+        f"   {place_of[id(getattr(synth, name))]}"
+        for name in _offered_by("synth")
+        if id(getattr(synth, name)) in place_of
+    ]
+    lines = [
+        "# Reference",
+        "",
+        "```{eval-rst}",
+        getdoc(synth) or "",
+        "",
+        ".. autosummary::",
+        "   :nosignatures:",
+        "",
+        *rows,
+    ]
+    lines += [
+        "```",
+        "",
+        "```{toctree}",
+        ":maxdepth: 1",
+        ":caption: Rooms",
+        "",
+        *(f"rooms/{room}" for room in rooms),
+        "```",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _replace(place: Path, text: str) -> None:
+    """Write a page if it is another: Sphinx reads again what is newer."""
+    if not place.is_file() or place.read_text(encoding="utf-8") != text:
+        place.write_text(text, encoding="utf-8")
