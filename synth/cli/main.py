@@ -12,6 +12,8 @@ from typing import Any
 
 import click
 
+from synth.cli.groups import NamedGroup
+
 __all__ = ["main"]
 
 _COMMANDS = {
@@ -39,11 +41,14 @@ _COMMANDS = {
 """Name of a subcommand to where it is."""
 
 
+_TOLD = ("numpy", "scipy", "networkx", "numba", "shapely")
+"""Packages whose versions matter to results."""
+
 _INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells count."""
 
 
-class _LazyGroup(click.Group):
+class _LazyGroup(NamedGroup):
     """A group that finds its subcommands by name."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -75,8 +80,29 @@ class _LazyGroup(click.Group):
             sys.exit(getattr(stop, "status", _INTERRUPTED))
 
 
+def _told_version(ctx: click.Context, parameter: click.Parameter, asked: bool) -> None:
+    """Print the version, and those of what results depend on, and end."""
+    del parameter
+    if not asked or ctx.resilient_parsing:
+        return
+    from importlib.metadata import version
+    from platform import python_version
+
+    click.echo(f"synth, version {version('synthedra')}")
+    parts = [f"Python {python_version()}", *(f"{name} {version(name)}" for name in _TOLD)]
+    click.echo(", ".join(parts))
+    ctx.exit()
+
+
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(package_name="synthedra", prog_name="synth")
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_told_version,
+    help="Show versions and exit.",
+)
 def main() -> None:
     """Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
 

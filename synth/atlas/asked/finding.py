@@ -111,6 +111,16 @@ def find_type(atlas: Atlas, mechanism: Mechanism | nx.Graph) -> FoundType:
     -------
     FoundType
         Edits: a joint locked, a ride-along added; of an SCD graph also a centre made explicit or remote.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.atlas import AtlasPlan, build_atlas, open_atlas
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
+    ...     found = find_type(open_atlas(f"{folder}/a.sqlite"), nx.cycle_graph(4))
+    >>> [(row["id"], row["name"]) for row in found.rows]
+    [('k1:Cr', 'four-bar chain')]
     """
     identity = identify(mechanism)
     codes = [code for code in (identity.drawing, identity.chain) if code is not None]

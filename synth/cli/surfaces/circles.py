@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees
+from math import degrees, pi, radians
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "NumberList",
+    "in_radians",
     "kind_line",
     "print_cones",
     "print_cylinders",
@@ -38,6 +39,14 @@ class NumberList(click.ParamType):  # type: ignore[type-arg,unused-ignore]
             return tuple(float(part) for part in str(value).split(","))
         except ValueError:
             self.fail(f"{plain(value)!r} is no list of numbers such as 70,80,120,40", param, ctx)
+
+
+def in_radians(values: Sequence[float]) -> list[float]:
+    """Return angles given in degrees; where they look like radians, that is said on stderr."""
+    if len(values) > 1 and all(0 < abs(value) <= 2 * pi and value != round(value, 1) for value in values):
+        first = f"{values[0]:g} looks like radians: {degrees(values[0]):.4g} degrees"
+        click.echo(f"note: angles are taken in degrees; {first}", err=True)
+    return [radians(value) for value in values]
 
 
 def signs_text(signs: Sequence[int]) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from synth.cli.output import FORCE, about, check_picture, print_json
-from synth.cli.surfaces.circles import NumberList, print_cones
+from synth.cli.surfaces.circles import NumberList, in_radians, print_cones
 
 if TYPE_CHECKING:
     from synth.conformed.linkages import LinkageBehaviour, OnCone
@@ -27,10 +27,6 @@ def cone_group() -> None:
       synth cone map --angles 70,80,120,40
       synth cone behaviour --angles 70,80,120,40
     """
-
-
-def _radians(values: tuple[float, ...]) -> list[float]:
-    return [radians(value) for value in values]
 
 
 @cone_group.command("map", short_help="Every cone on which a linkage lies.")
@@ -76,7 +72,7 @@ def map_command(
     from synth.surfaces.cone import map_to_cones
 
     assert angles is not None
-    found = map_to_cones(_radians(angles))
+    found = map_to_cones(in_radians(angles))
     if output is not None:
         from synth.drawing.scene.writing import save_scene
         from synth.drawing.sums import draw_loop_sums
@@ -224,7 +220,7 @@ def move_command(
         raise click.UsageError("--angles tell the cone themselves")
     tilt = None if cone_angle is None else float(checked_cone_angle(radians(cone_angle)))
     with _about(file):
-        found = _motions(_on_cones(file, angles, steps, tilt), ground, driver, _radians(at or ()))
+        found = _motions(_on_cones(file, angles, steps, tilt), ground, driver, in_radians(at or ()))
     if as_json:
         print_json({"linkages": [motion.to_json() for motion in found]})
     else:
@@ -247,9 +243,9 @@ def _on_cones(
     if file is not None:
         return linkage_on_cones(read_linkage(file), tilt)
     if angles is not None:
-        return loop_on_cones(_radians(angles))
+        return loop_on_cones(in_radians(angles))
     assert steps is not None
-    return [loop_of_steps(_radians(steps), tilt)]
+    return [loop_of_steps(in_radians(steps), tilt)]
 
 
 def _motions(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from synth.cli.groups import NamedGroup
 from synth.cli.output import FORCE, about, check_output, console, plain, print_json, table, tell_lost
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["generate"]
 
 
-class _Generators(click.Group):
+class _Generators(NamedGroup):
     """A command for each generator; they are looked up when one is asked for."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:

@@ -14,6 +14,8 @@ import pytest
 from commands import run
 from strategies import ODD_NAMES
 
+import synth
+from graphs.errors import InvariantError
 from graphs.files.formats import read, write
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -440,3 +442,23 @@ def test_shell_completion_knows_the_commands():
         "dyads",
         "fourbar",
     }
+
+
+def test_names_that_are_near_are_told():
+    assert "Did you mean 'mobility'?" in run("mobilty", "x.fold", code=2).output
+    assert "Did you mean 'miura'?" in run("generate", "miurra", code=2).output
+    assert "Did you mean" not in run("xyzzy", code=2).output
+
+
+def test_versions_of_what_matters_are_told():
+    told = run("--version").output
+    assert re.search(r"^synth, version \d+\.\d+", told)
+    assert "numpy" in told
+    assert "Python" in told
+
+
+def test_angles_that_look_like_radians_are_told():
+    assert "2.09 looks like radians: 119.7 degrees" in run("cone", "map", "--angles", "2.09,1.66,0.79,1.48").output
+    assert "looks like" not in run("cone", "map", "--angles", "120,95,45,85").output
+    with pytest.raises(InvariantError, match="120 looks like degrees"):
+        synth.map_to_cones([120, 95, 45, 85])
