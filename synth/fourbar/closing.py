@@ -286,7 +286,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
     for place, angle in enumerate(given):
         if not 0.0 < angle < 2.0 * np.pi:
             told = f"link angle {place + 1} is {_degrees(angle)} degrees"
-            hint = f"; {angle:g} looks like degrees: angles are radians" if 2 * np.pi < angle <= 360 else ""
+            hint = f"; {angle:g} looks like degrees: angles are radians" if 4 * np.pi < angle <= 360 else ""
             raise InvariantError("link angle", told + hint, "between 0 and 360", ("angles", place))
         if min(angle, 2.0 * np.pi - angle) < _SMALLEST:
             told = f"link angle {place + 1} is {np.degrees(angle):.12g} degrees"
