@@ -10,7 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
+from enumerate.chains.counting import (
+    count_by_burnside,
+    count_by_orbits,
+    count_inversions_by_orbits,
+    count_of_graph,
+)
 from enumerate.chains.cycle_index import count_connected
 from enumerate.chains.fractionated import Block, block_choices, glued, shapes
 from enumerate.chains.query import ChainQuery
@@ -272,7 +277,8 @@ class CountJob(Counting):
         """Return the number of chains of contracted graphs with no string longer than some."""
         if self.method == "burnside":
             return count_by_burnside(codes, n, self.query.links, most, self.query.inversions)
-        return count_by_orbits(codes, n, self.query.links, most)
+        count = count_inversions_by_orbits if self.query.inversions else count_by_orbits
+        return count(codes, n, self.query.links, most)
 
 
 @dataclass(frozen=True)
@@ -358,6 +364,6 @@ def count_job(
         if query.loops == 1 and not query.fractionated:
             return _RowCountJob(ChainJob(query))
         return _ConnectedCountJob(query) if query.fractionated else CountJob(query, method, streamed)
-    if plain and not (query.inversions or query.fractionated) and query.loops > 1:
+    if plain and not query.fractionated and query.loops > 1:
         return CountJob(query, method, streamed)
     return _RowCountJob(ChainJob(query))

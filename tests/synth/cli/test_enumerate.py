@@ -58,6 +58,8 @@ def test_enumerate_chains(tmp_path):
     for method in ("orbits", "burnside"):
         said = json.loads(run(*base, "--count", "--json", "--method", method).stdout)
         assert said == {"count": 16, "by_size": {"4": 9, "3": 5, "2": 2}}
+        said = json.loads(run(*base, "--count", "--inversions", "--json", "--method", method).stdout)
+        assert said == {"count": 71, "by_size": {"4": 35, "3": 31, "2": 5}}
     assert run(*base, "--count", "--inversions").stdout == "71\n"
     assert run(*base, "--count", "--assortment", "4,4").stdout == "9\n"
     filters = ("--symmetry", "4..", "--longest-string", "..2", "--planar")
