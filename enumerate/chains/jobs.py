@@ -39,11 +39,14 @@ _ROWS = 20_000
 _GRAPHS = 256
 """Contracted graphs of a unit of counting."""
 
-_STREAMED = 9
+_STREAMED = 8
 """Loops from which on units make their contracted graphs themselves, to be counted on: of nine loops 7 million."""
 
 _ANCESTORS = 4
-"""Cubic graphs of such a unit, about; a thousand contracted graphs and more come from them."""
+"""Cubic graphs of such a unit, about."""
+
+_DESCENDANTS = 100
+"""Contracted graphs that come of a cubic one, about, with eight loops; more with more."""
 
 _CHOICES = 64
 """Choices of blocks of a unit of fractionated chains."""
@@ -259,7 +262,7 @@ class CountJob(Counting):
         codes = cubic_graphs(query.loops)
         units = -(-len(codes) // _ANCESTORS)
         dealt = (codes[i::units] for i in range(units))
-        return [Unit(_Descendants(2 * (query.loops - 1), each), len(each)) for each in dealt]
+        return [Unit(_Descendants(2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
 
     def work(self, payload: _Graphs | _Descendants) -> list[Row]:
         """Return the numbers of chains of a unit, by the size of contracted graphs."""
