@@ -115,8 +115,9 @@ def _with_a_string(
 ) -> int:
     """Return the number of placements with a link chosen from a string of one class, one of each orbit.
 
-    Symmetries that exchange the ends of the class turn the string round: only of its middle link is there one
-    with each placement that they tell apart; of other links one in two, for they are exchanged.
+    Symmetries that exchange the ends of the class turn the string round. Its middle link stays, so it is chosen
+    with placements up to all symmetries; of the others one half is exchanged with the other, so those of one half
+    are chosen, up to the symmetries that turn nothing.
 
     Parameters
     ----------
@@ -126,6 +127,7 @@ def _with_a_string(
         First joint of the class.
     """
     turning = automorphisms[:, ends[e, 0]] != ends[e, 0]
+    turned = turning.any()
     last = e
     while last + 1 < len(ends) and first[last + 1] == e:
         last += 1
@@ -136,10 +138,10 @@ def _with_a_string(
         left = needs.copy()
         for i in range(len(sets)):
             left[i] -= min(length, 2) * lies_in(ends, e, sets[i])
-        halves = length // 2 if turning.any() else length
-        if halves:
-            total += halves * count_orbits(others, alike, straight, sets, left, units - length, most)
-        if length > halves and length % 2:
+        apart = length // 2 if turned else length  # links of the string that are not exchanged
+        if apart:
+            total += apart * count_orbits(others, alike, straight, sets, left, units - length, most)
+        if turned and length % 2:
             total += count_orbits(others, alike, images, sets, left, units - length, most)
     return total
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -84,13 +83,12 @@ class RunOptions:
         return cls(*(options.pop(name) for name in names), counting=counting)
 
     def kept_job(self) -> dict[str, Any] | None:
-        """Return what the store that is to be gone on with says of its job; nothing where there is none yet."""
-        if not self.resume or self.output is None or not Path(self.output).exists():
+        """Return the key of the job that is to be gone on with; None where there is none yet."""
+        if not self.resume or self.output is None:
             return None
-        from enumerate.runner.store import read_meta
+        from enumerate.runner.store import job_in
 
-        job: dict[str, Any] = read_meta(self.output)["job"]
-        return job
+        return job_in(self.output)
 
 
 def cores() -> int:

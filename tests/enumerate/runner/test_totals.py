@@ -98,6 +98,28 @@ def test_a_store_with_units_of_graphs_goes_on_with_them():
     assert not count_job(ChainQuery(16, 1), "orbits").streamed  # 17 133 graphs are soon made
 
 
+@pytest.mark.slow
+def test_the_command_goes_on_with_units_of_graphs(tmp_path):
+    store = tmp_path / "counts.sqlite"
+
+    def press(progress):
+        if progress.done == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(Interrupted):
+        run(CountJob(ChainQuery(18, 1), "burnside"), CountSink(SqliteSink(store)), report=press)
+    words = ("enumerate", "chains", "--links", 18, "--dof", 1, "--count", "--method", "burnside", "--workers", 2)
+    assert command_line(*words, "-o", store, "--resume").stdout == "1535380884\n"
+    assert "graphs_of_a_unit" in read_meta(store)["job"]
+
+
+def test_a_store_that_says_nothing_yet_goes_on(tmp_path):
+    """A run may be killed before it has written what it is."""
+    store = tmp_path / "counts.sqlite"
+    store.touch()
+    assert command_line(*TWELVE, "-o", store, "--resume").stdout == "6856\n"
+
+
 @pytest.mark.parametrize("other", [("--method", "burnside"), ("--inversions",)])
 def test_a_store_of_another_count_is_refused(tmp_path, other):
     store = tmp_path / "counts.sqlite"
