@@ -138,9 +138,9 @@ def _with_a_string(
         left = needs.copy()
         for i in range(len(sets)):
             left[i] -= min(length, 2) * lies_in(ends, e, sets[i])
-        apart = length // 2 if turned else length  # links of the string that are not exchanged
-        if apart:
-            total += apart * count_orbits(others, alike, straight, sets, left, units - length, most)
+        choices = length // 2 if turned else length  # of two links that are exchanged one
+        if choices:
+            total += choices * count_orbits(others, alike, straight, sets, left, units - length, most)
         if turned and length % 2:
             total += count_orbits(others, alike, images, sets, left, units - length, most)
     return total

@@ -38,7 +38,8 @@ class States(NamedTuple):
     words : uint64[r, k + 1]
         Of a state, filled classes and units left, then what sets need.
     number : int64[r, 2]
-        Number of placements of each, and of links chosen in all of them.
+        Number of placements of each, and of links chosen in all of them; the second means something only where no
+        symmetries are compared.
     following : int64[r]
         The next state with as many filled classes.
     begin : int64[c + 2]
