@@ -77,7 +77,7 @@ def descendants(codes: Bytes, n: int) -> Iterator[tuple[int, Bytes]]:
     Examples
     --------
     >>> {links: len(codes) for links, codes in descendants(cubic_graphs(4)[:1], 6)}
-    {6: 1, 5: 1, 4: 1}
+    {6: 1, 5: 2, 4: 4, 3: 1, 2: 1}
     """
     while len(codes):
         yield n, codes
