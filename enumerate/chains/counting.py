@@ -17,25 +17,31 @@ from enumerate.contracted.binary_links import (
     Wanted,
     conditions,
     no_prefix,
-    permutations,
     place,
     rigid_sets,
-    slots,
 )
+from enumerate.contracted.chosen_links import count_with_a_link
 from enumerate.contracted.classes import order_of_classes
 from enumerate.contracted.graphs import decode
 from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycles_of
+from enumerate.contracted.listing import frame_of
 from enumerate.contracted.orbits import count_orbits
 from enumerate.kernel.compiled import compiled
-from enumerate.kernel.labelling import canonical_labels
 from graphs.arrays import Bytes, Ints
 
-__all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
+__all__ = [
+    "count_by_burnside",
+    "count_by_orbits",
+    "count_fixed",
+    "count_in",
+    "count_inversions_by_orbits",
+    "count_of_graph",
+]
 
 
 @compiled
 def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
-    """Return the number of chains that come from some contracted graphs, by a test of each placement.
+    """Return the number of chains that come from some contracted graphs, one of each orbit of placements.
 
     Parameters
     ----------
@@ -50,12 +56,20 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
     """
     total = 0
     for c in range(len(codes)):
-        adjacency = decode(codes[c], n)
-        _, automorphisms = canonical_labels(adjacency, n)
-        ends, first = slots(adjacency, n)
-        sets, needs = rigid_sets(adjacency, n)
-        moved = permutations(ends, first, automorphisms)
+        ends, first, moved, _ = frame_of(codes[c], n)
+        sets, needs = rigid_sets(decode(codes[c], n), n)
         total += count_orbits(ends, first, moved, sets, needs, links - n, most)
+    return total
+
+
+@compiled
+def count_inversions_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
+    """Return the number of pairs of a chain and a link of it, up to isomorphism. Parameters: `count_by_orbits`."""
+    total = 0
+    for c in range(len(codes)):
+        ends, first, moved, automorphisms = frame_of(codes[c], n)
+        sets, needs = rigid_sets(decode(codes[c], n), n)
+        total += count_with_a_link(ends, first, moved, automorphisms, sets, needs, links - n, most)
     return total
 
 
@@ -72,11 +86,8 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
     prefix : int64[p]
         Where the first units lie.
     """
-    adjacency = decode(code, n)
-    _, automorphisms = canonical_labels(adjacency, n)
-    ends, first = slots(adjacency, n)
-    sets, needs = rigid_sets(adjacency, n)
-    moved = permutations(ends, first, automorphisms)
+    ends, first, moved, _ = frame_of(code, n)
+    sets, needs = rigid_sets(decode(code, n), n)
     return count_in(ends, first, moved, sets, needs, n, Wanted(links, most, only), prefix)
 
 
@@ -143,11 +154,8 @@ def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: b
     """
     total = 0
     for c in range(len(codes)):
-        adjacency = decode(codes[c], n)
-        _, automorphisms = canonical_labels(adjacency, n)
-        ends, first = slots(adjacency, n)
-        sets, needs = rigid_sets(adjacency, n)
-        moved = permutations(ends, first, automorphisms)
+        ends, first, moved, automorphisms = frame_of(codes[c], n)
+        sets, needs = rigid_sets(decode(codes[c], n), n)
         order = order_of_classes(ends, first, moved[:1], sets)
         fixed = 0
         for a in range(len(moved)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
@@ -10,13 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
+from enumerate.chains.counting import (
+    count_by_burnside,
+    count_by_orbits,
+    count_inversions_by_orbits,
+    count_of_graph,
+)
 from enumerate.chains.cycle_index import count_connected
 from enumerate.chains.fractionated import Block, block_choices, glued, shapes
 from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.binary_links import EVERY
-from enumerate.contracted.graphs import contracted_graphs
+from enumerate.contracted.descent import descendants
+from enumerate.contracted.graphs import contracted_graphs, cubic_graphs
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
@@ -33,6 +39,15 @@ _ROWS = 20_000
 _GRAPHS = 256
 """Contracted graphs of a unit of counting."""
 
+_STREAMED = 8
+"""Loops from which on units make their contracted graphs themselves, to be counted on: of nine loops 7 million."""
+
+_ANCESTORS = 4
+"""Cubic graphs of such a unit, about."""
+
+_DESCENDANTS = 100
+"""Contracted graphs that come of a cubic one, about, with eight loops; more with more."""
+
 _CHOICES = 64
 """Choices of blocks of a unit of fractionated chains."""
 
@@ -40,6 +55,14 @@ _CHOICES = 64
 @dataclass(frozen=True, slots=True)
 class _Graphs:
     """Chains of some contracted graphs."""
+
+    n: int
+    codes: Bytes
+
+
+@dataclass(frozen=True, slots=True)
+class _Descendants:
+    """Chains of some cubic graphs, and of the contracted graphs that come from them."""
 
     n: int
     codes: Bytes
@@ -74,7 +97,12 @@ def _graphs(query: ChainQuery) -> Iterator[tuple[int, Bytes]]:
     """Yield the contracted graphs whose chains can be among those asked for, most links first."""
     if not query.possible or query.loops < 2:
         return
-    for n, codes in contracted_graphs(query.loops):
+    yield from _asked_for(query, contracted_graphs(query.loops))
+
+
+def _asked_for(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterator[tuple[int, Bytes]]:
+    """Yield of contracted graphs with so many links those whose chains can be among those asked for."""
+    for n, codes in levels:
         if n > query.links:
             continue
         if query.assortment is None and query.planar is None:
@@ -197,10 +225,13 @@ class CountJob(Counting):
     ----------
     query : ChainQuery
     method : {"orbits", "burnside"}
+    streamed : bool
+        Units make their contracted graphs themselves, from cubic ones; else all are made first.
     """
 
     query: ChainQuery
     method: str = "orbits"
+    streamed: bool = False
 
     @property
     def columns(self) -> dict[str, type]:
@@ -210,26 +241,47 @@ class CountJob(Counting):
     @property
     def key(self) -> dict[str, Any]:
         """What the job is, in JSON values, and how large its units are."""
-        return {"count": "chains", "method": self.method, "graphs_of_a_unit": _GRAPHS, **self.query.key}
+        size = {"cubic_graphs_of_a_unit": _ANCESTORS} if self.streamed else {"graphs_of_a_unit": _GRAPHS}
+        return {"count": "chains", "method": self.method, **size, **self.query.key}
 
     def units(self) -> Sequence[Unit]:
-        """Units of some hundreds of contracted graphs each."""
+        """Units of some hundreds of contracted graphs each, or of those that come from some cubic graphs."""
+        if self.streamed:
+            return self._streamed_units()
         return [
             Unit(_Graphs(n, codes[i : i + _GRAPHS]), len(codes[i : i + _GRAPHS]))
             for n, codes in _graphs(self.query)
             for i in range(0, len(codes), _GRAPHS)
         ]
 
-    def work(self, payload: _Graphs) -> list[Row]:
-        """Return the number of chains of a unit."""
-        query, low = self.query, self.query.longest_string.least
-        total = self._number(payload, query.most)
-        return [(total - self._number(payload, low - 1) if low > 0 else total, payload.n)]
+    def _streamed_units(self) -> list[Unit]:
+        """Deal the cubic graphs out: of those that are neighbours about equally many others come."""
+        query = self.query
+        if not query.possible or query.loops < 2:
+            return []
+        codes = cubic_graphs(query.loops)
+        units = -(-len(codes) // _ANCESTORS)
+        dealt = (codes[i::units] for i in range(units))
+        return [Unit(_Descendants(2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
 
-    def _number(self, payload: _Graphs, most: int) -> int:
+    def work(self, payload: _Graphs | _Descendants) -> list[Row]:
+        """Return the numbers of chains of a unit, by the size of contracted graphs."""
+        if isinstance(payload, _Graphs):
+            return [(self._number(payload.codes, payload.n), payload.n)]
+        levels = _asked_for(self.query, descendants(payload.codes, payload.n))
+        return [(self._number(codes, n), n) for n, codes in levels]
+
+    def _number(self, codes: Bytes, n: int) -> int:
+        low = self.query.longest_string.least
+        total = self._number_to(codes, n, self.query.most)
+        return total - self._number_to(codes, n, low - 1) if low > 0 else total
+
+    def _number_to(self, codes: Bytes, n: int, most: int) -> int:
+        """Return the number of chains of contracted graphs with no string longer than some."""
         if self.method == "burnside":
-            return count_by_burnside(payload.codes, payload.n, self.query.links, most, self.query.inversions)
-        return count_by_orbits(payload.codes, payload.n, self.query.links, most)
+            return count_by_burnside(codes, n, self.query.links, most, self.query.inversions)
+        count = count_inversions_by_orbits if self.query.inversions else count_by_orbits
+        return count(codes, n, self.query.links, most)
 
 
 @dataclass(frozen=True)
@@ -286,8 +338,17 @@ class _ConnectedCountJob(Counting):
         return [(count_connected(self.query.links, self.query.dof),)]
 
 
-def count_job(query: ChainQuery, method: str) -> CountJob | _RowCountJob | _ConnectedCountJob:
+def count_job(
+    query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
+) -> CountJob | _RowCountJob | _ConnectedCountJob:
     """Return the job that counts what a query asks for.
+
+    Parameters
+    ----------
+    query : ChainQuery
+    method : {"orbits", "burnside"}
+    kept : mapping, optional
+        The key of a job that is to be gone on with: the units are as large as it says, where there is a choice.
 
     Raises
     ------
@@ -295,6 +356,7 @@ def count_job(query: ChainQuery, method: str) -> CountJob | _RowCountJob | _Conn
         If Burnside's lemma is asked for what it does not count here.
     """
     plain = query.symmetry == ONE_OR_MORE and not query.inputs
+    streamed = query.loops >= _STREAMED and "graphs_of_a_unit" not in (kept or {})
     if method == "burnside":
         filtered = query.assortment is not None or query.planar is not None or query.longest_string != ANY_NUMBER
         if not plain or (query.fractionated and (filtered or query.inversions)):
@@ -304,7 +366,7 @@ def count_job(query: ChainQuery, method: str) -> CountJob | _RowCountJob | _Conn
             )
         if query.loops == 1 and not query.fractionated:
             return _RowCountJob(ChainJob(query))
-        return _ConnectedCountJob(query) if query.fractionated else CountJob(query, method)
-    if plain and not (query.inversions or query.fractionated) and query.loops > 1:
-        return CountJob(query, method)
+        return _ConnectedCountJob(query) if query.fractionated else CountJob(query, method, streamed)
+    if plain and not query.fractionated and query.loops > 1:
+        return CountJob(query, method, streamed)
     return _RowCountJob(ChainJob(query))

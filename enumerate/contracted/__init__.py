@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
+    from enumerate.contracted.descent import descendants as descendants
+    from enumerate.contracted.descent import streamed_graphs as streamed_graphs
     from enumerate.contracted.graphs import MOST_LOOPS as MOST_LOOPS
     from enumerate.contracted.graphs import contracted_graphs as contracted_graphs
     from enumerate.contracted.graphs import cubic_graphs as cubic_graphs
@@ -17,6 +19,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
+            "descent": "descendants streamed_graphs",
             "graphs": "MOST_LOOPS contracted_graphs cubic_graphs",
             "maps": "MOST_MAP_LOOPS contracted_maps cubic_maps",
         },

@@ -175,7 +175,8 @@ def strings_of_classes(largest: int, units: int, most: int) -> tuple[Ints, Ints]
     """Return in how many ways parallel joints hold strings of binary links, their order left aside.
 
     Of p joints with two or more, f units beyond the second are a partition of f into p parts at most, none above
-    ``most`` - 2.
+    ``most`` - 2. Links of equal strings are alike, so a way has as many that differ as its lengths, each once, add
+    up to.
 
     Parameters
     ----------
@@ -190,25 +191,30 @@ def strings_of_classes(largest: int, units: int, most: int) -> tuple[Ints, Ints]
     -------
     start : int64[largest + 2]
         Where the rows for so many joints begin.
-    ways : int64[r, 3]
-        Units, those that are first or second on their joint, and the number of ways.
+    ways : int64[r, 4]
+        Units, those that are first or second on their joint, the number of ways, and of links that differ in all
+        of them.
     """
     start = np.zeros(largest + 2, np.int64)
-    ways = np.zeros((64, 3), np.int64)
+    ways = np.zeros((64, 4), np.int64)
     partitions = _partitions(largest, units, most - 2)
     used = 0
     for size in range(largest + 1):
         start[size] = used
         for counted in range(min(2 * size, units) + 1):
             for free in range(units - counted + 1):
-                number = 0
+                number = links = 0
                 for twos in range(counted // 2 + 1):
                     ones = counted - 2 * twos
                     if ones + twos <= size and most >= (2 if twos else 1 if ones else 0):
                         number += partitions[twos, free]
+                        links += partitions[twos, free] * (ones > 0)
+                        for length in range(2, min(most, free + 2) + 1):
+                            links += length * partitions[twos - 1, free + 2 - length] if twos else 0
                 if number:
                     ways = doubled(ways) if used == len(ways) else ways
-                    ways[used, 0], ways[used, 1], ways[used, 2] = counted + free, counted, number
+                    ways[used, 0], ways[used, 1] = counted + free, counted
+                    ways[used, 2], ways[used, 3] = number, links
                     used += 1
     start[largest + 1] = used
     return start, ways

@@ -23,7 +23,18 @@ from enumerate.kernel.labelling import canonical_labels
 from enumerate.kernel.row_set import empty_set, insert
 from graphs.arrays import Bytes, Ints
 
-__all__ = ["MOST_LOOPS", "cheapest_degree", "contracted_graphs", "cubic_graphs", "decode", "graph_key"]
+__all__ = [
+    "MOST_LOOPS",
+    "cheapest_degree",
+    "contract",
+    "contracted_graphs",
+    "cubic_graphs",
+    "decode",
+    "degrees",
+    "encode",
+    "graph_key",
+    "is_contracted",
+]
 
 MOST_LOOPS = 11
 """20 links at most, so that a place in the matrix fits a byte, and the conditions on placements their counters."""
@@ -113,7 +124,7 @@ def _ends(place: int) -> tuple[int, int]:
 
 
 @compiled
-def _encode(adjacency: Bytes, order: Bytes, code: Bytes) -> None:
+def encode(adjacency: Bytes, order: Bytes, code: Bytes) -> None:
     """Write the code of a matrix whose links are taken in the order given."""
     k = 0
     for i in range(1, len(order)):
@@ -132,7 +143,7 @@ def graph_key(adjacency: Bytes, n: int) -> Bytes:
             joints += adjacency[i, j]
     code = np.empty(joints, np.uint8)
     order, _ = canonical_labels(adjacency, n)
-    _encode(adjacency, order, code)
+    encode(adjacency, order, code)
     return code
 
 
@@ -144,24 +155,39 @@ def _contract_all(parents: Bytes, n: int) -> Bytes:
     for parent in range(len(parents)):
         adjacency = decode(parents[parent], n)
         _, automorphisms = canonical_labels(adjacency, n)
-        degree = np.zeros(n, np.int64)
-        for place in parents[parent]:
-            u, v = _ends(place)
-            degree[u] += 1
-            degree[v] += 1
+        degree = degrees(parents[parent], n)
         for u in range(n):
             for v in range(u):
-                if adjacency[u, v] != 1 or (degree[u] != 3 and degree[v] != 3):
+                if not is_contracted(adjacency, n, degree, automorphisms, u, v):
                     continue
-                if degree[u] + degree[v] - 2 != cheapest_degree(degree, u, v, False):
-                    continue
-                if not _is_first(u, v, automorphisms) or not _stays_connected(adjacency, n, u, v):
-                    continue
-                child = _contract(adjacency, n, u, v)
+                child = contract(adjacency, n, u, v)
                 order, _ = canonical_labels(child, n - 1)
-                _encode(child, order, code)
+                encode(child, order, code)
                 table, rows, used = insert(table, rows, used, code)
     return rows[:used].copy()
+
+
+@compiled
+def degrees(code: Bytes, n: int) -> Ints:
+    """Return the numbers of joints at the links of a code."""
+    degree = np.zeros(n, np.int64)
+    for place in code:
+        u, v = _ends(place)
+        degree[u] += 1
+        degree[v] += 1
+    return degree
+
+
+@compiled
+def is_contracted(adjacency: Bytes, n: int, degree: Ints, automorphisms: Bytes, u: int, v: int) -> bool:
+    """Tell whether graphs are looked for by making one link of two, u > v: where it can be done, and is cheap."""
+    return bool(
+        adjacency[u, v] == 1
+        and (degree[u] == 3 or degree[v] == 3)
+        and degree[u] + degree[v] - 2 == cheapest_degree(degree, u, v, False)
+        and _is_first(u, v, automorphisms)
+        and _stays_connected(adjacency, n, u, v)
+    )
 
 
 @compiled
@@ -221,7 +247,7 @@ def _stays_connected(adjacency: Bytes, n: int, u: int, v: int) -> bool:
 
 
 @compiled
-def _contract(adjacency: Bytes, n: int, u: int, v: int) -> Bytes:
+def contract(adjacency: Bytes, n: int, u: int, v: int) -> Bytes:
     """Return the matrix with u > v made one link, the joint between them gone."""
     child = np.zeros((n - 1, n - 1), np.uint8)
     for i in range(n):
@@ -249,7 +275,7 @@ def _extend_all(parents: Bytes, n: int) -> Bytes:
                     child = _bridge(adjacency, n, place, other, twice == 1)
                     if len(child):
                         order, _ = canonical_labels(child, n + 2)
-                        _encode(child, order, code)
+                        encode(child, order, code)
                         table, rows, used = insert(table, rows, used, code)
     return rows[:used].copy()
 

@@ -56,7 +56,7 @@ def count_orbits(ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints
                 states, groups = _compared(states, i, classes, images, groups, ends_of[level], most)
             i = states.following[i]
         states = filled(states, classes, level, strings, most, GROUPS)
-    return total_at_end(states)
+    return total_at_end(states)[0]
 
 
 @compiled
@@ -121,7 +121,7 @@ def _compared(
     most : int
         No joint may hold more.
     """
-    m, number = images.shape[1], states.number[i]
+    m, number = images.shape[1], states.number[i, 0]
     begin = np.int64(states.words[i, 0] >> LEVEL)
     rows = np.zeros((end - begin + 1, states.words.shape[1]), np.uint64)
     for k in range(rows.shape[1]):
@@ -164,7 +164,7 @@ def _compared(
         if ties[k + 1]:
             groups, still = _group_of(tied[k + 1], ties[k + 1], groups)
             rows[k + 1, 0] |= np.uint64(still) << GROUP
-        states = add(states, rows[k + 1], number)
+        states = add(states, rows[k + 1], number, 0)
     return states, groups
 
 

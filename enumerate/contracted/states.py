@@ -37,8 +37,9 @@ class States(NamedTuple):
         Hash table of rows.
     words : uint64[r, k + 1]
         Of a state, filled classes and units left, then what sets need.
-    number : int64[r]
-        Number of placements of each.
+    number : int64[r, 2]
+        Number of placements of each, and of links chosen in all of them; the second means something only where no
+        symmetries are compared.
     following : int64[r]
         The next state with as many filled classes.
     begin : int64[c + 2]
@@ -67,12 +68,12 @@ def beginning(classes: Classes, units: int, group: int) -> States:
     begin = np.full(len(classes.size) + 2, -1, np.int64)
     begin[-1] = 0
     words = np.zeros((128, len(classes.needs) + 1), np.uint64)
-    slots, number, following = np.full(512, -1, np.int64), np.zeros(128, np.int64), np.zeros(128, np.int64)
+    slots, number, following = np.full(512, -1, np.int64), np.zeros((128, 2), np.int64), np.zeros(128, np.int64)
     row = np.zeros(len(classes.needs) + 1, np.uint64)
     row[0] = np.uint64(units) | np.uint64(group) << GROUP
     for k in range(len(classes.needs)):
         row[k + 1] = classes.needs[k]
-    _put(slots, words, number, following, begin, row, 1)
+    _put(slots, words, number, following, begin, row, 1, 0)
     return States(slots, words, number, following, begin)
 
 
@@ -97,26 +98,29 @@ def _slot(slots: Ints, words: Words, row: Words) -> np.int64:
 
 
 @compiled
-def add(states: States, row: Words, number: int) -> States:
-    """Add placements to a state; return the table, which may have grown."""
+def add(states: States, row: Words, number: int, chosen: int) -> States:
+    """Add placements to a state, and links chosen in them; return the table, which may have grown."""
     if states.begin[-1] == len(states.words):
         states = _grown(states)
-    _put(states.slots, states.words, states.number, states.following, states.begin, row, number)
+    _put(states.slots, states.words, states.number, states.following, states.begin, row, number, chosen)
     return states
 
 
 @compiled
-def _put(slots: Ints, words: Words, numbers: Ints, following: Ints, begin: Ints, row: Words, number: int) -> None:
+def _put(
+    slots: Ints, words: Words, numbers: Ints, following: Ints, begin: Ints, row: Words, number: int, chosen: int
+) -> None:
     """Add placements to a state of a table with a free row, whose arrays come apart: that is much faster."""
     slot = _slot(slots, words, row)
     if slots[slot] >= 0:
-        numbers[slots[slot]] += number
+        numbers[slots[slot], 0] += number
+        numbers[slots[slot], 1] += chosen
         return
     used, level = begin[-1], np.int64(row[0] >> LEVEL)
     slots[slot] = used
     for k in range(len(row)):
         words[used, k] = row[k]
-    numbers[used] = number
+    numbers[used, 0], numbers[used, 1] = number, chosen
     following[used] = begin[level]
     begin[level] = used
     begin[-1] = used + 1
@@ -127,12 +131,13 @@ def _grown(states: States) -> States:
     """Return a table of twice the size."""
     rows, used = len(states.words), states.begin[-1]
     words = np.zeros((2 * rows, states.words.shape[1]), np.uint64)
-    number, following = np.zeros(2 * rows, np.int64), np.zeros(2 * rows, np.int64)
+    number, following = np.zeros((2 * rows, 2), np.int64), np.zeros(2 * rows, np.int64)
     slots = np.full(8 * rows, -1, np.int64)
     for i in range(used):
         for k in range(words.shape[1]):
             words[i, k] = states.words[i, k]
-        number[i], following[i] = states.number[i], states.following[i]
+        number[i, 0], number[i, 1] = states.number[i, 0], states.number[i, 1]
+        following[i] = states.following[i]
         slots[_slot(slots, words, words[i])] = i
     return States(slots, words, number, following, states.begin)
 
@@ -217,16 +222,19 @@ def filled(
                 slots, words, number, following, begin = _grown(States(slots, words, number, following, begin))
             for way in range(low, high):
                 if step(counters, rest, laid, words, i, ways[way, 0], ways[way, 1], most, new):
-                    _put(slots, words, number, following, begin, new, number[i] * ways[way, 2])
+                    more = number[i, 0] * ways[way, 2]
+                    chosen = number[i, 1] * ways[way, 2] + number[i, 0] * ways[way, 3]
+                    _put(slots, words, number, following, begin, new, more, chosen)
         i = following[i]
     return States(slots, words, number, following, begin)
 
 
 @compiled
-def total_at_end(states: States) -> int:
-    """Return the number of placements with all classes filled."""
-    total, i = 0, states.begin[-2]
+def total_at_end(states: States) -> tuple[int, int]:
+    """Return the number of placements with all classes filled, and of links chosen in all of them."""
+    total, chosen, i = 0, 0, states.begin[-2]
     while i >= 0:
-        total += states.number[i]
+        total += states.number[i, 0]
+        chosen += states.number[i, 1]
         i = states.following[i]
-    return total
+    return total, chosen

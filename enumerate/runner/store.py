@@ -25,7 +25,7 @@ from graphs.errors import StoreError
 from graphs.files.atomic import check_place
 from graphs.files.unfinished import remove_left
 
-__all__ = ["SqliteSink", "read_meta", "read_rows"]
+__all__ = ["SqliteSink", "job_in", "read_meta", "read_rows"]
 
 _REMEMBERED = 4096
 """Lists of a column whose JSON text is kept: many rows share theirs."""
@@ -216,6 +216,21 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     """
     with reading(Path(path)) as connection:
         return meta_in(connection, Path(path))
+
+
+def job_in(path: str | Path) -> dict[str, Any] | None:
+    """Return the key of the job that a store is of; None where there is no store, or nothing in it yet.
+
+    Raises
+    ------
+    StoreError
+        If there is a file that is not a store that this version reads.
+    """
+    path = Path(path)
+    if not path.is_file() or not _has_tables(path):
+        return None
+    job: dict[str, Any] = read_meta(path)["job"]
+    return job
 
 
 def read_rows(path: str | Path) -> Iterator[Row]:

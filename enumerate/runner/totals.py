@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from typing import Any
 
 from enumerate.runner.job import Job, Row
@@ -66,9 +66,23 @@ class CountSink:
         for count, *rest in rows:
             self.parts[tuple(rest)] += count
 
-    def listed(self) -> list[Mapping[str, Any]]:
-        """Return the parts as dictionaries of the columns; none where the job does not tell rows apart."""
-        first, *rest = self._names
-        if not rest:
-            return []
-        return [{**dict(zip(rest, values, strict=True)), first: count} for values, count in self.parts.items()]
+    def by(self, column: str) -> dict[Any, int]:
+        """Return the sums by the values of a column, the largest value first; none if the job has no such column.
+
+        Examples
+        --------
+        >>> from enumerate.chains.jobs import count_job
+        >>> from enumerate.chains.query import ChainQuery
+        >>> from enumerate.runner.running import run
+        >>> sink = CountSink()
+        >>> progress = run(count_job(ChainQuery(8, 1), "orbits"), sink)
+        >>> sink.by("contracted_links")
+        {4: 9, 3: 5, 2: 2}
+        """
+        if column not in self._names[1:]:
+            return {}
+        place = self._names.index(column) - 1
+        sums: Counter[Any] = Counter()
+        for values, count in self.parts.items():
+            sums[values[place]] += count
+        return dict(sorted(sums.items(), reverse=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
@@ -26,7 +27,8 @@ def _say_compiling(folder: Path | None) -> None:
     from synth.cli.output import plain
 
     kept = f"kept in {plain(folder, 200)}" if folder else "kept nowhere: name a folder of yours in SYNTHEDRA_CACHE"
-    click.echo(f"synth: compiling code for the first use, up to a minute ({kept})", err=True)
+    over = "\r" if sys.stderr.isatty() else ""  # what is shown of progress is on the same line, and shorter
+    click.echo(f"{over}synth: compiling code for the first use, up to a minute ({kept})", err=True)
 
 
 if __name__ == "__main__":

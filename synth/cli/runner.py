@@ -91,6 +91,14 @@ class RunOptions:
         names = ("output", "workers", "scheduler", "resume", "quiet", "as_json", "force")
         return cls(*(options.pop(name) for name in names), counting=counting)
 
+    def kept_job(self) -> dict[str, Any] | None:
+        """Return the key of the job that is to be gone on with; None where there is none yet."""
+        if not self.resume or self.output is None:
+            return None
+        from enumerate.runner.store import job_in
+
+        return job_in(self.output)
+
 
 def cores() -> int:
     """Return the number of cores that this process may use."""
@@ -133,8 +141,8 @@ def run_count(job: Job, options: RunOptions) -> None:
     sink = CountSink(store)
     _run(job, sink, options, meter)
     if options.as_json:
-        parts = sink.listed()
-        print_json({"count": sink.total, **({"parts": parts} if parts else {})})
+        sizes = sink.by("contracted_links")
+        print_json({"count": sink.total, **({"by_size": sizes} if sizes else {})})
     else:
         click.echo(sink.total)
 
@@ -185,6 +193,8 @@ def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter, *, stored: bo
     from enumerate.runner.running import Interrupted, run
 
     try:
+        if options.output is not None or meter.counting:  # else rows may be printed on the same line
+            meter.begin()
         return run(job, sink, workers=options.workers, scheduler=options.scheduler, report=meter.show)
     except Interrupted as stop:
         meter.clear()
@@ -200,13 +210,18 @@ class _Meter:
 
     def __init__(self, silent: bool, *, counting: bool = False) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
-        self._counting = counting
+        self.counting = counting
         self._looked: tuple[float, float] | None = None  # when it began to look through a store, and the part then
 
     @classmethod
     def of(cls, options: RunOptions, *, counting: bool = False) -> _Meter:
         """Return one that shows nothing where nobody would see it, or wants to."""
         return cls(options.quiet or not sys.stderr.isatty(), counting=counting)
+
+    def begin(self) -> None:
+        """Say what is done before there is any progress to show: large jobs take minutes to find their units."""
+        if not self._silent:
+            self._write("  0%  finding out what is to be done")
 
     def look(self, part: float) -> None:
         """Show how much of a store has been looked through, and how long the rest takes."""
@@ -227,7 +242,7 @@ class _Meter:
             return
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
         done = f"{progress.rows:,} rows, {progress.rate:,.0f} a second"
-        if self._counting:
+        if self.counting:
             done = f"{progress.done:,} of {progress.units:,} units counted"
         self._write(f"{part:4.0%}  {done}, {_time(progress.seconds_left)} left")
 

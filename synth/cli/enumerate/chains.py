@@ -76,7 +76,7 @@ def chains(
     )
     say_if_odd(links, dof)
     if only_count:
-        run_count(count_job(query, method or "orbits"), options)
+        run_count(count_job(query, method or "orbits", options.kept_job()), options)
     else:
         graph6 = options.output is not None and options.output.lower().endswith(".g6")
         run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), options)

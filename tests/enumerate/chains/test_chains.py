@@ -9,7 +9,11 @@ from rigidity import chains_by_geng
 
 from enumerate.chains.fractionated import glued, shapes
 from enumerate.chains.inputs import are_inputs, input_choices
+from enumerate.chains.jobs import count_job
 from enumerate.chains.kinematic import chain_rows, chains, count_chains
+from enumerate.chains.query import ChainQuery
+from enumerate.runner.running import run
+from enumerate.runner.totals import CountSink
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id
 
@@ -43,6 +47,51 @@ def test_counts_with_fractionated_chains(links, dof, count, method):
 @pytest.mark.parametrize(("links", "count"), INVERSIONS.items())
 def test_counts_of_inversions(links, count, method):
     assert count_chains(links, 1, method, inversions=True) == count
+
+
+def by_size(query, method):
+    sink = CountSink()
+    run(count_job(query, method), sink)
+    return {links: count for links, count in sink.by("contracted_links").items() if count}
+
+
+def inversions_in_list(links, dof):
+    """Links that differ, of all chains of a list, by the number of links that are not binary and by assortment."""
+    sizes, assortments = Counter(), Counter()
+    for row in chain_rows(links, dof):
+        assortment = tuple(row["assortment"])
+        sizes[links - assortment[0]] += row["inversions"]
+        assortments[assortment] += row["inversions"]
+    return sizes, assortments
+
+
+@pytest.mark.parametrize(
+    ("links", "dof"),
+    [
+        *[(6, 1), (8, 1), (10, 1), (9, 2), (11, 2), (10, 3), (11, 4), (14, 9)],
+        *(pytest.param(*size, marks=pytest.mark.slow) for size in [(12, 1), (14, 1), (13, 2), (14, 3)]),
+    ],
+)
+def test_inversions_are_counted_as_they_are_listed(links, dof):
+    sizes, assortments = inversions_in_list(links, dof)
+    for method in ("orbits", "burnside"):
+        assert by_size(ChainQuery(links, dof, inversions=True), method) == sizes
+        for assortment in sorted(assortments)[::3]:
+            query = ChainQuery(links, dof, inversions=True, assortment=assortment)
+            assert by_size(query, method) == {links - assortment[0]: assortments[assortment]}
+
+
+def test_inversions_with_strings_of_some_length():
+    for longest in [(0, 1), (2, 2), (2, None)]:
+        listed = sum(row["inversions"] for row in chain_rows(11, 2, longest_string=longest))
+        for method in ("orbits", "burnside"):
+            assert count_chains(11, 2, method, inversions=True, longest_string=longest) == listed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["orbits", "burnside"])
+def test_inversions_of_sixteen_links(method):
+    assert count_chains(16, 1, method, inversions=True, workers=2) == 308823067
 
 
 @pytest.mark.slow

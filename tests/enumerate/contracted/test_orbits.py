@@ -87,7 +87,8 @@ def test_strings_on_parallel_joints(most):
         for x in combinations_with_replacement(range(most + 1), size):
             key = sum(x), sum(min(value, 2) for value in x)
             if key[0] <= 6:
-                expected[key] = expected.get(key, 0) + 1
+                number, links = expected.get(key, (0, 0))
+                expected[key] = number + 1, links + sum(set(x))
         rows = ways[start[size] : start[size + 1]].tolist()
-        assert {(units, counted): number for units, counted, number in rows} == expected
+        assert {(units, counted): (number, links) for units, counted, number, links in rows} == expected
         assert len(rows) == len(expected)

@@ -14,7 +14,7 @@ import pytest
 from commands import run as command_line
 from runs import contents, enumerating, kill, units_in, wait_for
 
-from enumerate.chains.jobs import count_job
+from enumerate.chains.jobs import CountJob, count_job
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import Interrupted, run
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
@@ -22,7 +22,7 @@ from enumerate.runner.totals import CountSink
 from graphs.errors import StoreError
 
 TWELVE = ("enumerate", "chains", "--links", 12, "--dof", 1, "--count")
-PARTS = {8: 410, 7: 1873, 6: 2845, 5: 1413, 4: 293, 3: 20, 2: 2}
+BY_SIZE = {8: 410, 7: 1873, 6: 2845, 5: 1413, 4: 293, 3: 20, 2: 2}
 
 _KILLED = """
 import os, signal, sys
@@ -53,7 +53,7 @@ def test_a_count_that_is_killed_goes_on(tmp_path):
     run(job, sink, report=lambda progress: told.append(progress.done))
     assert told == list(range(5, len(job.units()) + 1))  # no unit again
     assert sink.total == 6856
-    assert {part["contracted_links"]: part["count"] for part in sink.listed()} == PARTS
+    assert sink.by("contracted_links") == BY_SIZE
     assert len(list(read_rows(store))) == len(job.units())
 
 
@@ -70,10 +70,54 @@ def test_the_command_goes_on_and_prints_the_number(tmp_path):
     assert units_in(store) == 3
     document = json.loads(command_line(*TWELVE, "--json", "-o", store, "--resume").stdout)
     assert document["count"] == 6856
-    assert {part["contracted_links"]: part["count"] for part in document["parts"]} == PARTS
+    assert {int(links): count for links, count in document["by_size"].items()} == BY_SIZE
     assert contents(store) == contents(whole)
     assert command_line(*TWELVE, "-o", store, "--resume").stdout == "6856\n"  # complete: read, not counted
     assert "exists already" in command_line(*TWELVE, "-o", store, code=2).stderr
+
+
+@pytest.mark.parametrize("method", ["orbits", "burnside"])
+@pytest.mark.parametrize("options", [{}, {"assortment": (7, 2, 3)}, {"planar": True}, {"longest_string": (1, 1)}])
+def test_units_that_make_their_graphs_count_the_same(method, options):
+    """As from nine loops on; here with five."""
+    query, counted = ChainQuery(12, 1, **options), []
+    for streamed in (False, True):
+        sink = CountSink()
+        run(CountJob(query, method, streamed), sink)
+        counted.append({links: count for links, count in sink.by("contracted_links").items() if count})
+    assert counted[0] == counted[1] != {}
+    if not options:
+        assert counted[1] == BY_SIZE
+
+
+def test_a_store_with_units_of_graphs_goes_on_with_them():
+    query = ChainQuery(20, 1)
+    assert count_job(query, "orbits").streamed
+    assert count_job(query, "orbits", CountJob(query, "orbits", True).key).streamed
+    assert not count_job(query, "orbits", CountJob(query, "orbits").key).streamed
+    assert not count_job(ChainQuery(16, 1), "orbits").streamed  # 17 133 graphs are soon made
+
+
+@pytest.mark.slow
+def test_the_command_goes_on_with_units_of_graphs(tmp_path):
+    store = tmp_path / "counts.sqlite"
+
+    def press(progress):
+        if progress.done == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(Interrupted):
+        run(CountJob(ChainQuery(18, 1), "burnside"), CountSink(SqliteSink(store)), report=press)
+    words = ("enumerate", "chains", "--links", 18, "--dof", 1, "--count", "--method", "burnside", "--workers", 2)
+    assert command_line(*words, "-o", store, "--resume").stdout == "1535380884\n"
+    assert "graphs_of_a_unit" in read_meta(store)["job"]
+
+
+def test_a_store_that_says_nothing_yet_goes_on(tmp_path):
+    """A run may be killed before it has written what it is."""
+    store = tmp_path / "counts.sqlite"
+    store.touch()
+    assert command_line(*TWELVE, "-o", store, "--resume").stdout == "6856\n"
 
 
 @pytest.mark.parametrize("other", [("--method", "burnside"), ("--inversions",)])

@@ -55,12 +55,11 @@ def test_enumerate_chains(tmp_path):
     assert rows[0].keys() == {"code", "links", "joints", "dof", "loops", "assortment", "longest_string", "symmetry",
                               "inversions", "planar", "fractionated"}  # fmt: skip
     assert run(*base, "--count").stdout == run(*base, "--count", "--method", "burnside").stdout == "16\n"
-    parts = [
-        {"contracted_links": 4, "count": 9},
-        {"contracted_links": 3, "count": 5},
-        {"contracted_links": 2, "count": 2},
-    ]
-    assert json.loads(run(*base, "--count", "--json").stdout) == {"count": 16, "parts": parts}
+    for method in ("orbits", "burnside"):
+        said = json.loads(run(*base, "--count", "--json", "--method", method).stdout)
+        assert said == {"count": 16, "by_size": {"4": 9, "3": 5, "2": 2}}
+        said = json.loads(run(*base, "--count", "--inversions", "--json", "--method", method).stdout)
+        assert said == {"count": 71, "by_size": {"4": 35, "3": 31, "2": 5}}
     assert run(*base, "--count", "--inversions").stdout == "71\n"
     assert run(*base, "--count", "--assortment", "4,4").stdout == "9\n"
     filters = ("--symmetry", "4..", "--longest-string", "..2", "--planar")

@@ -69,3 +69,21 @@ def test_what_was_done_before_looking_began_is_not_counted(capsys, monkeypatch):
     now[0] = 110.0
     meter.look(0.75)
     assert "10 s left" in capsys.readouterr().err
+
+
+def test_a_count_shows_units_and_the_time_left(terminal):
+    """Also what is done before the first unit: contracted graphs take minutes where there are many loops."""
+    words = ("enumerate", "chains", "--links", 12, "--dof", 1, "--count", "--workers", 1)
+    shown = command_line(*words).stderr
+    assert shown.startswith("\r  0%  finding out what is to be done\r")
+    lines = [line.rstrip() for line in shown.split("\r") if line.strip()]
+    assert all(
+        re.fullmatch(rf" *\d+%  {done} of 7 units counted, \d+ s left", line)
+        for done, line in enumerate(lines[1:], 1)
+    )
+    assert lines[-1] == "100%  7 of 7 units counted, 0 s left"
+    assert command_line(*words, "--quiet").stderr == ""
+
+
+def test_rows_that_are_printed_have_no_progress_on_their_lines(terminal):
+    assert "finding out" not in command_line("enumerate", "chains", "--links", 12, "--dof", 1).stderr
