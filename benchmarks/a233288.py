@@ -5,8 +5,8 @@
     python benchmarks/a233288.py orbits.sqlite burnside.sqlite --commit COMMIT
 
 writes the number to benchmarks/results/a233288-20.json (20: the number of links), if both counts are complete and
-agree, size by size: `orbits` and `burnside`, with the processor seconds of all units and the commit that counted,
-which is told by the caller, since a store does not know it.
+agree, size by size: `orbits` and `burnside`, with the seconds of wall time of all units and the commit that
+counted, which is told by the caller, since a store does not know it.
 """
 
 from __future__ import annotations
