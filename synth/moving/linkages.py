@@ -13,6 +13,8 @@ from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.joints.as_revolutes import revolutes_of
+from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -42,7 +44,7 @@ def linkage_of(
 
     Parameters
     ----------
-    thing : Sheet, PolyhedronModel, HingedSolids, ConicalLinkage, OnCone or GuidedFourBar
+    thing : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, ConicalLinkage, OnCone or GuidedFourBar
         Of a sheet that has several frames, that which is to move. A model that knows its links is a sheet of
         panels, else its rods are links. A conical linkage lies on its cone, a guided four-bar
         takes the first of its orientations.
@@ -68,6 +70,8 @@ def linkage_of(
     if isinstance(thing, PolyhedronModel):
         sheet = sheet_of(thing)
         return linkage_of_rods(thing) if sheet is None else _of_sheet(sheet)
+    if isinstance(thing, JointedLinkage) and thing.places:
+        thing = revolutes_of(thing)
     if isinstance(thing, HingedSolids):
         return _with_centres(linkage_of_axes(thing.chain, thing.axes))
     if isinstance(thing, OnCone):
