@@ -15,9 +15,9 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
 `four_bars`. A type as a thing: `realise`, panels with coordinates; `realise_on_cone`. Motion: `fold`, a crease
-pattern with rigid panels, frame by frame; `move`, any linkage. `advise`: what to lock, which panels to crease.
-Known patterns and linkages: `generate`, by their parameters. Pictures: `draw`, of any mechanism;
-`synth.drawing.save_scene` writes them. In a notebook mechanisms show themselves.
+pattern with rigid panels, frame by frame; `move`, any linkage; `positions`, all at given inputs. `advise`: what to
+lock, which panels to crease. Known patterns and linkages: `generate`, by their parameters. Pictures: `draw`, of
+any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms show themselves.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
@@ -57,6 +57,7 @@ if TYPE_CHECKING:
     from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
     from graphs.reduce.ride_alongs import reduce as reduce
     from synth.advice.advised import advise as advise
+    from synth.assembly.found import positions as positions
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.folding.motion import fold as fold
     from synth.guidance.fourbars import four_bars as four_bars
@@ -94,6 +95,7 @@ else:
             "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
             "graphs.reduce.ride_alongs": "reduce",
             "synth.advice.advised": "advise",
+            "synth.assembly.found": "positions",
             "synth.drawing.mechanisms.pictures": "draw",
             "synth.folding.motion": "fold",
             "synth.verdict.judged": "mobility",
