@@ -15,9 +15,10 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
 `four_bars`. A type as a thing: `realise`, panels with coordinates; `realise_on_cone`. Motion: `fold`, a crease
-pattern with rigid panels, frame by frame; `move`, any linkage; `positions`, all at given inputs. `advise`: what to
-lock, which panels to crease. Known patterns and linkages: `generate`, by their parameters. Pictures: `draw`, of
-any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms show themselves.
+pattern with rigid panels, frame by frame; `move`, any linkage; `positions`, all at given inputs. `explain`: why it
+moves; `advise`: what to lock, which panels to crease. Known patterns and linkages: `generate`, by parameters.
+Pictures: `draw`, of any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms show
+themselves.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
     from synth.guidance.synthesis import guiding_dyads as guiding_dyads
     from synth.moving.motion import move as move
     from synth.notebook import load_ipython_extension as load_ipython_extension
+    from synth.overconstraint.explained import explain as explain
     from synth.patterns.generated import generate as generate
     from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import realise as realise
@@ -105,6 +107,7 @@ else:
             "synth.guidance.synthesis": "guiding_dyads",
             "synth.moving.motion": "move",
             "synth.notebook": "load_ipython_extension",
+            "synth.overconstraint.explained": "explain",
             "synth.patterns.generated": "generate",
             "synth.realisation.forms.on_cone": "realise_on_cone",
             "synth.realisation.realised": "realise",
