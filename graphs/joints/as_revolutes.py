@@ -7,7 +7,7 @@ a slide the linkage of Sarrus (or a knee, `graphs.joints.knees`), C a slide and 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from itertools import count, pairwise
 
 import numpy as np
@@ -18,9 +18,10 @@ from graphs.joints.kinds import JointKind
 from graphs.joints.knees import placed_knees
 from graphs.joints.linkage import JointedLinkage, JointPlace
 from graphs.joints.placing import placed
+from graphs.joints.vectors import beside, plain_vector, unit
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.solids import Axis, HingedSolids, Vector
+from graphs.mechanism.solids import Axis, HingedSolids
 
 __all__ = ["revolutes_of"]
 
@@ -109,7 +110,7 @@ class _Made:
         for ends, (point, direction) in zip(pairwise(links), row, strict=True):
             name = next(names)
             self.joints[name] = ends
-            self.axes[name] = _vector(point), _vector(direction)
+            self.axes[name] = plain_vector(point), plain_vector(direction)
 
     def _new_names(self, joint: JointId) -> Iterator[str]:
         """Yield names that neither the linkage nor another of its joints has."""
@@ -121,10 +122,10 @@ class _Made:
 
 
 def _rows(kind: JointKind, place: JointPlace, size: float) -> list[Row]:
-    point, axes = np.array(place.point), [_unit(axis) for axis in place.axes]
+    point, axes = np.array(place.point), [unit(axis) for axis in place.axes]
     if kind in (JointKind.REVOLUTE, JointKind.UNIVERSAL):
         return [[(point, axis) for axis in axes]]
-    x, y = _beside(axes[0])
+    x, y = beside(axes[0])
     if kind is JointKind.PLANAR:
         return [[(point + size * (u * x + v * y), axes[0]) for u, v in _TRIANGLE]]
     step = size * axes[0]  # a prismatic or a cylindrical joint: the linkage of Sarrus
@@ -136,7 +137,7 @@ def _rows(kind: JointKind, place: JointPlace, size: float) -> list[Row]:
 
 def _turned_along(kind: JointKind, place: JointPlace) -> Line | None:
     """Return the revolute that a cylindrical joint has along its slide."""
-    return (np.array(place.point), _unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
+    return (np.array(place.point), unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
 
 
 def _knee(one: Floats, other: Floats, normal: Floats, size: float) -> Line:
@@ -145,7 +146,7 @@ def _knee(one: Floats, other: Floats, normal: Floats, size: float) -> Line:
     step = step - (step @ normal) * normal
     length = float(np.linalg.norm(step))
     if length < size:  # the two lie on each other: any arm will do
-        return one + step / 2 + size * _beside(normal)[0], normal
+        return one + step / 2 + size * beside(normal)[0], normal
     return (one + other) / 2 + _ARM * np.cross(normal, step), normal
 
 
@@ -154,22 +155,5 @@ def _about_a_point(point: Floats, shared: tuple[int, Floats] | None) -> Row:
     if shared is None:
         return [(point, axis) for axis in np.eye(3)]
     place, normal = shared
-    axes = [normal, *_beside(normal)]
+    axes = [normal, *beside(normal)]
     return [(point, axis) for axis in (axes if place == 0 else axes[::-1])]
-
-
-def _beside(axis: Floats) -> tuple[Floats, Floats]:
-    """Return two directions that are at right angles with an axis and each other."""
-    least = np.eye(3)[int(np.abs(axis).argmin())]
-    x = _unit(np.cross(axis, least))
-    return x, np.cross(axis, x)
-
-
-def _unit(vector: Iterable[float]) -> Floats:
-    one: Floats = np.array(list(vector), dtype=float)
-    return np.asarray(one / np.linalg.norm(one))
-
-
-def _vector(one: Floats) -> Vector:
-    x, y, z = one.tolist()
-    return (x, y, z)

@@ -16,8 +16,9 @@ from graphs.arrays import Floats
 from graphs.ids import JointId
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, legs
+from graphs.joints.vectors import across, unit
 
-__all__ = ["PARALLEL", "Knee", "KneeEnd", "across", "knees_of_type", "placed_knees"]
+__all__ = ["PARALLEL", "Knee", "KneeEnd", "knees_of_type", "placed_knees"]
 
 PARALLEL = 1e-7
 """Sine between axes that count as parallel; cosine between those that count as at a right angle."""
@@ -80,12 +81,6 @@ def placed_knees(linkage: JointedLinkage) -> list[tuple[Knee, Floats]]:
     return found
 
 
-def across(one: Floats, axis: Floats) -> Floats:
-    """Return the part of a vector that is at a right angle to an axis of any length."""
-    part: Floats = one - (one @ axis) / (axis @ axis) * axis
-    return part
-
-
 def _possible(linkage: JointedLinkage) -> Iterator[Knee]:
     """Yield the slides that have a joint of the right kind on both sides, binary links between."""
     for leg in legs(linkage.chain):
@@ -114,15 +109,10 @@ def _taken_once(knees: Iterator[Knee]) -> Iterator[Knee]:
 
 def _normal(linkage: JointedLinkage, knee: Knee) -> Floats | None:
     """Return the direction across the slide that the axes beside it have in common, None if they have none."""
-    slide = _unit(linkage.places[knee.slide].axes[0])
-    given = [_unit(linkage.places[end.joint].axes[end.axis]) for end in knee.ends if end.axis is not None]
+    slide = unit(linkage.places[knee.slide].axes[0])
+    given = [unit(linkage.places[end.joint].axes[end.axis]) for end in knee.ends if end.axis is not None]
     if not given:
-        return _unit(across(np.eye(3)[int(np.abs(slide).argmin())], slide))
+        return unit(across(np.eye(3)[int(np.abs(slide).argmin())], slide))
     if any(abs(one @ slide) > PARALLEL or np.linalg.norm(np.cross(one, given[0])) > PARALLEL for one in given):
         return None
     return given[0]
-
-
-def _unit(vector: object) -> Floats:
-    one: Floats = np.asarray(vector, dtype=float)
-    return np.asarray(one / np.linalg.norm(one))

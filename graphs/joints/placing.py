@@ -7,8 +7,9 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.ids import JointId
 from graphs.joints.kinds import JointKind
-from graphs.joints.knees import Knee, across, knees_of_type
-from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
+from graphs.joints.knees import Knee, knees_of_type
+from graphs.joints.linkage import JointedLinkage, JointPlace
+from graphs.joints.vectors import across, plain_vector, unit
 
 __all__ = ["placed"]
 
@@ -39,7 +40,9 @@ def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
     axes = {joint: _axes(kind, random) for joint, kind in linkage.kinds.items()}
     for knee in knees_of_type(linkage):
         _turned(knee, linkage, points, axes)
-    places = {joint: JointPlace(_vector(points[joint]), tuple(map(_vector, axes[joint]))) for joint in points}
+    places = {
+        joint: JointPlace(plain_vector(points[joint]), tuple(map(plain_vector, axes[joint]))) for joint in points
+    }
     return JointedLinkage(linkage.chain, linkage.kinds, places)
 
 
@@ -47,7 +50,7 @@ def _axes(kind: JointKind, random: np.random.Generator) -> list[Floats]:
     axes: list[Floats] = [random.normal(size=3) for _ in range(kind.axes)]
     if kind is JointKind.UNIVERSAL:
         axes[1] = across(axes[1], axes[0])
-    return [axis / np.linalg.norm(axis) for axis in axes]
+    return [unit(axis) for axis in axes]
 
 
 def _turned(
@@ -59,13 +62,6 @@ def _turned(
     for joint, place in held[1:]:
         axes[joint][place] = normal
         if linkage.kinds[joint] is JointKind.UNIVERSAL:
-            turned = across(axes[joint][1 - place], normal)
-            axes[joint][1 - place] = turned / np.linalg.norm(turned)
+            axes[joint][1 - place] = unit(across(axes[joint][1 - place], normal))
     one, other_end = (points[end.joint] for end in knee.ends)
-    along = across(other_end - one, normal)
-    axes[knee.slide] = [along / np.linalg.norm(along)]
-
-
-def _vector(one: Floats) -> Vector:
-    x, y, z = one.tolist()
-    return (x, y, z)
+    axes[knee.slide] = [unit(across(other_end - one, normal))]

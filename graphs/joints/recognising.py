@@ -10,11 +10,12 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
-from graphs.joints.knees import PARALLEL, across
+from graphs.joints.knees import PARALLEL
 from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs
+from graphs.joints.vectors import across, plain_vector, unit
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.solids import HingedSolids, Vector
+from graphs.mechanism.solids import HingedSolids
 
 __all__ = ["recognised"]
 
@@ -84,7 +85,7 @@ class _Seen:
         """Return what was seen."""
         chain = self._graph()
         places = {
-            joint: JointPlace(_vector(self._points[joint]), tuple(map(_vector, self._axes[joint])))
+            joint: JointPlace(plain_vector(self._points[joint]), tuple(map(plain_vector, self._axes[joint])))
             for joint in self._joints
         }
         return JointedLinkage(chain, self._kinds, places)
@@ -101,7 +102,7 @@ class _Seen:
                 if crossed and not joints & taken and len(joints) == 6 and bent.links[0] != bent.links[3]:
                     taken |= joints
                     first, last = other.links[0], other.links[3]
-                    ways = [_unit(np.cross(other.normal, bent.normal))]
+                    ways = [unit(np.cross(other.normal, bent.normal))]
                     inner = (*other.links[1:3], *bent.links[1:3])
                     self._replace([*other.joints, *bent.joints], inner, (first, last), JointKind.PRISMATIC, ways)
                     break
@@ -260,12 +261,3 @@ class _Seen:
         return SCGraph(
             self._links, self._joints, self._chain.loops, closing=self._chain.closing, ground=self._chain.ground
         )
-
-
-def _unit(vector: Floats) -> Floats:
-    return np.asarray(vector / np.linalg.norm(vector))
-
-
-def _vector(one: Floats) -> Vector:
-    x, y, z = one.tolist()
-    return (x, y, z)

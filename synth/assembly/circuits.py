@@ -66,7 +66,8 @@ def members_of_circuits(closure: ClosureEquations, positions: Sequence[Floats], 
         if circuit.meets:
             notes.append(f"circuit {circuits + 1} meets another one; it was followed straight on")
         segments = _segments(circuit, driver)
-        for other in range(number, len(positions)):
+        places[number] = circuits, int(segments[0])
+        for other in range(number + 1, len(positions)):
             where = _on(closure, circuit, positions[other]) if other not in places else None
             if where is not None:
                 places[other] = circuits, _branch(closure, circuit, segments, (where, driver), positions[other])

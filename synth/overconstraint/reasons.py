@@ -13,6 +13,7 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from graphs.loops.loop import Centre
 from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.moving.linkages import off_one_point
 
 __all__ = ["reasons_of"]
 
@@ -45,7 +46,7 @@ def _of_one_loop(linkage: PosedLinkage, loop: PosedLoop) -> Iterator[str]:
         return
     if _are_parallel(axes):
         yield "all axes parallel: a planar loop"
-    elif _off_one_point(points, axes) <= _NEAR:
+    elif off_one_point(points, axes) <= _NEAR:
         yield "all axes through one point: a spherical loop"
     else:
         yield from _of_two_directions(axes)
@@ -171,11 +172,3 @@ def _foot(points: Floats, axes: Floats, others: Floats, directions: Floats) -> F
 
 def _are_parallel(axes: Floats) -> bool:
     return bool(np.linalg.norm(np.cross(axes, axes[0]), axis=1).max() <= _NEAR)
-
-
-def _off_one_point(points: Floats, axes: Floats) -> float:
-    """Return how far axes pass, at most, from the point nearest to all."""
-    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    sums = (across @ points[..., None])[..., 0]
-    nearest = np.linalg.lstsq(across.reshape(-1, 3), sums.ravel(), rcond=None)[0]
-    return float(np.linalg.norm((across @ (nearest - points)[..., None])[..., 0], axis=1).max())
