@@ -93,6 +93,11 @@ def mobility(
         return answer if pose is False else model_with_pose(answer, mechanism)
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
+        if demanded:
+            told = (
+                "no exact rank: revolutes that stand for joints share points and directions, a general member not"
+            )
+            answer = answer.with_notes(warnings=[told])
         return replace(answer, pose=None) if pose is False else answer
     sc = graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))

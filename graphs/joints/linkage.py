@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
+from graphs.joints.kinds import JointKind, kind_named
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["JointPlace", "JointedLinkage", "Leg", "legs"]
@@ -50,7 +50,7 @@ class JointedLinkage:
     ----------
     chain : SCGraph
         Links and joints; loops that are given a centre have revolutes only.
-    kinds : mapping of joint id to JointKind
+    kinds : mapping of joint id to JointKind, or its letter or word
         Joints that are left out are revolutes.
     places : mapping of joint id to JointPlace, optional
         Of all joints, or of none: then it is a type, and stands for its general members.
@@ -65,7 +65,7 @@ class JointedLinkage:
     A leg with a universal, a prismatic and a spherical joint:
 
     >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
-    >>> JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC, "s": JointKind.SPHERICAL})
+    >>> JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": "P", "s": "spherical"})
     <JointedLinkage: 4 links, 3 joints: P S U, a type>
     """
 
@@ -77,7 +77,7 @@ class JointedLinkage:
         for key in (*self.kinds, *self.places):
             if key not in self.chain.joints:
                 raise InvariantError("joint", f"{shown(key)} is no joint", "a joint id", ("joints", key))
-        whole = {joint: self.kinds.get(joint, JointKind.REVOLUTE) for joint in self.chain.joints}
+        whole = {joint: _kind(self.kinds.get(joint, JointKind.REVOLUTE)) for joint in self.chain.joints}
         for loop in (*self.chain.loops, *self.chain.closing):
             for joint in loop.joints:
                 if loop.has_centre and whole[joint] is not JointKind.REVOLUTE:
@@ -166,6 +166,10 @@ def _walked(
         first, second = at[link]
         joint = second if first == joint else first
         joints.append(joint)
+
+
+def _kind(given: JointKind | str) -> JointKind:
+    return given if isinstance(given, JointKind) else kind_named(given)
 
 
 def _checked(joint: JointId, kind: JointKind, places: Mapping[JointId, JointPlace]) -> JointPlace:

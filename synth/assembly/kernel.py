@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from enumerate.kernel.compiled import compiled
 
-__all__ = ["ARRIVED", "FAR", "STOPPED", "Complexes", "corrected_all", "followed_all"]
+__all__ = ["ARRIVED", "FAR", "STOPPED", "Complexes", "corrected_all", "evaluated", "followed_all"]
 
 Complexes = npt.NDArray[np.complex128]
 Places = npt.NDArray[np.int64]

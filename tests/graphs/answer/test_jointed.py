@@ -32,6 +32,12 @@ def test_a_type_without_places_has_no_pose():
     assert "of a general member, placed at random, the freedoms are 12" in " ".join(answer.warnings)
 
 
+def test_an_exact_rank_is_not_passed_over_in_silence():
+    linkage = generate("3-rps").mechanism
+    assert any("no exact rank" in note for note in mobility(linkage, exact=True).warnings)
+    assert not any("no exact rank" in note for note in mobility(linkage).warnings)
+
+
 def test_a_slide_alone_moves_although_its_revolutes_count_none():
     chain = SCGraph(2, {"p": (0, 1)})
     answer = mobility(placed(JointedLinkage(chain, {"p": JointKind.PRISMATIC})))
