@@ -95,7 +95,7 @@ def mobility(
         answer = mobility_of_jointed(mechanism)
         if demanded:
             told = (
-                "no exact rank: revolutes that stand for joints share points and directions, a general member not"
+                "no exact rank: revolutes that stand for joints share points and directions, general ones do not"
             )
             answer = answer.with_notes(warnings=[told])
         return replace(answer, pose=None) if pose is False else answer

@@ -421,6 +421,8 @@ def test_shell_completion_knows_the_commands():
     assert set(re.findall(r"plain,(\w+)", done.stdout)) == {
         "mobility",
         "fold",
+        "positions",
+        "explain",
         "advise",
         "draw",
         "view",
