@@ -55,7 +55,7 @@ def freedoms_of_leg_held(linkage, joints):
 
 def test_passive_freedoms_are_those_of_legs_whose_ends_are_held():
     told = 0
-    for seed in range(40):
+    for seed in range(20):
         linkage = placed(random_jointed(seed), seed)
         passive = passive_freedoms(linkage)
         told += len(passive)
@@ -65,7 +65,7 @@ def test_passive_freedoms_are_those_of_legs_whose_ends_are_held():
         for leg in legs(linkage.chain):
             if len(leg.joints) > 1 and not moving & set(leg.joints) and leg.links[0] != leg.links[-1]:
                 assert freedoms_of_leg_held(linkage, leg.joints) == 0 or is_open(linkage.chain, leg)
-    assert told > 5
+    assert told > 2
 
 
 def is_open(chain, leg):

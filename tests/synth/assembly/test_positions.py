@@ -20,8 +20,8 @@ from synth.patterns.rings.spherical import spherical_ring
 
 slow = pytest.mark.slow
 CASES = [
-    *[pytest.param(WATT, joint, 4, marks=() if joint in (0, 3) else slow) for joint in range(7)],
-    *[pytest.param(STEPHENSON, joint, 4, marks=() if joint == 2 else slow) for joint in range(4)],
+    *[pytest.param(WATT, joint, 4, marks=() if joint == 0 else slow) for joint in range(7)],
+    *[pytest.param(STEPHENSON, joint, 4, marks=slow) for joint in range(4)],
     *[pytest.param(STEPHENSON, joint, 8, marks=() if joint == 5 else slow) for joint in range(4, 7)],
     (FOUR_BAR, 0, 2),
 ]
@@ -55,7 +55,7 @@ def found_in_random_cases(graph, joint, cases, starts):
                 assert np.abs(np.remainder(near + pi, 2 * pi) - pi).max(axis=1).min() < 1e-6
 
 
-@pytest.mark.parametrize(("graph", "joint"), [(FOUR_BAR, 0), (WATT, 0), (STEPHENSON, 1), (STEPHENSON, 4)])
+@pytest.mark.parametrize(("graph", "joint"), [(FOUR_BAR, 0), (STEPHENSON, 4)])
 def test_every_known_position_is_found(graph, joint):
     found_in_random_cases(graph, joint, 2, starts=2)
 

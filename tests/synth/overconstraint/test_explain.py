@@ -95,7 +95,7 @@ def test_what_was_idle_grows_with_errors_as_foretold(name):
     allowed = {one.joint: one for one in explain(solids).tolerances}
     rank = len(order.matrix[0]) - order.rates.shape[1]
     error = 1e-5
-    for joint in list(solids.chain.joints)[:2]:
+    for joint in list(solids.chain.joints)[:1]:
         for by_turn in (True, False):
             worst = 0.0
             across = np.linalg.svd(np.array([solids.axes[joint][1]]))[2][1:]
