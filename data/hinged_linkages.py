@@ -13,6 +13,7 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from synth.patterns.panels import rounded, sheet_of_faces
+from synth.patterns.platforms.legs import platform
 from synth.patterns.rings.axes import ring
 from synth.patterns.rings.bennett import bennett
 from synth.patterns.rings.bennett import sarrus as sarrus_panels
@@ -80,6 +81,7 @@ LINKAGES: dict[str, Mechanism] = {
     "kaleidocycle-8.json": kaleidocycle(8),
     "sarrus.json": sarrus(),
     "sarrus-panels.fold": rounded(sarrus_panels(), _DIGITS),
+    "stewart.json": platform("UPS", 6, 1.0, 0.6, 1.0, gap=0.5),
     "wampler-fig1-open.fold": fig_1(0.5),
     "wampler-fig1-folded.fold": fig_1(0.0, 0.7),
     "wampler-fig1-coplanar.fold": fig_1(0.0),

@@ -15,8 +15,9 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `strings`, and `count_chains`, `count_sc_graphs`, `count_scd_graphs`. Cones and cylinders: `map_to_cones`,
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
 `four_bars`. A type as a thing: `realise`, panels with coordinates; `realise_on_cone`. Motion: `fold`, a crease
-pattern with rigid panels, frame by frame; `move`, any linkage. `advise`: what to lock, which panels to crease.
-Known patterns and linkages: `generate`, by their parameters. All types up to a size in a file: `open_atlas`.
+pattern with rigid panels, frame by frame; `move`, any linkage; `positions`, all at given inputs. `explain`: why it
+moves; `advise`: what to lock, which panels to crease. Known patterns and linkages: `generate`, by parameters.
+All types up to a size in a file: `open_atlas`.
 Pictures: `draw`, of any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms show
 themselves.
 
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
     from graphs.reduce.ride_alongs import reduce as reduce
     from synth.advice.advised import advise as advise
     from synth.atlas.asked.opened import open_atlas as open_atlas
+    from synth.assembly.found import positions as positions
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.folding.motion import fold as fold
     from synth.guidance.fourbars import four_bars as four_bars
@@ -67,6 +69,7 @@ if TYPE_CHECKING:
     from synth.guidance.synthesis import guiding_dyads as guiding_dyads
     from synth.moving.motion import move as move
     from synth.notebook import load_ipython_extension as load_ipython_extension
+    from synth.overconstraint.explained import explain as explain
     from synth.patterns.generated import generate as generate
     from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
     from synth.realisation.realised import realise as realise
@@ -97,6 +100,7 @@ else:
             "graphs.reduce.ride_alongs": "reduce",
             "synth.advice.advised": "advise",
             "synth.atlas.asked.opened": "open_atlas",
+            "synth.assembly.found": "positions",
             "synth.drawing.mechanisms.pictures": "draw",
             "synth.folding.motion": "fold",
             "synth.verdict.judged": "mobility",
@@ -106,6 +110,7 @@ else:
             "synth.guidance.synthesis": "guiding_dyads",
             "synth.moving.motion": "move",
             "synth.notebook": "load_ipython_extension",
+            "synth.overconstraint.explained": "explain",
             "synth.patterns.generated": "generate",
             "synth.realisation.forms.on_cone": "realise_on_cone",
             "synth.realisation.realised": "realise",

@@ -17,6 +17,7 @@ _SHOWN = {
     "graphs.mechanism.polyhedron": "PolyhedronModel",
     "graphs.mechanism.solids": "HingedSolids",
     "graphs.mechanism.conical": "ConicalLinkage",
+    "graphs.joints.linkage": "JointedLinkage",
     "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
     "enumerate.strings.panel_strings": "ChainString",
     "synth.guidance.orientations": "Orientations",

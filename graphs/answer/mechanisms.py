@@ -12,12 +12,14 @@ from typing import Literal
 import networkx as nx
 import numpy as np
 
+from graphs.answer.jointed import mobility_of_jointed
 from graphs.answer.ranks import model_with_exact, model_with_pose, notes_of_pose, with_exact, with_pose
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
@@ -48,7 +50,8 @@ def mobility(
 
     Parameters
     ----------
-    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, HingedSolids, nx.Graph
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, HingedSolids, ...
+        Of joints of other kinds than revolutes the answer is that of `graphs.answer.jointed`.
         A plain graph is a link-joint graph: each face of a drawing of it is given a finite centre.
     exact : bool, optional
         Find the exact generic rank; by default of what is not too large.
@@ -88,6 +91,14 @@ def mobility(
         if wanted:
             answer = model_with_exact(answer, mechanism, demanded=demanded)
         return answer if pose is False else model_with_pose(answer, mechanism)
+    if isinstance(mechanism, JointedLinkage):
+        answer = mobility_of_jointed(mechanism)
+        if demanded:
+            told = (
+                "no exact rank: revolutes that stand for joints share points and directions, general ones do not"
+            )
+            answer = answer.with_notes(warnings=[told])
+        return replace(answer, pose=None) if pose is False else answer
     sc = graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
     if sc.centres_assumed:

@@ -36,6 +36,7 @@ _COUNTS = {
     "flaps": "flaps",
     "interior_vertices": "interior vertices",
     "parts": "parts",
+    "passive": "passive freedoms",
     "remote": "sum of k over remote centres",
     "on_plane": "points on planes P",
     "on_line": "points on lines L",

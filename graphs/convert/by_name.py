@@ -17,8 +17,10 @@ def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None =
 
     Parameters
     ----------
-    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet or ConicalLinkage
-    kind : {"sc", "scd", "polyhedron", "vertex-edge", "sheet"}, optional
+    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, ConicalLinkage, HingedSolids, ...
+    kind : {"sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"}, optional
+        "solids": revolutes with axes, those that stand for joints of other kinds; "joints": such chains seen as
+        the joints that they are.
     form : {"planar", "spherical", "general"}, optional
         Planar analogue, spherical analogue, or most general form; of its SC graph.
 

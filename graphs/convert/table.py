@@ -17,26 +17,33 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import oriented_panels, scd_from_panels, scd_of_placed_panels
 from graphs.convert.reconstruction import polyhedron_of
 from graphs.errors import UnsolvableError
+from graphs.ids import JointId
+from graphs.joints.as_revolutes import revolutes_of
+from graphs.joints.linkage import JointedLinkage
+from graphs.joints.recognising import recognised
 from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, sheet_from_model, sides_of_face
-from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
 
 __all__ = [
     "CONVERSIONS",
     "Mechanism",
     "graph_of",
+    "to_joints",
     "to_polyhedron",
     "to_sc",
     "to_scd",
     "to_sheet",
+    "to_solids",
     "to_vertex_edge",
 ]
 
-Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage | HingedSolids
+Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage | HingedSolids | JointedLinkage
 """What a file may hold (an SCDGraph is an SCGraph)."""
 
 
@@ -62,6 +69,8 @@ def to_sc(thing: Mechanism) -> SCGraph:
         return mechanism_of_sheet(thing).sc
     if isinstance(thing, ConicalLinkage | HingedSolids):
         return thing.chain
+    if isinstance(thing, JointedLinkage):
+        return revolutes_of(thing).chain
     return to_scd(thing).sc_graph()
 
 
@@ -162,12 +171,59 @@ def to_vertex_edge(thing: Mechanism) -> VertexEdgeGraph:
     return thing if isinstance(thing, VertexEdgeGraph) else vertex_edge_from_sc(to_sc(thing))
 
 
+def to_solids(thing: Mechanism) -> HingedSolids:
+    """Return a mechanism of revolutes with the axes of its joints.
+
+    Of a linkage with joints of all kinds each joint becomes the chain of revolutes that stands for it, of a crease
+    pattern each crease the axis that it lies on; the panels are forgotten.
+
+    Raises
+    ------
+    UnsolvableError
+        If there are no axes.
+
+    Examples
+    --------
+    >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1), (0, -1), (1, -1))
+    >>> book = Sheet(6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
+    >>> dict(to_solids(book).axes)
+    {0: ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))}
+    """
+    if isinstance(thing, HingedSolids):
+        return thing
+    if isinstance(thing, JointedLinkage):
+        return revolutes_of(thing)
+    if not isinstance(thing, Sheet):
+        raise UnsolvableError(f"solids hinged at edges need the axes of their joints, and {thing!r} has none")
+    return _solids_of_sheet(thing)
+
+
+def to_joints(thing: Mechanism) -> JointedLinkage:
+    """Return a linkage with joints of all kinds: chains of revolutes are seen as what they stand for.
+
+    Raises
+    ------
+    UnsolvableError
+        If there are no axes to see it by.
+
+    Examples
+    --------
+    >>> from graphs.joints.kinds import JointKind
+    >>> ball = JointedLinkage(SCGraph(2, [(0, 1)]), {0: JointKind.SPHERICAL})
+    >>> to_solids(ball), to_joints(to_solids(ball))
+    (<HingedSolids: <SCGraph: 4 links, 3 joints, 0 centres>>, <JointedLinkage: 2 links, 1 joint: S, placed>)
+    """
+    return thing if isinstance(thing, JointedLinkage) else recognised(to_solids(thing))
+
+
 CONVERSIONS: dict[str, Callable[[Mechanism], Mechanism]] = {
     "sc": to_sc,
     "scd": to_scd,
     "polyhedron": to_polyhedron,
     "vertex-edge": to_vertex_edge,
     "sheet": to_sheet,
+    "solids": to_solids,
+    "joints": to_joints,
 }
 """Name of a kind to the function that makes it."""
 
@@ -181,3 +237,17 @@ def _plain(sheet: Sheet) -> Sheet:
     if sum(number == 2 for number in faces_at.values()) != len(mechanism.sc.joints):
         raise UnsolvableError("the sheet has cuts between faces or hinges in several pieces")
     return sheet
+
+
+def _solids_of_sheet(sheet: Sheet) -> HingedSolids:
+    """Return what a crease pattern is without its panels: each crease lies on an axis."""
+    if sheet.coordinates is None:
+        raise UnsolvableError("solids hinged at edges need the axes of their joints: the sheet has no coordinates")
+    mechanism = mechanism_of_sheet(sheet)
+    corners = in_space(sheet.coordinates)
+    axes: dict[JointId, Axis] = {}
+    for joint, (a, b) in mechanism.hinges.items():
+        x, y, z = corners[a].tolist()
+        u, v, w = (corners[b] - corners[a]).tolist()
+        axes[joint] = (x, y, z), (u, v, w)
+    return HingedSolids(mechanism.sc, axes)

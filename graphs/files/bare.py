@@ -1,15 +1,17 @@
 """Bare link-joint graphs: graph6 and sparse6 (nauty), and GraphML; edge lists: :mod:`graphs.files.edge_lists`.
 
-Such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
+GraphML may say the type of each joint (``type`` of its edge), and then is a linkage with joints of all kinds.
+Other such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
 centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, loops and centres are lost.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from io import BytesIO
 from pathlib import Path
+from types import MappingProxyType
 from xml.etree.ElementTree import ParseError
 
 import networkx as nx
@@ -19,9 +21,13 @@ from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.names_as_text import names_from_text
 from graphs.files.text import read_text
+from graphs.ids import JointId
+from graphs.joints.kinds import JointKind, kind_named
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sc import SCGraph
 
 __all__ = [
+    "as_linkage",
     "as_sc",
     "graph6_text",
     "graphml_text",
@@ -92,7 +98,7 @@ def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
 
 
 def read_graphml(path: Path) -> nx.MultiGraph:
-    """Read the link-joint graph of a GraphML file; directions are dropped.
+    """Read the link-joint graph of a GraphML file; directions are dropped, of attributes ``type`` is kept.
 
     Names of links that are all integers become integers, and so do those of joints.
 
@@ -118,12 +124,13 @@ def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
     joints = names_from_text(keys) if all(isinstance(key, str) for key in keys) else {key: key for key in keys}
     named = nx.MultiGraph()
     named.add_nodes_from(links.values())
-    named.add_edges_from((links[a], links[b], joints[key]) for a, b, key in graph.edges(keys=True))
+    for a, b, key, told in graph.edges(keys=True, data=True):
+        named.add_edge(links[a], links[b], joints[key], **({"type": told["type"]} if "type" in told else {}))
     return named
 
 
-def graphml_text(sc: SCGraph) -> str:
-    """Return the GraphML text of the link-joint graph.
+def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyType({})) -> str:
+    """Return the GraphML text of the link-joint graph, with the types of joints that are told.
 
     Raises
     ------
@@ -140,8 +147,28 @@ def graphml_text(sc: SCGraph) -> str:
             raise UnsolvableError(f"XML cannot hold the name {shown(name)}")
     named = nx.MultiGraph()
     named.add_nodes_from(map(str, sc.nodes))
-    named.add_edges_from((str(a), str(b), str(joint)) for joint, (a, b) in sc.joints.items())
+    for joint, (a, b) in sc.joints.items():
+        named.add_edge(str(a), str(b), str(joint), **({"type": kinds[joint].value} if joint in kinds else {}))
     return "\n".join(nx.generate_graphml(named)) + "\n"
+
+
+def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
+    """Give a graph read from a file its loops, or if it tells types of joints make a linkage of it, without loops.
+
+    Raises
+    ------
+    FileError
+    """
+    told = {key: kind for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
+    if not told:
+        return as_sc(graph, path)
+    joints = {key: (a, b) for a, b, key in graph.edges(keys=True)}
+
+    def made() -> JointedLinkage:
+        kinds = {joint: kind_named(str(kind)) for joint, kind in told.items()}
+        return JointedLinkage(SCGraph(graph.nodes, joints), kinds)
+
+    return Checker(path).build(made, lambda part: f"joint {shown(part[1])}")
 
 
 def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:

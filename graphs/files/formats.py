@@ -14,6 +14,7 @@ from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
+    as_linkage,
     as_sc,
     graph6_text,
     graphml_text,
@@ -30,6 +31,7 @@ from graphs.files.losses import (
     lost_as_json,
     lost_as_obj,
     lost_as_svg,
+    lost_as_typed_graph,
 )
 from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
@@ -37,6 +39,7 @@ from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import flattened
 from graphs.mechanism.sc import SCGraph
@@ -266,7 +269,7 @@ def _read_graph6(path: Path) -> Iterator[tuple[str, Mechanism]]:
 
 
 def _read_graphml(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", as_sc(read_graphml(path), path)
+    yield "", as_linkage(read_graphml(path), path)
 
 
 def _read_edges(path: Path) -> Iterator[tuple[str, Mechanism]]:
@@ -360,6 +363,12 @@ def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
     return obj_text(sheet), lost_as_obj(mechanism, sheet)
 
 
+def _write_graphml(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+    if isinstance(mechanism, JointedLinkage):
+        return graphml_text(mechanism.chain, mechanism.kinds), lost_as_typed_graph(mechanism)
+    return graphml_text(to_sc(mechanism)), lost_as_bare_graph(mechanism, names=True)
+
+
 WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
     ".json": _write_json,
     ".fold": _write_fold,
@@ -369,7 +378,7 @@ WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
     ".obj": _write_obj,
     ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), lost_as_bare_graph(m, names=False)),
     ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), lost_as_bare_graph(m, names=False)),
-    ".graphml": lambda m: (graphml_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
+    ".graphml": _write_graphml,
     ".edges": lambda m: (edge_list_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
     ".txt": lambda m: (edge_list_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
 }

@@ -9,6 +9,8 @@ from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.classes import class_code
+from graphs.joints.kinds import JointKind
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 
@@ -40,7 +42,7 @@ def change_of_type(before: Mechanism, after: Mechanism) -> str | None:
     """Say how the type of a mechanism changed, or None if it did not.
 
     Two types are one if links, joints and centre classes correspond. Of a polyhedron model that is more than its
-    panels only the mobility by count is compared.
+    panels only the mobility by count is compared; linkages with joints of all kinds, by the names of these.
 
     Parameters
     ----------
@@ -58,6 +60,8 @@ def change_of_type(before: Mechanism, after: Mechanism) -> str | None:
     >>> change_of_type(SCGraph(4, ring, [Loop(range(4))]), SCGraph(4, ring))
     'M = 1 spherical becomes M = -2 spatial'
     """
+    if isinstance(before, JointedLinkage) and isinstance(after, JointedLinkage):
+        return None if _as_text(before) == _as_text(after) else "links, joints or their kinds are others"
     try:
         old = _type_of(before)
     except (InvariantError, UnsolvableError):
@@ -77,6 +81,14 @@ def change_of_type(before: Mechanism, after: Mechanism) -> str | None:
     if old.code != new.code:
         return f"{old.told}: the numbers stay, but other loops share a centre"
     return None
+
+
+def _as_text(linkage: JointedLinkage) -> tuple[set[str], dict[str, tuple[set[str], JointKind]]]:
+    """Return links, and joints with their ends and kinds, by their names: these files keep."""
+    joints = {
+        str(joint): ({*map(str, ends)}, linkage.kinds[joint]) for joint, ends in linkage.chain.joints.items()
+    }
+    return {*map(str, linkage.chain.nodes)}, joints
 
 
 def _type_of(mechanism: Mechanism) -> _Type:

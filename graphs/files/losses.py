@@ -8,6 +8,7 @@ from math import isclose
 from graphs.convert.table import Mechanism, to_sc
 from graphs.files.names_as_text import are_kept
 from graphs.files.native.names import is_count
+from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -25,6 +26,7 @@ __all__ = [
     "lost_as_json",
     "lost_as_obj",
     "lost_as_svg",
+    "lost_as_typed_graph",
 ]
 
 Lost = tuple[str, ...]
@@ -140,11 +142,30 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
         told.append("angles on the cone")
     if isinstance(mechanism, HingedSolids):
         told.append("the axes of its joints")
+    if isinstance(mechanism, JointedLinkage) and mechanism.places:
+        told.append("the places of its joints")
     if sc.ground is not None:
         told.append("the ground link")
     if names:
         return (*told, *_listed(sc, are_kept, "whether names of {} are text or integers"))
     return (*told, *(() if isinstance(mechanism, Sheet) else _names(sc)))
+
+
+def lost_as_typed_graph(linkage: JointedLinkage) -> Lost:
+    """Return what a link-joint graph with the types of joints does not hold.
+
+    Examples
+    --------
+    >>> lost_as_typed_graph(JointedLinkage(SCGraph(2, [(0, 1)], ground=0), {}))
+    ('the ground link',)
+    """
+    chain = linkage.chain
+    told = list(_some(len(chain.loops) + len(chain.closing), "loop and its centre", "loops and their centres"))
+    if linkage.places:
+        told.append("the places of its joints")
+    if chain.ground is not None:
+        told.append("the ground link")
+    return (*told, *_listed(chain, are_kept, "whether names of {} are text or integers"))
 
 
 def _lost_as_sheet(mechanism: Mechanism) -> Lost:
@@ -162,6 +183,8 @@ def _lost_as_sheet(mechanism: Mechanism) -> Lost:
         told.append("angles on the cone")
     if isinstance(mechanism, HingedSolids):
         told.append("the axes of its joints")
+    if isinstance(mechanism, JointedLinkage):
+        told.append("the kinds of its joints")
     loops: tuple[Loop, ...] = (*sc.loops, *sc.closing)
     told += _some(sum(loop.at is not None for loop in loops), "centre told by name", "centres told by name")
     told += _some(sum(loop.name is not None for loop in loops), "name of a loop", "names of loops")

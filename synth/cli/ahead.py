@@ -44,7 +44,8 @@ def compile_ahead() -> int:
         Functions compiled, one counted for each type of arguments.
     """
     with ProcessPoolExecutor(cores()) as pool:
-        return sum(pool.map(_run, _SMALL))
+        counted = pool.submit(_positions)
+        return sum(pool.map(_run, _SMALL)) + counted.result()
 
 
 def _run(command: str) -> int:
@@ -54,6 +55,16 @@ def _run(command: str) -> int:
             [*command.split(), *(["--workers", "1"] if command.startswith("enumerate") else [])],
             standalone_mode=False,
         )
+    return _compiled() - before
+
+
+def _positions() -> int:
+    """Compile what counts positions, for which commands need a file."""
+    from synth.assembly.found import positions
+    from synth.patterns.rings.spherical import spherical_ring
+
+    before = _compiled()
+    positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), {0: 0.1}, circuits=False)
     return _compiled() - before
 
 

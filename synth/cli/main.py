@@ -30,6 +30,8 @@ _COMMANDS = {
     "realise": "synth.cli.things.realise:realise",
     "fold": "synth.cli.things.fold:fold",
     "template": "synth.cli.things.template:template",
+    "positions": "synth.cli.things.positions:positions",
+    "explain": "synth.cli.things.explain:explain",
     "advise": "synth.cli.things.advise:advise",
     "draw": "synth.cli.things.draw:draw",
     "view": "synth.cli.things.view:view",

@@ -9,6 +9,7 @@ from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import check_place, write_text
 from graphs.files.patterns.fold_poses import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.scene.raster import check_matplotlib
 from synth.drawing.scene.writing import save_scene
@@ -95,8 +96,8 @@ def check_motion_output(thing: Mechanism, path: str | Path) -> None:
     UnsolvableError
         If the thing is no solids hinged at edges, or the file is to have panels.
     """
-    if not isinstance(thing, HingedSolids) or Path(path).suffix.lower() not in (*_STRIPS, ".gif"):
-        can = "solids are drawn as .png, .svg, .gif; " if isinstance(thing, HingedSolids) else ""
+    if not isinstance(thing, HingedSolids | JointedLinkage) or Path(path).suffix.lower() not in (*_STRIPS, ".gif"):
+        can = "solids are drawn as .png, .svg, .gif; " if isinstance(thing, HingedSolids | JointedLinkage) else ""
         raise UnsolvableError(f"there are no panels to write: {can}--json gives the joint angles of each frame")
 
 

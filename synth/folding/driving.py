@@ -148,7 +148,9 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
         rates = -rates
     steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
     limited = np.full(len(joints), asked.limited)
-    options = PathOptions(rates, limited, straight=bool(asked.along), report=asked.report, names=joints)
+    by_least_rates = found is not None and found.regular and len(asked.drive) == 1
+    direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
+    options = PathOptions(direction, limited, straight=bool(asked.along), report=asked.report, names=joints)
     path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
     told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, told, path)

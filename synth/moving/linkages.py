@@ -13,6 +13,8 @@ from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.joints.as_revolutes import revolutes_of
+from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -28,7 +30,7 @@ from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.orientations import Orientations
 from synth.moving.rods import linkage_of_rods
 
-__all__ = ["linkage_of", "linkage_on_cone", "sheet_of"]
+__all__ = ["linkage_of", "linkage_on_cone", "off_one_point", "sheet_of"]
 
 _MEETS = 1e-9
 """Axes that pass a centre at this part of the extent, or are this far from parallel, meet there."""
@@ -42,7 +44,7 @@ def linkage_of(
 
     Parameters
     ----------
-    thing : Sheet, PolyhedronModel, HingedSolids, ConicalLinkage, OnCone or GuidedFourBar
+    thing : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, ConicalLinkage, OnCone or GuidedFourBar
         Of a sheet that has several frames, that which is to move. A model that knows its links is a sheet of
         panels, else its rods are links. A conical linkage lies on its cone, a guided four-bar
         takes the first of its orientations.
@@ -68,6 +70,8 @@ def linkage_of(
     if isinstance(thing, PolyhedronModel):
         sheet = sheet_of(thing)
         return linkage_of_rods(thing) if sheet is None else _of_sheet(sheet)
+    if isinstance(thing, JointedLinkage) and thing.places:
+        thing = revolutes_of(thing)
     if isinstance(thing, HingedSolids):
         return _with_centres(linkage_of_axes(thing.chain, thing.axes))
     if isinstance(thing, OnCone):
@@ -151,7 +155,7 @@ def _with_centres(linkage: PosedLinkage) -> PosedLinkage:
         if loop.centre is Centre.INFINITE:
             off = float(np.abs(np.cross(axes, axes[0])).max())
         elif loop.centre is Centre.FINITE:
-            off = _off_one_point(points, axes)
+            off = off_one_point(points, axes)
         else:
             continue
         if off > _MEETS:
@@ -162,8 +166,20 @@ def _with_centres(linkage: PosedLinkage) -> PosedLinkage:
     return linkage
 
 
-def _off_one_point(points: Floats, axes: Floats) -> float:
-    """Return how far axes pass, at most, from the point nearest to all, in units of the extent of the linkage."""
+def off_one_point(points: Floats, axes: Floats) -> float:
+    """Return how far axes pass, at most, from the point nearest to all, in the unit of the points.
+
+    Parameters
+    ----------
+    points, axes : float[k, 3]
+        On the axes, and their unit vectors.
+
+    Examples
+    --------
+    >>> points, axes = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]]), np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> round(off_one_point(points, axes), 12)
+    1.0
+    """
     across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
     sums = (across @ points[..., None])[..., 0]
     nearest = np.linalg.lstsq(across.reshape(-1, 3), sums.ravel(), rcond=None)[0]

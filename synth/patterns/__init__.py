@@ -1,7 +1,7 @@
-"""Known patterns and linkages made by their parameters: crease patterns, rings of solids, pop-ups and cartons.
+"""Known patterns and linkages made by their parameters: crease patterns, rings of solids, pop-ups, cartons, ...
 
 `generate` makes one by name, `GENERATORS` has them all: parameters with units and ranges, the freedoms that the
-source gives, its conditions. Rooms: `creases`, `rings`, `goods`. Theory: docs/theory/generators.md.
+source gives, its conditions. Rooms: `creases`, `rings`, `goods`, `platforms`. Theory: docs/theory/generators.md.
 """
 
 from __future__ import annotations

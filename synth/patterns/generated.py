@@ -9,6 +9,7 @@ from typing import Any
 
 from graphs.answer.mechanisms import mobility
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, html_of, text_of
@@ -32,7 +33,7 @@ class Generated:
         Of all parameters; radians.
     fold : float or None
         How far it is folded, radians; None as it is made.
-    mechanism : Sheet or HingedSolids
+    mechanism : Sheet, HingedSolids or JointedLinkage
     freedoms : int
         Of finite motion, as the source says.
     count : int or None
@@ -42,7 +43,7 @@ class Generated:
     generator: Generator
     values: Mapping[str, float]
     fold: float | None
-    mechanism: Sheet | HingedSolids
+    mechanism: Sheet | HingedSolids | JointedLinkage
     freedoms: int
     count: int | None
 

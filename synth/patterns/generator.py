@@ -8,6 +8,7 @@ from math import degrees, isfinite, radians
 from typing import Literal
 
 from graphs.errors import InvariantError, shown
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 
@@ -99,7 +100,7 @@ class Generator:
         By which it is asked for.
     title : str
     make : callable
-        Takes the parameters by name; gives a sheet, or solids hinged at edges.
+        Takes the parameters by name; gives a sheet, solids hinged at edges, or a linkage with joints of all kinds.
     parameters : tuple of Parameter
     freedoms : callable
         Takes the values of the parameters; gives the freedoms of finite motion, as the source says.
@@ -112,7 +113,7 @@ class Generator:
 
     name: str
     title: str
-    make: Callable[..., Sheet | HingedSolids]
+    make: Callable[..., Sheet | HingedSolids | JointedLinkage]
     parameters: tuple[Parameter, ...]
     freedoms: Callable[[Values], int]
     conditions: str

@@ -1,4 +1,4 @@
-"""The native JSON files: SC and SCD graphs, models, vertex-edge graphs, linkages on cones, hinged solids.
+"""The native JSON files: SC and SCD graphs, models, vertex-edge graphs, linkages on cones, hinged solids, ...
 
 The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/files.md.
 """
@@ -13,10 +13,12 @@ from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.native.conical import conical_document, conical_from_document
 from graphs.files.native.graphs import read_sc, read_scd, sc_document
+from graphs.files.native.joints import joints_document, joints_from_document
 from graphs.files.native.models import polyhedron_document, read_polyhedron
 from graphs.files.native.names import VERSION, head, tuple_of, written
 from graphs.files.native.solids import solids_document, solids_from_document
 from graphs.files.text import json_text
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
@@ -26,7 +28,9 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph
 
 __all__ = ["FORMATS", "NativeObject", "document", "dumps", "from_document"]
 
-NativeObject = SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | ConicalLinkage | HingedSolids
+NativeObject = (
+    SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | ConicalLinkage | HingedSolids | JointedLinkage
+)
 
 
 def from_document(value: Any, path: Path) -> NativeObject:
@@ -80,6 +84,8 @@ def document(thing: NativeObject) -> dict[str, Any]:
         return conical_document(thing)
     if isinstance(thing, HingedSolids):
         return solids_document(thing)
+    if isinstance(thing, JointedLinkage):
+        return joints_document(thing)
     return polyhedron_document(thing) if isinstance(thing, PolyhedronModel) else sc_document(thing)
 
 
@@ -130,4 +136,5 @@ FORMATS: dict[str, Callable[[Mapping[str, Any], Checker], NativeObject]] = {
     "synthedra/vertex-edge": _read_vertex_edge,
     "synthedra/conical": conical_from_document,
     "synthedra/solids": solids_from_document,
+    "synthedra/joints": joints_from_document,
 }

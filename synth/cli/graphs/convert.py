@@ -24,7 +24,7 @@ _SOLIDS = (".stl", ".3mf", ".gltf")
 @click.option(
     "--to",
     "kind",
-    type=click.Choice(["sc", "scd", "polyhedron", "vertex-edge", "sheet"]),
+    type=click.Choice(["sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"]),
     help="What to make of it first; by default what the file holds.",
 )
 @click.option(
@@ -53,11 +53,12 @@ def convert(
 
     \b
     Read and written:
-      .json                native: SC and SCD graphs, models, vertex-edge graphs, linkages on cones
+      .json                native: SC and SCD graphs, models, vertex-edge graphs, linkages on cones,
+                           solids by their axes, linkages with joints of all kinds
       .fold .svg .cp .obj  crease patterns
       .dxf                 crease patterns (R12 written)
       .g6 .s6              graph6 and sparse6 (nauty): bare link-joint graphs
-      .graphml             bare link-joint graphs
+      .graphml             bare link-joint graphs, or with the type of each joint (R P U S C E)
       .edges .txt          bare link-joint graphs, a joint a line
     Read:
       .opx                 crease patterns (ORIPA)
@@ -76,6 +77,8 @@ def convert(
       synth convert crease-pattern.fold model.json --to polyhedron
       synth convert folded.fold folded.stl --size 120 --thickness 0.8
       synth convert watt.json planar-watt.json --form planar
+      synth convert stewart.json creases.json --to solids
+      synth convert creases.json platform.json --to joints
     """
     from graphs.convert.by_name import convert as converted
     from graphs.files.formats import read, write

@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from math import radians
 from time import monotonic
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table
+from synth.cli.things.driven import driven_angles, numbers_of_joints
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -169,25 +169,8 @@ class _Joints(NamedTuple):
 
     def driven(self, graph: SCGraph) -> dict[JointId, float]:
         """Return the angles of driven joints, radians."""
-        asked = _numbers(graph, self.drive, "--drive", "JOINT=DEGREES")
-        return {joint: radians(angle) for joint, angle in asked.items()}
+        return driven_angles(graph, self.drive)
 
     def rates(self, graph: SCGraph) -> dict[JointId, float]:
         """Return the rates at which joints are to begin."""
-        return _numbers(graph, self.along, "--along", "JOINT=RATE")
-
-
-def _numbers(graph: SCGraph, words: tuple[str, ...], option: str, form: str) -> dict[JointId, float]:
-    from graphs.edit.named import joint_named
-
-    asked = {}
-    for word in words:
-        joint, equals, number = word.rpartition("=")
-        try:
-            if not equals or not joint:
-                raise ValueError
-            value = float(number)
-        except ValueError:
-            raise click.BadParameter(f"{plain(word)!r} is not {form}", param_hint=option) from None
-        asked[joint_named(graph, joint.strip())] = value
-    return asked
+        return numbers_of_joints(graph, self.along, "--along", "JOINT=RATE")

@@ -10,8 +10,9 @@ from typing import Any, TypeAlias
 import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.convert.table import Mechanism, graph_of, to_sc
+from graphs.convert.table import Mechanism, graph_of, to_sc, to_solids
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -119,7 +120,7 @@ def _suiting(thing: object) -> str:
         return "pattern" if lies_flat(thing) else "folded"
     if isinstance(thing, PolyhedronModel):
         return "model"
-    if isinstance(thing, HingedSolids):
+    if isinstance(thing, HingedSolids) or (isinstance(thing, JointedLinkage) and thing.places):
         return "solids"
     if isinstance(thing, SCDGraph):
         return "graph"
@@ -181,6 +182,8 @@ def _cone(thing: Any, look: Look) -> Scene:
 
 
 def _solids(thing: Any, look: Look) -> Scene:
+    if isinstance(thing, JointedLinkage):
+        thing = to_solids(thing)
     if not isinstance(thing, HingedSolids):
         raise UnsolvableError(f"only solids hinged at edges can be drawn so, and this is {thing!r}")
     return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)

@@ -109,7 +109,7 @@ def test_quaternions_and_matrices_are_the_same_orientations(tmp_path):
 def test_orientations_are_no_mechanism():
     with pytest.raises(
         FileError,
-        match="format: 'synthedra/orientations'; expected one of synthedra/conical, synthedra/polyhedron",
+        match="format: 'synthedra/orientations'; expected one of synthedra/conical, synthedra/joints, synthedra/polyhedron",
     ):
         read(FILES[0])
 

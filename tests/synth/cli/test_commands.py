@@ -423,6 +423,8 @@ def test_shell_completion_knows_the_commands():
     assert set(re.findall(r"plain,(\w+)", done.stdout)) == {
         "mobility",
         "fold",
+        "positions",
+        "explain",
         "advise",
         "atlas",
         "draw",

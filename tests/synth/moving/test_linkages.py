@@ -166,3 +166,13 @@ def test_by_default_what_moves_most_turns_once_round(data):
     assert motion.path.stopped == ""
     assert np.abs(list(motion.driven.values())) == pytest.approx([2 * np.pi])
     assert "360 degrees" in str(motion)
+
+
+@pytest.mark.parametrize("turn", [-3.0, 3.0])
+def test_a_joint_is_driven_by_the_least_rates_where_there_are_several_freedoms(turn, data):
+    """Knees of a platform; begun by other rates one turned back after a tenth of a degree."""
+    platform = read(data / "linkages" / "stewart.json")
+    for leg in (0, 3):
+        path = move(platform, drive={f"P{leg}-1": np.radians(turn)}, frames=1).path
+        assert path.stopped == ""
+        assert np.abs(path.angles[-1]).max() < np.radians(3 * abs(turn))

@@ -1,0 +1,194 @@
+"""How a linkage with joints of all kinds moves at its pose, and which of its freedoms are passive.
+
+A freedom is *passive* if it moves links of one leg, a row of binary links, and nothing else: the spinning of a leg
+between two spherical joints. Theory: docs/theory/joints.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphs.answer.ranks import notes_of_pose
+from graphs.answer.report import MobilityAnswer
+from graphs.arrays import Floats
+from graphs.count.report import mobility_report
+from graphs.errors import shown
+from graphs.ids import JointId
+from graphs.joints.as_revolutes import revolutes_of
+from graphs.joints.kinds import JointKind
+from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs
+from graphs.joints.placing import placed
+from graphs.loops.cycle_space import signed_cycle
+from graphs.mechanism.precision import extent_of
+from graphs.mechanism.sc import SCGraph
+from graphs.rank.closure import independent_cycles
+from graphs.rank.pose import pose_mobility_of_axes
+from graphs.rank.singular_values import spectrum
+
+__all__ = ["Passive", "freedoms_by_screws", "mobility_of_jointed", "passive_freedoms"]
+
+_ERROR = 1e-12
+"""Of screws at places that are given in full."""
+_FEW = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Passive:
+    """Freedoms of one leg that move its own links only.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+        Of the leg.
+    freedoms : int
+    spins : bool
+        Whether it is one, a turn about the line through two spherical joints.
+    """
+
+    joints: tuple[JointId, ...]
+    freedoms: int
+    spins: bool
+
+
+def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
+    """Say how a linkage with joints of all kinds moves: by count of its joints, and at its pose as revolutes.
+
+    Parameters
+    ----------
+    linkage : JointedLinkage
+        Without places there is no pose; a note tells the freedoms of a general member.
+
+    Returns
+    -------
+    MobilityAnswer
+        Links, joints, loops and equations are those of the revolutes that stand for the joints; the mobility is
+        counted with the freedoms of the joints. ``counts["passive"]``: the passive freedoms.
+
+    Examples
+    --------
+    >>> leg = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
+    >>> kinds = {1: JointKind.SPHERICAL, 2: JointKind.SPHERICAL, 3: JointKind.REVOLUTE}
+    >>> answer = mobility_of_jointed(placed(JointedLinkage(leg, kinds)))
+    >>> answer.mobility, answer.counts["passive"], answer.pose.dof
+    (2, 0, 2)
+    """
+    whole = placed(linkage)
+    solids = revolutes_of(whole)
+    pose = pose_mobility_of_axes(solids.chain, solids.axes)
+    by_revolutes = MobilityAnswer.of(mobility_report(solids.chain))
+    passive = passive_freedoms(whole)
+    told = [f"joints: {linkage.told_kinds}; as {len(solids.chain.joints)} revolutes, whose counts are told"]
+    if not linkage.places:
+        known = "freedoms are not known" if pose.dof is None else f"freedoms are {pose.dof}"
+        told.append(f"a type without places: of a general member, placed at random, the {known}")
+    if by_revolutes.mobility != linkage.mobility:
+        told.append(
+            f"revolutes alone count {by_revolutes.mobility}: slides made of the linkage of Sarrus move although "
+            "their six equations say no"
+        )
+    told += _told(passive)
+    counts = {**by_revolutes.counts, "passive": sum(one.freedoms for one in passive)}
+    answer = replace(by_revolutes, mobility=linkage.mobility, counts=counts, warnings=tuple(told))
+    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose)) if linkage.places else answer
+
+
+def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
+    """Return the freedoms that move links of one leg only: those it has with both its ends held.
+
+    Parameters
+    ----------
+    linkage : JointedLinkage
+        With places. Legs that begin and end at the same link, and open ends, have none.
+
+    Examples
+    --------
+    >>> rod = SCGraph(5, [(0, 1), (1, 2), (0, 3), (3, 2), (0, 2)], ground=0)
+    >>> kinds = {0: JointKind.SPHERICAL, 1: JointKind.SPHERICAL, 2: JointKind.UNIVERSAL}
+    >>> passive_freedoms(placed(JointedLinkage(rod, kinds)))
+    (Passive(joints=(0, 1), freedoms=1, spins=True),)
+    """
+    screws = _screws(linkage)
+    degree = dict(linkage.chain.degree)
+    found = []
+    for leg in legs(linkage.chain):
+        if leg.links[0] == leg.links[-1] or min(degree[leg.links[0]], degree[leg.links[-1]]) < 2:
+            continue
+        columns = np.hstack([screws[joint] for joint in leg.joints])
+        rank = spectrum(columns, _ERROR).rank
+        if rank is not None and rank < columns.shape[1]:
+            free = columns.shape[1] - rank
+            found.append(Passive(leg.joints, free, free == 1 and _spins(linkage, leg)))
+    return tuple(found)
+
+
+def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
+    """Return the freedoms at the pose by the screws of the joints, without revolutes; None if not known.
+
+    Parameters
+    ----------
+    linkage : JointedLinkage
+        With places. All loops close with six equations.
+
+    Examples
+    --------
+    >>> ring = SCGraph(2, [(0, 1), (0, 1)])
+    >>> freedoms_by_screws(placed(JointedLinkage(ring, {0: JointKind.PLANAR, 1: JointKind.PLANAR})))
+    1
+    """
+    screws = _screws(linkage)
+    chain = linkage.chain
+    columns = {joint: place for place, joint in enumerate(chain.joints)}
+    widths = [screws[joint].shape[1] for joint in chain.joints]
+    starts = np.concatenate([[0], np.cumsum(widths)])
+    cycles = independent_cycles(SCGraph(chain.nodes, chain.joints))
+    matrix = np.zeros((6 * len(cycles), int(starts[-1])))
+    for row, loop in enumerate(cycles):
+        for joint, sign in signed_cycle(loop.joints, chain.joints):
+            place = columns[joint]
+            matrix[6 * row : 6 * row + 6, starts[place] : starts[place + 1]] = sign * screws[joint]
+    rank = spectrum(matrix, _ERROR).rank
+    return None if rank is None else int(starts[-1]) - rank
+
+
+def _told(passive: tuple[Passive, ...]) -> Iterator[str]:
+    """Say in a line or two which freedoms are passive."""
+    spinning = [one for one in passive if one.spins]
+    others = [one for one in passive if not one.spins]
+    for legs_, doing in ((spinning, "spin about the line through their spherical joints"), (others, "move alone")):
+        if legs_:
+            total = sum(one.freedoms for one in legs_)
+            names = "; ".join(shown(" ".join(map(str, one.joints))) for one in legs_[:_FEW])
+            more = f" and {len(legs_) - _FEW} more" if len(legs_) > _FEW else ""
+            yield f"{total} of the freedoms passive: legs that {doing} (joints {names}{more})"
+
+
+def _spins(linkage: JointedLinkage, leg: Leg) -> bool:
+    """Tell whether a leg that moves between ends held is one that turns between two spherical joints."""
+    return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in leg.joints) == 2
+
+
+def _screws(linkage: JointedLinkage) -> dict[JointId, Floats]:
+    """Return the screws of all joints, lengths in units of the extent: joint to float[6, freedoms]."""
+    points = np.array([place.point for place in linkage.places.values()], dtype=float).reshape(-1, 3)
+    points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0) if len(points) else points
+    return {
+        joint: _screws_of(linkage.kinds[joint], place, point)
+        for (joint, place), point in zip(linkage.places.items(), points, strict=True)
+    }
+
+
+def _screws_of(kind: JointKind, place: JointPlace, point: Floats) -> Floats:
+    axes = np.array(place.axes, dtype=float).reshape(-1, 3)
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    turns = np.eye(3) if kind is JointKind.SPHERICAL else axes[:0] if kind is JointKind.PRISMATIC else axes
+    shifts = axes[:0]
+    if kind in (JointKind.PRISMATIC, JointKind.CYLINDRICAL):
+        shifts = axes
+    elif kind is JointKind.PLANAR:
+        shifts = np.linalg.svd(axes)[2][1:]
+    turning = np.hstack([turns, np.cross(point, turns)]) if len(turns) else np.zeros((0, 6))
+    sliding = np.hstack([np.zeros_like(shifts), shifts]) if len(shifts) else np.zeros((0, 6))
+    return np.asarray(np.vstack([turning, sliding]).T)

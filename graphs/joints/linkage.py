@@ -1,0 +1,203 @@
+"""A linkage with joints of all kinds: a link-joint graph, the kind of each joint, and perhaps where they are.
+
+Theory: docs/theory/joints.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import hypot, isfinite
+from types import MappingProxyType
+
+from graphs.errors import InvariantError, numbered, shown
+from graphs.ids import JointId, LinkId
+from graphs.joints.kinds import JointKind, kind_named
+from graphs.mechanism.sc import SCGraph
+
+__all__ = ["JointPlace", "JointedLinkage", "Leg", "legs"]
+
+Vector = tuple[float, float, float]
+_LONGEST = 1e100
+"""Squares of longer and of much shorter vectors are no numbers."""
+_RIGHT = 1e-6
+"""Cosine between the axes of a universal joint, at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class JointPlace:
+    """Where a joint is at a pose.
+
+    Attributes
+    ----------
+    point : tuple of 3 floats
+        On its axes, any unit of length.
+    axes : tuple of tuples of 3 floats
+        Of a revolute or cylindrical joint its axis, of a prismatic one the way it slides, of a planar one the
+        normal, of a universal one the axes that its first and its second link hold; none of a spherical one.
+    """
+
+    point: Vector
+    axes: tuple[Vector, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class JointedLinkage:
+    """Links joined by joints of any kind.
+
+    Parameters
+    ----------
+    chain : SCGraph
+        Links and joints; loops that are given a centre have revolutes only.
+    kinds : mapping of joint id to JointKind, or its letter or word
+        Joints that are left out are revolutes.
+    places : mapping of joint id to JointPlace, optional
+        Of all joints, or of none: then it is a type, and stands for its general members.
+
+    Raises
+    ------
+    InvariantError
+        If a joint is not known, has no place where others have, or a place does not suit its kind.
+
+    Examples
+    --------
+    A leg with a universal, a prismatic and a spherical joint:
+
+    >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
+    >>> JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": "P", "s": "spherical"})
+    <JointedLinkage: 4 links, 3 joints: P S U, a type>
+    """
+
+    chain: SCGraph
+    kinds: Mapping[JointId, JointKind]
+    places: Mapping[JointId, JointPlace] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for key in (*self.kinds, *self.places):
+            if key not in self.chain.joints:
+                raise InvariantError("joint", f"{shown(key)} is no joint", "a joint id", ("joints", key))
+        whole = {joint: _kind(self.kinds.get(joint, JointKind.REVOLUTE)) for joint in self.chain.joints}
+        for loop in (*self.chain.loops, *self.chain.closing):
+            for joint in loop.joints:
+                if loop.has_centre and whole[joint] is not JointKind.REVOLUTE:
+                    told = f"joint {shown(joint)} of {loop.label}, which has a centre, is {whole[joint].word}"
+                    raise InvariantError("kinds", told, "a revolute", ("joints", joint))
+        places = {joint: _checked(joint, whole[joint], self.places) for joint in whole} if self.places else {}
+        object.__setattr__(self, "kinds", MappingProxyType(whole))
+        object.__setattr__(self, "places", MappingProxyType(places))
+
+    @property
+    def mobility(self) -> int:
+        """M by count: freedoms of the joints, less 3 for a loop with a centre and 6 for any other (Kutzbach)."""
+        freedoms = sum(kind.freedoms for kind in self.kinds.values())
+        return freedoms - 3 * len(self.chain.centred_loops) - 6 * self.chain.spatial_loops
+
+    @property
+    def told_kinds(self) -> str:
+        """How many joints there are of each kind, in words."""
+        found = Counter(self.kinds.values())
+        return ", ".join(f"{found[kind]} {kind.word}" for kind in JointKind if found[kind])
+
+    def __repr__(self) -> str:
+        letters = Counter(kind.value for kind in self.kinds.values())
+        told = " ".join(letter if n == 1 else f"{n}{letter}" for letter, n in sorted(letters.items()))
+        numbers = f"{numbered(len(self.chain), 'link')}, {numbered(len(self.kinds), 'joint')}"
+        return f"<JointedLinkage: {numbers}: {told}, {'placed' if self.places else 'a type'}>"
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """Joints in a row, with binary links between them.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+    links : tuple of link ids
+        One more than joints, in the order they are passed; of a ring the first is the last.
+    """
+
+    joints: tuple[JointId, ...]
+    links: tuple[LinkId, ...]
+
+
+def legs(chain: SCGraph) -> list[Leg]:
+    """Return the rows of joints that binary links make: each joint is in one.
+
+    The ground ends rows, however many joints it has. A ring of binary links is one row, from its first link on.
+
+    Parameters
+    ----------
+    chain : SCGraph
+
+    Examples
+    --------
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
+    >>> legs(ring)
+    [Leg(joints=(0, 1, 2, 3), links=(0, 1, 2, 3, 0))]
+    """
+    at: dict[LinkId, list[JointId]] = {link: [] for link in chain.nodes}
+    for joint, ends in chain.joints.items():
+        for link in ends:
+            at[link].append(joint)
+    inside = {link for link, joints in at.items() if len(joints) == 2 and link != chain.ground}
+    passed: set[JointId] = set()
+    found = []
+    for link in sorted(at, key=inside.__contains__):  # rings of binary links come last
+        for joint in at[link]:
+            if joint in passed or (link in inside and set(at[link]) & passed):
+                continue
+            found.append(_walked(chain, at, inside, (link, joint)))
+            passed.update(found[-1].joints)
+    return found
+
+
+def _walked(
+    chain: SCGraph, at: Mapping[LinkId, Sequence[JointId]], inside: set[LinkId], start: tuple[LinkId, JointId]
+) -> Leg:
+    link, joint = start
+    joints, links = [joint], [link]
+    while True:
+        a, b = chain.joints[joint]
+        link = b if a == link else a
+        links.append(link)
+        if link not in inside or link == links[0]:
+            return Leg(tuple(joints), tuple(links))
+        first, second = at[link]
+        joint = second if first == joint else first
+        joints.append(joint)
+
+
+def _kind(given: JointKind | str) -> JointKind:
+    return given if isinstance(given, JointKind) else kind_named(given)
+
+
+def _checked(joint: JointId, kind: JointKind, places: Mapping[JointId, JointPlace]) -> JointPlace:
+    part = ("joints", joint)
+    if joint not in places:
+        raise InvariantError(
+            "place", f"joint {shown(joint)} has no place", "one for each joint, or for none", part
+        )
+    place = places[joint]
+    if len(place.axes) != kind.axes:
+        told = f"{kind.word} joint {shown(joint)} has {numbered(len(place.axes), 'axis', 'axes')}"
+        raise InvariantError("place", told, str(kind.axes), part)
+    vectors = tuple(_vector(joint, one) for one in (place.point, *place.axes))
+    for axis in vectors[1:]:
+        if not 1 / _LONGEST < hypot(*axis) < _LONGEST:
+            told = f"an axis of joint {shown(joint)} is {shown(list(axis))}"
+            raise InvariantError("place", told, "a vector that is not zero", part)
+    if kind is JointKind.UNIVERSAL:
+        one, other = vectors[1:]
+        cosine = sum(x * y for x, y in zip(one, other, strict=True)) / hypot(*one) / hypot(*other)
+        if abs(cosine) > _RIGHT:
+            told = f"the axes of universal joint {shown(joint)} have a cosine of {cosine:.1e}"
+            raise InvariantError("place", told, "a right angle", part)
+    return JointPlace(vectors[0], vectors[1:])
+
+
+def _vector(joint: JointId, given: Sequence[float]) -> Vector:
+    if len(given) != 3 or not all(isfinite(x) and abs(x) < _LONGEST for x in given):
+        told = f"the place of joint {shown(joint)} has {shown(list(given))}"
+        raise InvariantError("place", told, "three numbers, none beyond 1e100", ("joints", joint))
+    return (float(given[0]), float(given[1]), float(given[2]))

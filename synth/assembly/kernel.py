@@ -1,0 +1,254 @@
+"""Compiled: closure equations of spherical linkages with complex angles, and solutions followed along parameters.
+
+A loop closes if the product of the quaternions of its joints is 1 or -1: its vector part is zero. Axes are given
+by two angles each, the tilt from the z axis and the turn about it. Theory: docs/theory/positions.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from enumerate.kernel.compiled import compiled
+
+__all__ = ["ARRIVED", "FAR", "STOPPED", "Complexes", "corrected_all", "evaluated", "followed_all"]
+
+Complexes = npt.NDArray[np.complex128]
+Places = npt.NDArray[np.int64]
+Signs = npt.NDArray[np.float64]
+
+STOPPED, ARRIVED, FAR = 0, 1, 2
+"""What became of a path: it could not go on, is at its end, or went to infinity."""
+
+_FIRST, _LARGEST, _LEAST = 0.05, 0.25, 1e-8
+_NUDGE = 1e-6
+_CORRECTIONS = 3
+_CLOSED = 1e-10
+_FAR = 30.0
+"""Imaginary part of an angle that has gone to infinity."""
+_MOST = 5000
+
+
+@compiled
+def evaluated(
+    loops: Places,
+    signs: Signs,
+    column: Places,
+    parameters: Complexes,
+    unknowns: Complexes,
+    residual: Complexes,
+    jacobian: Complexes,
+) -> None:
+    """Write what does not close, complex[3 L], and its derivatives by the unknown angles, complex[3 L, U].
+
+    ``loops`` has the joints of each loop, filled up with -1; ``column`` the place of each joint among the unknown
+    angles, or of a driven one -1 - (its place among the driven).
+    """
+    joints = len(column)
+    quaternions = np.empty((joints, 4), np.complex128)
+    axes = np.empty((joints, 3), np.complex128)
+    for j in range(joints):
+        angle = unknowns[column[j]] if column[j] >= 0 else parameters[2 * joints - 1 - column[j]]
+        tilt, turn = parameters[2 * j], parameters[2 * j + 1]
+        axes[j, 0], axes[j, 1], axes[j, 2] = np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)
+        sine = np.sin(0.5 * angle)
+        quaternions[j, 0] = np.cos(0.5 * angle)
+        for k in range(3):
+            quaternions[j, 1 + k] = sine * axes[j, k]
+    for row in range(len(jacobian)):
+        for place in range(jacobian.shape[1]):
+            jacobian[row, place] = 0.0
+    for loop in range(len(loops)):
+        w, x, y, z = 1.0 + 0.0j, 0.0j, 0.0j, 0.0j
+        for i in range(loops.shape[1]):
+            j = loops[loop, i]
+            if j < 0:
+                break
+            sign = signs[loop, i]
+            if column[j] >= 0:  # the axis where the joints before it have taken it
+                a, b, c = axes[j, 0], axes[j, 1], axes[j, 2]
+                u, v, t = y * c - z * b, z * a - x * c, x * b - y * a
+                jacobian[3 * loop, column[j]] = 0.5 * sign * (a + 2.0 * (w * u + y * t - z * v))
+                jacobian[3 * loop + 1, column[j]] = 0.5 * sign * (b + 2.0 * (w * v + z * u - x * t))
+                jacobian[3 * loop + 2, column[j]] = 0.5 * sign * (c + 2.0 * (w * t + x * v - y * u))
+            p, q = quaternions[j, 0], sign * quaternions[j, 1]
+            r, s = sign * quaternions[j, 2], sign * quaternions[j, 3]
+            w, x, y, z = (
+                w * p - x * q - y * r - z * s,
+                w * q + x * p + y * s - z * r,
+                w * r - x * s + y * p + z * q,
+                w * s + x * r - y * q + z * p,
+            )
+        residual[3 * loop], residual[3 * loop + 1], residual[3 * loop + 2] = x, y, z
+        for i in range(loops.shape[1]):
+            j = loops[loop, i]
+            if j < 0:
+                break
+            if column[j] >= 0:
+                place = column[j]
+                a, b, c = jacobian[3 * loop, place], jacobian[3 * loop + 1, place], jacobian[3 * loop + 2, place]
+                jacobian[3 * loop, place] = w * a + b * z - c * y
+                jacobian[3 * loop + 1, place] = w * b + c * x - a * z
+                jacobian[3 * loop + 2, place] = w * c + a * y - b * x
+
+
+@compiled
+def solved(matrix: Complexes, right: Complexes) -> bool:
+    """Solve a square system, pivots chosen by column; the solution takes the place of the right side."""
+    n = len(right)
+    for k in range(n):
+        best, size = k, 0.0
+        for i in range(k, n):
+            if abs(matrix[i, k]) > size:
+                best, size = i, abs(matrix[i, k])
+        if size == 0.0 or not np.isfinite(size):
+            return False
+        if best != k:
+            for j in range(k, n):
+                matrix[k, j], matrix[best, j] = matrix[best, j], matrix[k, j]
+            right[k], right[best] = right[best], right[k]
+        for i in range(k + 1, n):
+            part = matrix[i, k] / matrix[k, k]
+            for j in range(k + 1, n):
+                matrix[i, j] -= part * matrix[k, j]
+            right[i] -= part * right[k]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            right[k] -= matrix[k, j] * right[j]
+        right[k] /= matrix[k, k]
+    return True
+
+
+@compiled
+def corrected(
+    loops: Places, signs: Signs, column: Places, parameters: Complexes, unknowns: Complexes, steps: int
+) -> tuple[float, float]:
+    """Correct unknown angles in place; return the length of the first step and by how much loops do not close."""
+    n = len(unknowns)
+    residual, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
+    first = 0.0
+    for step in range(steps):
+        evaluated(loops, signs, column, parameters, unknowns, residual, jacobian)
+        if not solved(jacobian, residual):
+            return np.inf, np.inf
+        length = 0.0
+        for i in range(n):
+            unknowns[i] -= residual[i]
+            length = max(length, abs(residual[i]))
+        if step == 0:
+            first = length
+        if not np.isfinite(length):
+            return np.inf, np.inf
+    evaluated(loops, signs, column, parameters, unknowns, residual, jacobian)
+    error = 0.0
+    for i in range(n):
+        error = max(error, abs(residual[i]))
+    return first, error
+
+
+@compiled
+def parameters_at(start: Complexes, end: Complexes, bend: Complexes, s: float) -> Complexes:
+    """Return the parameters at a place of a curve."""
+    made = np.empty(len(start), np.complex128)
+    for i in range(len(start)):
+        made[i] = start[i] + s * (end[i] - start[i]) + s * (1.0 - s) * bend[i]
+    return made
+
+
+@compiled
+def tangent(
+    loops: Places,
+    signs: Signs,
+    column: Places,
+    curve: tuple[Complexes, Complexes, Complexes],
+    s: float,
+    unknowns: Complexes,
+    rates: Complexes,
+) -> bool:
+    """Write how the unknown angles go on along a curve; False if that is not known."""
+    n = len(unknowns)
+    beside, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
+    ahead = parameters_at(curve[0], curve[1], curve[2], s + _NUDGE)
+    evaluated(loops, signs, column, ahead, unknowns, beside, jacobian)
+    here = parameters_at(curve[0], curve[1], curve[2], s)
+    evaluated(loops, signs, column, here, unknowns, rates, jacobian)
+    for i in range(n):
+        rates[i] = (rates[i] - beside[i]) / _NUDGE
+    return solved(jacobian, rates)
+
+
+@compiled
+def followed(
+    loops: Places,
+    signs: Signs,
+    column: Places,
+    curve: tuple[Complexes, Complexes, Complexes],
+    unknowns: Complexes,
+    small: float,
+) -> int:
+    """Follow a solution along a curve, in place; return what became of it.
+
+    The tangent foretells each step (Runge and Kutta, fourth order); it is halved where the first correction is not
+    ``small``, radians.
+    """
+    n = len(unknowns)
+    rates, tried = np.empty((4, n), np.complex128), np.empty(n, np.complex128)
+    s, step = 0.0, _FIRST
+    for _ in range(_MOST):
+        length = min(step, 1.0 - s)
+        good = tangent(loops, signs, column, curve, s, unknowns, rates[0])
+        for stage in range(1, 4):
+            part = length if stage == 3 else 0.5 * length
+            for i in range(n):
+                tried[i] = unknowns[i] + part * rates[stage - 1, i]
+            good = good and tangent(loops, signs, column, curve, s + part, tried, rates[stage])
+        if good:
+            for i in range(n):
+                change = rates[0, i] + 2.0 * rates[1, i] + 2.0 * rates[2, i] + rates[3, i]
+                tried[i] = unknowns[i] + length / 6.0 * change
+            onwards = 1.0 if length >= 1.0 - s else s + length
+            there = parameters_at(curve[0], curve[1], curve[2], onwards)
+            first, error = corrected(loops, signs, column, there, tried, _CORRECTIONS)
+            if first <= small and error <= _CLOSED:
+                farthest = 0.0
+                for i in range(n):
+                    unknowns[i] = tried[i]
+                    farthest = max(farthest, abs(tried[i].imag))
+                if farthest > _FAR:
+                    return FAR
+                if onwards == 1.0:
+                    return ARRIVED
+                s, step = onwards, min(1.7 * length, _LARGEST)
+                continue
+        step = 0.5 * length
+        if step < _LEAST:
+            return STOPPED
+    return STOPPED
+
+
+@compiled
+def followed_all(
+    loops: Places,
+    signs: Signs,
+    column: Places,
+    curves: tuple[Complexes, Complexes, Complexes],
+    values: Complexes,
+    small: float,
+) -> Places:
+    """Follow solutions along curves, each along its own, in place; return what became of them: int[P]."""
+    ends = np.empty(len(values), np.int64)
+    for path in range(len(values)):
+        curve = (curves[0][path], curves[1][path], curves[2][path])
+        ends[path] = followed(loops, signs, column, curve, values[path], small)
+    return ends
+
+
+@compiled
+def corrected_all(
+    loops: Places, signs: Signs, column: Places, parameters: Complexes, values: Complexes, steps: int
+) -> Signs:
+    """Correct solutions, in place; return by how much loops do not close: float[P]."""
+    errors = np.empty(len(values))
+    for path in range(len(values)):
+        errors[path] = corrected(loops, signs, column, parameters[path], values[path], steps)[1]
+    return errors

@@ -1,0 +1,140 @@
+"""Why a mechanism moves, as data and in print. Theory: docs/theory/overconstraint.md."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees, isfinite
+from typing import Any
+
+from graphs.errors import numbered, shown
+from graphs.ids import JointId
+from graphs.printing import Block, TableBlock, html_of, plain, text_of
+from synth.overconstraint.tolerances import Tolerance
+
+__all__ = ["Explanation", "IdleSet"]
+
+_LISTED = 12
+"""Axes of which tolerances are printed; data has all."""
+
+
+@dataclass(frozen=True, slots=True)
+class IdleSet:
+    """Loops that together hold idle equations; without any of them they hold fewer.
+
+    Attributes
+    ----------
+    loops : tuple of tuples of joint ids
+    idle : int
+        Equations that follow from the others of these loops.
+    reasons : tuple of str
+        The special geometry that was recognised; empty where none was.
+    """
+
+    loops: tuple[tuple[JointId, ...], ...]
+    idle: int
+    reasons: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"loops": [list(loop) for loop in self.loops], "idle": self.idle, "reasons": list(self.reasons)}
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Explanation:
+    """Why a mechanism at a pose has more freedoms than equations allow. It prints as ``synth explain`` does.
+
+    Attributes
+    ----------
+    freedoms : int
+        Of first order, at the pose.
+    count : int
+        M: joints less equations.
+    idle : int
+        Equations that follow from others, h = freedoms - M.
+    active : int
+        Of them those that ask something of the motions at second order.
+    sets : tuple of IdleSet
+    tolerances : tuple of Tolerance
+        How far axes may err, least first; none where nothing is idle, or second order decides.
+    smallest, gap : float
+        The smallest singular value that counts, and it over the largest that does not.
+    """
+
+    freedoms: int
+    count: int
+    idle: int
+    active: int
+    sets: tuple[IdleSet, ...]
+    tolerances: tuple[Tolerance, ...]
+    smallest: float
+    gap: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        return {
+            "freedoms": self.freedoms,
+            "count": self.count,
+            "h": self.idle,
+            "active_at_second_order": self.active,
+            "sets": [one.to_json() for one in self.sets],
+            "tolerances": [
+                {
+                    "joint": one.joint,
+                    "turn_deg": degrees(one.turn) if isfinite(one.turn) else None,
+                    "shift": one.shift if isfinite(one.shift) else None,
+                }
+                for one in self.tolerances
+            ],
+            "smallest": self.smallest,
+            "gap": self.gap if isfinite(self.gap) else None,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        head = f"{numbered(self.freedoms, 'infinitesimal freedom')}, M = {self.count} by count: h = {self.idle}"
+        evidence = f"gap {self.gap:.0e}" if isfinite(self.gap) else "no zero singular value"
+        blocks: list[Block] = [f"{head}   ({evidence})"]
+        if not self.idle:
+            return [*blocks, "no equation is idle: a general member moves so too"]
+        if self.active:
+            blocks.append(
+                f"at second order {self.active} of {numbered(self.idle, 'idle equation')} ask something of the "
+                "motions: this pose is singular, and another one tells more"
+            )
+        else:
+            blocks.append("all of them are idle at second order too")
+        for one in self.sets:
+            names = "; ".join(shown(" ".join(map(str, loop))) for loop in one.loops)
+            why = ", ".join(one.reasons) or "no reason that is known here"
+            loops = numbered(len(one.loops), "loop")
+            blocks.append(f"{numbered(one.idle, 'idle equation')} in {loops} of joints {names}: {why}")
+        return [*blocks, *self._tolerances()]
+
+    def _tolerances(self) -> list[Block]:
+        if not self.tolerances:
+            return []
+        rows = [(plain(one.joint), _angle(one.turn), _length(one.shift)) for one in self.tolerances[:_LISTED]]
+        more = len(self.tolerances) - len(rows)
+        table = TableBlock(("axis", "turned, degrees", "shifted"), rows, ("turned, degrees", "shifted"))
+        told = (
+            "errors at which what was idle counts as much as the weakest equation that does; a hundredth of one "
+            "asks for a play of a hundredth of the motion:"
+        )
+        return [told, table, *([f"and {more} more axes that may err more"] if more else [])]
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
+
+    def __repr__(self) -> str:
+        return f"<Explanation: h = {self.idle}, {numbered(len(self.sets), 'set')} of loops>"
+
+
+def _angle(value: float) -> str:
+    return f"{degrees(value):.3g}" if isfinite(value) else "any"
+
+
+def _length(value: float) -> str:
+    return f"{value:.3g}" if isfinite(value) else "any"

@@ -1,0 +1,67 @@
+"""Why a mechanism moves although counts say no. Theory: docs/theory/overconstraint.md."""
+
+from __future__ import annotations
+
+from graphs.convert.table import Mechanism
+from graphs.mechanism.sheet import Sheet
+from synth.folding.linkage import PosedLinkage
+from synth.moving.linkages import linkage_of
+from synth.overconstraint.answer import Explanation, IdleSet
+from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets
+from synth.overconstraint.reasons import reasons_of
+from synth.overconstraint.tolerances import tolerances
+
+__all__ = ["explain"]
+
+
+def explain(thing: Mechanism | PosedLinkage) -> Explanation:
+    """Say which loops of a mechanism at its pose hold idle equations, why, and how far its axes may err.
+
+    Parameters
+    ----------
+    thing : Mechanism or PosedLinkage
+        With coordinates; of a sheet with several frames the first that has them.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no coordinates.
+    NumericalError
+        If singular values do not tell the rank at the pose.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> found = explain(generate("bennett").mechanism)
+    >>> found.freedoms, found.count, found.idle, found.sets[0].reasons[0]
+    (1, -2, 3, 'opposite links alike, lengths as the sines of the twists (Bennett)')
+    """
+    if isinstance(thing, Sheet) and thing.frames is not None:
+        thing = thing.frames.first_placed()
+    linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
+    return _explained(linkage)
+
+
+def _explained(linkage: PosedLinkage) -> Explanation:
+    order = first_order(linkage)
+    names = list(linkage.graph.joints)
+    active = active_at_second_order(linkage, order)
+    sets = tuple(
+        IdleSet(
+            tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
+            number,
+            tuple(reasons_of(linkage, loops)),
+        )
+        for loops, number in smallest_sets(linkage, order)
+    )
+    freedoms, idle = order.rates.shape[1], order.stresses.shape[1]
+    return Explanation(
+        freedoms=freedoms,
+        count=len(names) - len(order.loop_of),
+        idle=idle,
+        active=active,
+        sets=sets,
+        tolerances=tuple(tolerances(linkage, order)) if idle and freedoms and not active else (),
+        smallest=order.smallest,
+        gap=order.gap,
+    )

@@ -1,0 +1,165 @@
+"""Which loops hold an equation that follows from others: smallest sets of loops, and what second order asks.
+
+An idle equation is a self-stress, a sum of closure equations that is zero at the pose whatever joints do. Theory:
+docs/theory/overconstraint.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphs.arrays import Floats, Ints
+from graphs.errors import NumericalError
+from graphs.loops.loop import Centre
+from graphs.rank.singular_values import spectrum
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage, PosedLoop
+
+__all__ = ["FirstOrder", "active_at_second_order", "first_order", "loop_alone", "smallest_sets"]
+
+_ERROR = 1e-10
+"""Of derivatives at a pose that closes to 1e-12."""
+_ZERO = 1e-7
+_NUDGE = 1e-4
+_FORM = 1e-5
+"""Of quadratic forms by differences, which have an error of the square of the nudge."""
+
+
+@dataclass(frozen=True, slots=True)
+class FirstOrder:
+    """Closure equations at a pose.
+
+    Attributes
+    ----------
+    matrix : float[rows, J]
+        Derivatives, the loops of the linkage one after the other.
+    loop_of : int[rows]
+    rates : float[J, f]
+        Orthonormal: all motions of first order.
+    stresses : float[rows, idle]
+        Orthonormal: sums of equations that are zero.
+    smallest : float
+        The smallest singular value that counts.
+    gap : float
+        It over the largest that does not; infinite where there is none.
+    """
+
+    matrix: Floats
+    loop_of: Ints
+    rates: Floats
+    stresses: Floats
+    smallest: float
+    gap: float
+
+
+def first_order(linkage: PosedLinkage) -> FirstOrder:
+    """Return the closure equations at the pose of a linkage, with their rank.
+
+    Raises
+    ------
+    NumericalError
+        If singular values do not tell the rank.
+
+    Examples
+    --------
+    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.patterns import generate
+    >>> found = first_order(linkage_of(generate("bennett").mechanism))
+    >>> found.rates.shape[1], found.stresses.shape[1]
+    (1, 3)
+    """
+    matrix, loop_of = _by_loops(linkage, linkage.angles)
+    found = spectrum(matrix, _ERROR)
+    if found.rank is None:
+        raise NumericalError("the rank of the closure equations at the pose cannot be told")
+    left, values, right = np.linalg.svd(matrix)
+    smallest = float(values[found.rank - 1]) if found.rank else 0.0
+    return FirstOrder(matrix, loop_of, right[found.rank :].T, left[:, found.rank :], smallest, found.gap)
+
+
+def smallest_sets(linkage: PosedLinkage, order: FirstOrder) -> list[tuple[tuple[int, ...], int]]:
+    """Return sets of loops, none larger than it must be, whose equations are idle, and how many are in each.
+
+    A set is grown from a loop, nearest loops first, until it holds an idle equation that no earlier set does; then
+    loops without which it still does are left out, farthest first.
+    """
+    wanted = order.stresses.shape[1]
+    nearest = _nearest_first(linkage)
+    sets: list[tuple[tuple[int, ...], int]] = []
+    known = np.zeros((len(order.loop_of), 0))
+    for size in range(1, len(linkage.loops) + 1):
+        for seed in range(len(linkage.loops)):
+            if known.shape[1] == wanted:
+                return sets
+            chosen = nearest[seed][:size]
+            while (new := _new_stresses(order, chosen, known)).shape[1]:
+                for loop in chosen[::-1]:
+                    fewer = [one for one in chosen if one != loop]
+                    if fewer and (left := _new_stresses(order, fewer, known)).shape[1]:
+                        chosen, new = fewer, left
+                sets.append((tuple(sorted(chosen)), new.shape[1]))
+                known = np.linalg.svd(np.hstack([known, new]), full_matrices=False)[0]
+                chosen = nearest[seed][:size]
+    return sets
+
+
+def active_at_second_order(linkage: PosedLinkage, order: FirstOrder) -> int:
+    """Return how many idle equations ask something of the motions at second order, and so are not idle there.
+
+    Each self-stress makes a quadratic form of the rates; as many are active as forms are independent.
+    """
+    rates, stresses = order.rates, order.stresses
+    forms = []
+    for k in range(rates.shape[1]):
+        ahead, back = (_by_loops(linkage, linkage.angles + way * _NUDGE * rates[:, k])[0] for way in (1.0, -1.0))
+        forms.append(stresses.T @ (ahead - back) / (2 * _NUDGE) @ rates)
+    if not forms or not stresses.shape[1]:
+        return 0
+    stacked = np.stack(forms, axis=1)  # [idle, f, f]
+    symmetric = (stacked + stacked.transpose(0, 2, 1)).reshape(stresses.shape[1], -1)
+    values = np.linalg.svd(symmetric, compute_uv=False)
+    return int((values > _FORM).sum())
+
+
+def loop_alone(linkage: PosedLinkage, loop: PosedLoop) -> PosedLinkage:
+    """Return a linkage of which only one loop has to close."""
+    return replace(linkage, loops=(loop,))
+
+
+def _by_loops(linkage: PosedLinkage, angles: Floats) -> tuple[Floats, Ints]:
+    """Return the derivatives of closure equations, loop after loop, and the loop of each row."""
+    rows, loop_of = [np.zeros((0, len(angles)))], []
+    for number, loop in enumerate(linkage.loops):
+        rows.append(ClosureEquations(loop_alone(linkage, loop)).at(angles)[1].toarray())
+        loop_of += [number] * (6 if loop.centre is Centre.NONE else 3)
+    return np.vstack(rows), np.array(loop_of, dtype=np.int64)
+
+
+def _nearest_first(linkage: PosedLinkage) -> list[list[int]]:
+    """Return, for each loop, all loops in the order of their distance from it, by joints in common."""
+    joints = [set(loop.joints) for loop in linkage.loops]
+    orders = []
+    for seed in range(len(joints)):
+        order, seen = [seed], {seed}
+        for one in order:
+            near = [other for other in range(len(joints)) if other not in seen and joints[one] & joints[other]]
+            near.sort(key=lambda other: (-sum(bool(joints[other] & joints[k]) for k in order), other))
+            order += near
+            seen.update(near)
+        orders.append(order + [other for other in range(len(joints)) if other not in seen])
+    return orders
+
+
+def _new_stresses(order: FirstOrder, loops: list[int], known: Floats) -> Floats:
+    """Return self-stresses of some loops alone that are independent of known ones: float[rows, n]."""
+    inside = np.isin(order.loop_of, loops)
+    part = order.matrix[inside]
+    left, values, _ = np.linalg.svd(part)
+    rank = int((values > _ZERO * max(float(values[0]), 1.0)).sum()) if len(values) else 0
+    found = np.zeros((len(order.loop_of), part.shape[0] - rank))
+    found[inside] = left[:, rank:]
+    beside = found - known @ (known.T @ found)
+    basis, sizes, _ = np.linalg.svd(beside, full_matrices=False)
+    return np.asarray(basis[:, sizes > _ZERO**0.5])

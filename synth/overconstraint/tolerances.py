@@ -1,0 +1,102 @@
+"""How far axes may err before an idle equation counts. Theory: docs/theory/overconstraint.md.
+
+An error of an axis leaves the loops closed at the pose, and makes what was idle an equation of the rates: its
+singular value grows from zero in proportion. Where it reaches the smallest one that counts, the linkage is locked
+by it as by any other equation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.ids import JointId
+from synth.folding.closure import ClosureEquations
+from synth.folding.linkage import PosedLinkage
+from synth.overconstraint.idle import FirstOrder, loop_alone
+
+__all__ = ["Tolerance", "tolerances"]
+
+_NUDGE = 1e-4
+_NOTHING = 1e-8
+"""Growth that is rounding: the error does no harm to first order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """Errors of one joint axis at which a freedom is as good as gone.
+
+    Attributes
+    ----------
+    joint : joint id
+    turn : float
+        Of its direction, about its own point, the worst way: radians; infinite if it does no harm to first order.
+    shift : float
+        Across itself, the worst way, in the unit of the coordinates.
+    """
+
+    joint: JointId
+    turn: float
+    shift: float
+
+
+def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
+    """Return how far each axis may err, least first.
+
+    Examples
+    --------
+    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.overconstraint.idle import first_order
+    >>> from synth.patterns import generate
+    >>> linkage = linkage_of(generate("bennett").mechanism)
+    >>> len(tolerances(linkage, first_order(linkage)))
+    4
+    """
+    growth = growths(linkage, order)
+    found = []
+    for place, joint in enumerate(linkage.graph.joints):
+        axis, point = linkage.directions[place], linkage.points[place]
+        across = np.eye(3) - np.outer(axis, axis)
+        turned, shifted = growth[:, 6 * place : 6 * place + 3], growth[:, 6 * place + 3 : 6 * place + 6]
+        about_itself = (turned + shifted @ _cross_with(point)) @ across
+        found.append(
+            Tolerance(
+                joint,
+                _allowed(order.smallest, about_itself),
+                _allowed(order.smallest, shifted @ across) * linkage.extent,
+            )
+        )
+    return sorted(found, key=lambda one: (min(one.turn, one.shift / linkage.extent), str(one.joint)))
+
+
+def growths(linkage: PosedLinkage, order: FirstOrder) -> Floats:
+    """Return what idle equations say of the rates for small motions of the axes: float[idle f, 6 J].
+
+    By a rotation about the origin and a shift of each axis in turn; f rates.
+    """
+    stresses, rates = order.stresses, order.rates
+    found = []
+    for k in range(rates.shape[1]):
+        ahead, back = (
+            np.vstack(
+                [ClosureEquations(loop_alone(linkage, loop)).by_axes(angles).toarray() for loop in linkage.loops]
+            )
+            for angles in (linkage.angles + way * _NUDGE * rates[:, k] for way in (1.0, -1.0))
+        )
+        found.append(stresses.T @ (ahead - back) / (2 * _NUDGE))
+    return np.vstack([np.zeros((0, 6 * len(linkage.angles))), *found])
+
+
+def _allowed(smallest: float, growth: Floats) -> float:
+    """Return the error that makes the singular value grow to the smallest that counts."""
+    largest = float(np.linalg.norm(growth, 2)) if growth.size else 0.0
+    return smallest / largest if largest > _NOTHING else inf
+
+
+def _cross_with(point: Floats) -> Floats:
+    """Return the matrix of the cross product of a point with what it is applied to."""
+    x, y, z = point
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

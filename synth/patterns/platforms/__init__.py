@@ -1,0 +1,1 @@
+"""Parallel platforms: a base and a top joined by legs with joints of all kinds."""

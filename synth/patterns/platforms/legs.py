@@ -1,0 +1,153 @@
+"""Platforms by the letters of their legs: UPS, RUS, UUU, SPS, RPS, UPU. Theory: docs/theory/joints.md."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, pi, sin
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.ids import JointId, LinkId
+from graphs.joints.kinds import JointKind
+from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
+from graphs.mechanism.sc import SCGraph
+
+__all__ = ["platform"]
+
+_DIGITS = 14
+_UP = np.array([0.0, 0.0, 1.0])
+_THIRD = 2 * pi / 3
+
+Joint = tuple[JointKind, JointPlace]
+LegOf = Callable[[Floats, Floats, float], tuple[Joint, ...]]
+"""From the foot, the head and how far the knee is out to the joints, from base to top."""
+
+
+def platform(
+    legs: str, number: int, base: float, top: float, height: float, gap: float = 0.0, out: float = 0.0
+) -> JointedLinkage:
+    """Return a base and a top above it, joined by three or six legs that are alike.
+
+    Parameters
+    ----------
+    legs : {"UPS", "RUS", "UUU", "SPS", "RPS", "UPU"}
+        The joints of a leg from the base on. P lies along the leg, U beside it holds one axis across it.
+    number : {3, 6}
+        Of legs. Six stand in three pairs at the base, and in three others at the top.
+    base, top : float
+        Radius of the circle on which feet or heads lie.
+    height : float
+    gap : float, optional
+        Angle between the two legs of a pair, radians; of six legs only.
+    out : float, optional
+        How far the knees of legs without P are outside.
+
+    Examples
+    --------
+    >>> stewart = platform("UPS", 6, 1.0, 0.6, 1.0, gap=0.5)
+    >>> stewart, stewart.mobility
+    (<JointedLinkage: 14 links, 18 joints: 6P 6S 6U, placed>, 6)
+    """
+    leg_of = _LEGS[legs]
+    feet, heads = _azimuths(number, gap)
+    links: list[LinkId] = ["base", "top"]
+    joints: dict[JointId, tuple[LinkId, LinkId]] = {}
+    kinds: dict[JointId, JointKind] = {}
+    places: dict[JointId, JointPlace] = {}
+    for leg, (foot, head) in enumerate(zip(feet, heads, strict=True)):
+        made = leg_of(_on_circle(base, foot, 0.0), _on_circle(top, head, height), out)
+        row: list[LinkId] = ["base", *(f"leg{leg}-{part}" for part in range(1, len(made))), "top"]
+        links += row[1:-1]
+        for place, (kind, where) in enumerate(made):
+            joint = f"{kind.value}{leg}-{place}"
+            joints[joint] = (row[place], row[place + 1])
+            kinds[joint], places[joint] = kind, where
+    return JointedLinkage(SCGraph(links, joints, ground="base"), kinds, places)
+
+
+def _azimuths(number: int, gap: float) -> tuple[list[float], list[float]]:
+    """Return where feet and heads of legs are: of six legs, the pairs of heads are between those of the feet."""
+    if number == 3:
+        return ([k * _THIRD for k in range(3)],) * 2
+    sides = [(k, side) for k in range(3) for side in (-1, 1)]
+    feet = [k * _THIRD + side * gap / 2 for k, side in sides]
+    return feet, [k * _THIRD + side * (_THIRD - gap) / 2 for k, side in sides]
+
+
+def _with_slide(first: JointKind, last: JointKind) -> LegOf:
+    """Return legs of which the middle joint slides along them."""
+
+    def made(foot: Floats, head: Floats, _: float) -> tuple[Joint, ...]:
+        along = _unit(head - foot)
+        level = _unit(np.cross(_UP, along))
+        across = np.cross(along, level)
+        return (
+            (first, _place(foot, *_held(first, level, across))),
+            (JointKind.PRISMATIC, _place((foot + head) / 2, along)),
+            (last, _place(head, *_held(last, level, across)[::-1])),
+        )
+
+    return made
+
+
+def _held(kind: JointKind, level: Floats, across: Floats) -> tuple[Floats, ...]:
+    """Return the axes of an end joint, from its end on: of a universal joint that across the leg is the leg's."""
+    return {JointKind.UNIVERSAL: (level, across), JointKind.REVOLUTE: (level,)}.get(kind, ())
+
+
+def _crank_and_rod(foot: Floats, head: Floats, out: float) -> tuple[Joint, ...]:
+    """Return R at the base, U at the knee, S at the top."""
+    level, knee = _knee(foot, head, out)
+    rod = _unit(head - knee)
+    turned = _unit(np.cross(level, rod))
+    return (
+        (JointKind.REVOLUTE, _place(foot, level)),
+        (JointKind.UNIVERSAL, _place(knee, level, turned)),
+        (JointKind.SPHERICAL, _place(head)),
+    )
+
+
+def _three_universal(foot: Floats, head: Floats, out: float) -> tuple[Joint, ...]:
+    level, knee = _knee(foot, head, out)
+    crank, rod = _unit(knee - foot), _unit(head - knee)
+    return (
+        (JointKind.UNIVERSAL, _place(foot, level, np.cross(crank, level))),
+        (JointKind.UNIVERSAL, _place(knee, level, np.cross(rod, level))),
+        (JointKind.UNIVERSAL, _place(head, np.cross(rod, level), level)),
+    )
+
+
+def _knee(foot: Floats, head: Floats, out: float) -> tuple[Floats, Floats]:
+    """Return the level direction across a leg, and its knee, so far out from the middle of foot and head."""
+    level = _unit(np.cross(_UP, head - foot))
+    outwards = _unit(np.cross(head - foot, level))
+    middle = (foot + head) / 2
+    return level, middle + out * (outwards if outwards @ middle > 0.0 else -outwards)
+
+
+_LEGS: dict[str, LegOf] = {
+    "UPS": _with_slide(JointKind.UNIVERSAL, JointKind.SPHERICAL),
+    "SPS": _with_slide(JointKind.SPHERICAL, JointKind.SPHERICAL),
+    "RPS": _with_slide(JointKind.REVOLUTE, JointKind.SPHERICAL),
+    "UPU": _with_slide(JointKind.UNIVERSAL, JointKind.UNIVERSAL),
+    "RUS": _crank_and_rod,
+    "UUU": _three_universal,
+}
+
+
+def _on_circle(radius: float, azimuth: float, height: float) -> Floats:
+    return np.array([radius * cos(azimuth), radius * sin(azimuth), height])
+
+
+def _place(point: Floats, *axes: Floats) -> JointPlace:
+    return JointPlace(_rounded(point), tuple(map(_rounded, axes)))
+
+
+def _rounded(one: Floats) -> Vector:
+    x, y, z = (round(value, _DIGITS) + 0.0 for value in one.tolist())
+    return (x, y, z)
+
+
+def _unit(vector: Floats) -> Floats:
+    return np.asarray(vector / np.linalg.norm(vector))

@@ -1,0 +1,59 @@
+"""The generators of parallel platforms. Theory: docs/theory/joints.md."""
+
+from __future__ import annotations
+
+from graphs.joints.linkage import JointedLinkage
+from synth.patterns.generator import Generator, Parameter, angle, length
+from synth.patterns.platforms.legs import platform
+
+__all__ = ["GENERATORS"]
+
+_RADII = (length("base", 1.0, 0.5, 10, "radius of the feet"), length("top", 0.6, 0.1, 10, "radius of the heads"))
+_HEIGHT = length("height", 1.0, 0.3, 10, "of the top over the base")
+_GAP = angle("gap", 30, 5, 50, "between the two feet, and the two heads, of a pair")
+_OUT = length("out", 0.4, 0.1, 10, "of the knees beside the line from foot to head")
+
+
+def _generator(
+    name: str, title: str, legs: tuple[str, int], more: tuple[Parameter, ...], told: tuple[int, str, str]
+) -> Generator:
+    letters, number = legs
+    freedoms, conditions, source = told
+
+    def make(**values: float) -> JointedLinkage:
+        return platform(letters, number, **values)
+
+    return Generator(name, title, make, (*_RADII, _HEIGHT, *more), lambda _: freedoms, conditions, source)
+
+
+GENERATORS = (
+    _generator(
+        "stewart", "Platform on six UPS legs", ("UPS", 6), (_GAP,),
+        (6, "each leg takes nothing: 36 - 30", "Stewart 1965; Hunt 1983"),
+    ),
+    _generator(
+        "6-sps", "Platform on six SPS legs", ("SPS", 6), (_GAP,),
+        (12, "six of them are legs that spin about themselves: 42 - 30", "Stewart 1965; Hunt 1983"),
+    ),
+    _generator(
+        "6-rus", "Platform on six RUS legs", ("RUS", 6), (_GAP, _OUT),
+        (6, "each leg takes nothing: 36 - 30", "Hunt 1983"),
+    ),
+    _generator(
+        "6-uuu", "Platform on six UUU legs", ("UUU", 6), (_GAP, _OUT),
+        (6, "each leg takes nothing: 36 - 30", "count of freedoms (Kutzbach)"),
+    ),
+    _generator(
+        "3-rps", "Platform on three RPS legs", ("RPS", 3), (),
+        (3, "each leg takes one freedom: 15 - 12", "Hunt 1983"),
+    ),
+    _generator(
+        "3-upu", "Platform on three UPU legs", ("UPU", 3), (),
+        (3, "the axes of each leg at base and top parallel, and so are the two across it: the top is shifted only",
+         "Tsai 1996"),
+    ),
+    _generator(
+        "3-uuu", "Platform on three UUU legs", ("UUU", 3), (_OUT,),
+        (6, "each leg takes nothing: 18 - 12", "count of freedoms (Kutzbach)"),
+    ),
+)  # fmt: skip

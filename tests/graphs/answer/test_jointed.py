@@ -1,0 +1,72 @@
+"""Mobility of linkages with joints of all kinds: counted, by ranks, and passive freedoms told apart."""
+
+import pytest
+from random_joints import random_jointed
+
+from graphs.answer.jointed import freedoms_by_screws, passive_freedoms
+from graphs.answer.mechanisms import mobility
+from graphs.joints import JointedLinkage, JointKind, placed
+from graphs.joints.linkage import legs
+from graphs.mechanism.sc import SCGraph
+from synth.patterns import generate
+
+PLATFORMS = {
+    "stewart": (6, 0), "6-rus": (6, 0), "6-uuu": (6, 0), "6-sps": (12, 6), "3-rps": (3, 0), "3-upu": (3, 0),
+    "3-uuu": (6, 0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PLATFORMS)
+def test_platforms_have_the_freedoms_of_their_sources(name):
+    freedoms, passive = PLATFORMS[name]
+    answer = mobility(generate(name).mechanism)
+    assert (answer.mobility, answer.pose.dof, answer.counts["passive"]) == (freedoms, freedoms, passive)
+    assert answer.overconstraint == 0
+    assert any("legs that spin" in note for note in answer.warnings) == bool(passive)
+
+
+def test_a_type_without_places_has_no_pose():
+    linkage = generate("6-sps").mechanism
+    answer = mobility(JointedLinkage(linkage.chain, linkage.kinds))
+    assert (answer.mobility, answer.pose, answer.counts["passive"]) == (12, None, 6)
+    assert "of a general member, placed at random, the freedoms are 12" in " ".join(answer.warnings)
+
+
+def test_an_exact_rank_is_not_passed_over_in_silence():
+    linkage = generate("3-rps").mechanism
+    assert any("no exact rank" in note for note in mobility(linkage, exact=True).warnings)
+    assert not any("no exact rank" in note for note in mobility(linkage).warnings)
+
+
+def test_a_slide_alone_moves_although_its_revolutes_count_none():
+    chain = SCGraph(2, {"p": (0, 1)})
+    answer = mobility(placed(JointedLinkage(chain, {"p": JointKind.PRISMATIC})))
+    assert (answer.mobility, answer.pose.dof, answer.equations["loop_form"].value) == (1, 1, 0)
+    assert "revolutes alone count 0" in " ".join(answer.warnings)
+
+
+def freedoms_of_leg_held(linkage, joints):
+    """Of a leg whose ends are one body: a ring, closed by itself."""
+    n = len(joints)
+    ring = SCGraph(n, {joint: (i, (i + 1) % n) for i, joint in enumerate(joints)})
+    kinds = {joint: linkage.kinds[joint] for joint in joints}
+    return freedoms_by_screws(JointedLinkage(ring, kinds, {joint: linkage.places[joint] for joint in joints}))
+
+
+def test_passive_freedoms_are_those_of_legs_whose_ends_are_held():
+    told = 0
+    for seed in range(20):
+        linkage = placed(random_jointed(seed), seed)
+        passive = passive_freedoms(linkage)
+        told += len(passive)
+        for one in passive:
+            assert one.freedoms == freedoms_of_leg_held(linkage, one.joints)
+        moving = {joint for one in passive for joint in one.joints}
+        for leg in legs(linkage.chain):
+            if len(leg.joints) > 1 and not moving & set(leg.joints) and leg.links[0] != leg.links[-1]:
+                assert freedoms_of_leg_held(linkage, leg.joints) == 0 or is_open(linkage.chain, leg)
+    assert told > 2
+
+
+def is_open(chain, leg):
+    return 1 in (chain.degree(leg.links[0]), chain.degree(leg.links[-1]))
