@@ -59,8 +59,8 @@ if TYPE_CHECKING:
     from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
     from graphs.reduce.ride_alongs import reduce as reduce
     from synth.advice.advised import advise as advise
-    from synth.atlas.asked.opened import open_atlas as open_atlas
     from synth.assembly.found import positions as positions
+    from synth.atlas.asked.opened import open_atlas as open_atlas
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.folding.motion import fold as fold
     from synth.guidance.fourbars import four_bars as four_bars
