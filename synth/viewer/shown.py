@@ -23,6 +23,7 @@ from synth.folding.prepared import Prepared, prepared
 from synth.moving.linkages import linkage_of, sheet_of
 from synth.verdict.judged import mobility
 from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet
+from synth.viewer.centres import ShownCentre, centres_of_linkage, centres_of_pattern
 from synth.viewer.solver_data import solver_data
 from synth.viewer.ways import Ways, ways_of_linkage, ways_of_pattern
 
@@ -43,6 +44,7 @@ class Moving:
     bodies : Bodies
     ways : Ways or None
         None where nothing moves, or no motion was found.
+    centres : tuple of ShownCentre
     ground : int
         Place of the link that stays.
     limited : bool
@@ -52,6 +54,7 @@ class Moving:
     linkage: PosedLinkage
     bodies: Bodies
     ways: Ways | None
+    centres: tuple[ShownCentre, ...]
     ground: int
     limited: bool
 
@@ -63,6 +66,7 @@ class Moving:
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
             "ways": None if self.ways is None else self.ways.to_json(),
+            "centres": [centre.to_json() for centre in self.centres],
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
             "between": [[number[one], number[other]] for one, other in graph.joints.values()],
@@ -173,14 +177,15 @@ def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving
 def _linkage(linkage: PosedLinkage, notes: list[str]) -> Moving:
     check_closed(ClosureEquations(linkage), linkage)
     ways = _begun(ways_of_linkage, linkage, notes) if len(linkage.angles) else None
-    return Moving(linkage, bodies_of_linkage(linkage), ways, ground=0, limited=False)
+    return Moving(linkage, bodies_of_linkage(linkage), ways, centres_of_linkage(linkage), ground=0, limited=False)
 
 
 def _pattern(pattern: Prepared, notes: list[str]) -> Moving:
     notes += [f"mended: {repair}" for repair in pattern.repairs]
     ways = _begun(ways_of_pattern, pattern, notes) if len(pattern.linkage.angles) else None
     bodies = bodies_of_sheet(pattern.sheet, pattern.mechanism, pattern.linkage)
-    return Moving(pattern.linkage, bodies, ways, largest_panel(pattern.mechanism.panels), limited=True)
+    ground = largest_panel(pattern.mechanism.panels)
+    return Moving(pattern.linkage, bodies, ways, centres_of_pattern(pattern), ground, limited=True)
 
 
 def _begun(ways_of: Callable[[_Posed], Ways], posed: _Posed, notes: list[str]) -> Ways | None:

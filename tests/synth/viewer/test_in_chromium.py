@@ -8,6 +8,7 @@ import pytest
 
 import synth
 from graphs.files.formats import read
+from graphs.mechanism.sheet import Sheet
 from synth.viewer.building import BUILT
 from synth.viewer.pages import page
 from synth.viewer.shown import shown_of
@@ -69,12 +70,25 @@ class Opened:
         self.tab.goto(place.as_uri())
         self.tab.wait_for_selector("main[data-ready]", timeout=WAIT)
 
-    def to(self, degrees):
-        self.tab.get_by_label("Angle, degrees").fill(str(degrees))
-        self.tab.get_by_label("Angle, degrees").press("Enter")
+    def to(self, degrees, slider=0):
+        field = self.tab.locator(".sliders input[type=number]").nth(slider)
+        field.fill(str(degrees))
+        field.press("Enter")
+
+    def angles(self):
+        """Degrees at the sliders, one for each freedom; the last slider is that of the path."""
+        sliders = self.tab.locator(".sliders .drive:not(.path) input[type=range]")
+        return [float(slider.input_value()) for slider in sliders.all()]
 
     def angle(self):
-        return float(self.tab.get_by_label("Angle of the driven joint, degrees").input_value())
+        return self.angles()[0]
+
+    def travelled(self):
+        return float(self.tab.get_by_label("Along the path").input_value())
+
+    def along(self, degrees):
+        """Go to a place along the path."""
+        self.tab.get_by_label("Along the path").fill(str(degrees))
 
     def status(self):
         return self.tab.locator(".status").text_content()
@@ -163,7 +177,7 @@ def test_it_plays_and_stops(opened, data):
     before = window.angle()
     window.tab.get_by_role("button", name="Play").click()
     window.tab.wait_for_function(
-        "before => Math.abs(document.querySelector('input[type=range]').value - before) > 3",
+        "before => Math.abs(document.querySelector('.sliders input[type=range]').value - before) > 3",
         arg=before,
         timeout=WAIT,
     )
@@ -171,6 +185,84 @@ def test_it_plays_and_stops(opened, data):
     here = window.angle()
     window.tab.wait_for_timeout(100)
     assert window.angle() == here
+
+
+def test_there_is_a_slider_for_each_freedom_and_the_others_stay(opened, data):
+    window = opened(PANELS["bird base"](data), name="bird base")
+    assert len(window.angles()) == 5
+    window.to(40)  # the first leaves the flat sheet, and the others with it
+    for slider, turn in ((3, 4), (1, 2), (4, -2)):
+        before = window.angles()
+        degrees = before[slider] + turn
+        window.to(degrees, slider)
+        after = window.angles()
+        assert after[slider] == pytest.approx(degrees, abs=1e-6)
+        assert [a for n, a in enumerate(after) if n != slider] == [b for n, b in enumerate(before) if n != slider]
+        assert window.closure() <= 1e-10
+
+
+def test_sliders_pulled_in_another_order_lead_to_the_same_pose(opened, data):
+    window, found = opened(PANELS["bird base"](data)), []
+    for order in ((1, 3, 4), (4, 1, 3)):
+        window.tab.get_by_role("button", name="Reset").click()
+        window.to(40)
+        begun = window.angles()
+        for slider in order:
+            window.to(begun[slider] + {1: 2, 3: 4, 4: -2}[slider], slider)
+        found.append(window.pose()["vertices_coords"])
+    np.testing.assert_allclose(found[1], found[0], atol=1e-6)
+
+
+def test_along_the_path_it_goes_past_where_the_driven_joint_turns_back(opened, data):
+    window = opened(PANELS["bird base"](data))
+    window.to(150)
+    assert "turns back here" in window.status()
+    top, travelled = window.angle(), window.travelled()
+    window.along(travelled + 40)
+    assert window.angle() < top - 1
+    assert window.closure() <= 1e-10
+    window.along(travelled)
+    assert window.angle() == pytest.approx(top, abs=0.1)
+
+
+def test_any_joint_gets_a_slider(opened, data):
+    window = opened(PANELS["bird base"](data))
+    window.tab.get_by_label("Driven joint").select_option(label="joint 3")
+    names = window.tab.locator(".sliders .name").all_inner_texts()
+    assert len(names) == 6
+    assert "joint 3" in names
+    assert window.tab.locator(".sliders .driven .name").inner_text() == "joint 3"
+
+
+def test_panels_that_pass_through_each_other_are_told(opened):
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1), (-1.5, 0), (-1.5, 1), (2.5, 0), (2.5, 1))
+    strip = Sheet(8, ((0, 3), (1, 2)), "VV", ((0, 1, 2, 3), (4, 0, 3, 5), (1, 6, 7, 2)), corners)
+    window = opened(strip)
+    crossed = window.tab.locator(".crossed")
+    window.to(120, 0)
+    assert crossed.text_content() == ""
+    window.to(130, 1)
+    assert crossed.text_content() == "Panels pass through each other: 1 and 2"
+    window.to(20, 1)
+    assert crossed.text_content() == ""
+
+
+def test_a_limit_is_told_in_words(opened):
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1))
+    window = opened(Sheet(6, ((1, 2),), "V", ((0, 1, 2, 3), (1, 4, 5, 2)), corners))
+    window.along(200)
+    assert "panels lie on each other at joint 0" in window.status()
+    assert window.angle() == pytest.approx(180)
+
+
+def test_a_centre_that_is_clicked_tells_what_it_is(opened, data):
+    window = opened(PANELS["bird base"](data))
+    window.tab.locator(".model canvas").click()
+    told = window.tab.locator(".part").text_content()
+    assert told.startswith("Centre 0, explicit: a vertex of panels; of joints ")
+    window.tab.get_by_label("centres").uncheck()
+    window.tab.locator(".model canvas").click()
+    assert window.tab.locator(".part").text_content().startswith("Joint ")
 
 
 def test_a_click_in_the_drawing_tells_the_number(opened, data):

@@ -31,8 +31,9 @@ export function layout(root) {
     driver: element("select", { "aria-label": "Driven joint" }),
     play: element("button", { type: "button", class: "play" }, "Play"),
     speed: element("select", { "aria-label": "Speed" }, ...speeds()),
-    slider: element("input", { type: "range", step: "any", "aria-label": "Angle of the driven joint, degrees" }),
-    angle: element("input", { type: "number", step: "any", "aria-label": "Angle, degrees" }),
+    sliders: element("div", { class: "sliders", role: "group", "aria-label": "A slider for each freedom" }),
+    centres: element("input", { type: "checkbox", checked: "" }),
+    crossed: element("p", { class: "crossed", role: "status", "aria-live": "polite" }),
     reset: element("button", { type: "button" }, "Reset"),
     fit: element("button", { type: "button" }, "Fit"),
     folds: element("input", { type: "checkbox", checked: "" }),
@@ -47,13 +48,14 @@ export function layout(root) {
     details: element("details", {}, element("summary", {}, "Freedoms and equations")),
     bench: element("div", { class: "bench" }),
   };
-  const drive = element("div", { class: "row drive" },
-    made.play, made.slider, element("span", { class: "angle" }, made.angle, "°"));
   const choose = element("div", { class: "row" },
+    made.play, made.reset, made.fit,
     labelled("Drive", made.driver), labelled("Way", made.way), labelled("Speed", made.speed),
-    element("label", { class: "check" }, made.folds, "drag folds"), made.reset, made.fit,
+    element("label", { class: "check" }, made.folds, "drag folds"),
+    element("label", { class: "check" }, made.centres, "centres"),
     element("span", { class: "save" }, "Save ", made.fold, made.obj, made.png));
-  const controls = element("section", { class: "controls", "aria-label": "Motion" }, drive, choose, made.status);
+  const controls = element("section", { class: "controls", "aria-label": "Motion" },
+    made.sliders, choose, made.crossed, made.status);
   made.panes.append(made.pattern, made.model);
   made.details.append(made.report);
   const header = element("header", {}, made.bench, made.list, made.verdict);

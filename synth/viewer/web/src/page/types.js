@@ -13,17 +13,27 @@
  * @property {string} told
  * @property {number[]} rates
  * @property {number[]} still - Places of joints.
- * @property {number} driver
+ * @property {number[]} drivers - Of independent ones, one for each freedom; the first begins fastest.
+ * @property {number | null} freedoms - Null: not known.
  *
  * @typedef {object} WaysData
  * @property {WayData[]} all
  * @property {boolean} singular
  * @property {number} taken
  *
+ * @typedef {object} CentreData
+ * @property {"explicit" | "implicit" | "finite" | "infinite"} kind
+ * @property {number[]} place - At the pose of the file; of an infinite one among its axes.
+ * @property {number[] | null} direction - Of the axes of an infinite one.
+ * @property {number} link - One that carries it.
+ * @property {number[]} joints - Those whose axes pass through it.
+ * @property {number} loops - How many share it.
+ *
  * @typedef {object} MovingData
  * @property {LinkageData} solver
  * @property {BodyData} bodies
  * @property {WaysData | null} ways
+ * @property {CentreData[]} centres
  * @property {string[]} joints
  * @property {string[]} links
  * @property {[number, number][]} between - The links that each joint joins, by their places.
