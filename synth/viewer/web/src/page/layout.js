@@ -40,6 +40,8 @@ export function layout(root) {
     fold: element("button", { type: "button" }, "FOLD"),
     obj: element("button", { type: "button" }, "OBJ"),
     png: element("button", { type: "button" }, "PNG"),
+    svg: element("button", { type: "button" }, "SVG"),
+    json: element("button", { type: "button" }, "JSON"),
     status: element("p", { class: "status", role: "status", "aria-live": "polite" }),
     part: element("p", { class: "part", role: "status", "aria-live": "polite" }),
     notes: element("ul", { class: "notes" }),
@@ -53,14 +55,16 @@ export function layout(root) {
     labelled("Drive", made.driver), labelled("Way", made.way), labelled("Speed", made.speed),
     element("label", { class: "check" }, made.folds, "drag folds"),
     element("label", { class: "check" }, made.centres, "centres"),
-    element("span", { class: "save" }, "Save ", made.fold, made.obj, made.png));
+    element("span", { class: "save" }, "Pose ", made.fold, made.obj, made.png));
+  const told = element("div", { class: "row" },
+    element("span", { class: "save" }, "Drawing ", made.svg, " Answer ", made.json));
   const controls = element("section", { class: "controls", "aria-label": "Motion" },
     made.sliders, choose, made.crossed, made.status);
   made.panes.append(made.pattern, made.model);
   made.details.append(made.report);
   const header = element("header", {}, made.bench, made.list, made.verdict);
-  root.append(header, made.panes, controls, made.part, made.notes, made.details);
-  return { ...made, controls };
+  root.append(header, made.panes, controls, made.part, made.notes, made.details, told);
+  return { ...made, controls, told };
 }
 
 /** @typedef {ReturnType<typeof layout>} Layout */

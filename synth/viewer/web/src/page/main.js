@@ -29,7 +29,8 @@ const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the
 
 /** @type {ShownData} */
 const NOTHING = {
-  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [],
+  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [], drawn: null,
+  on_request: false, answer: "",
 };
 
 class Page {
@@ -83,7 +84,10 @@ class Page {
       add: (shown) => { this.all.push(shown); this.#listed(this.all.length - 1); },
       put: (shown, number) => { this.all[number] = shown; this.#listed(number); },
       number: () => this.all.indexOf(this.shown),
+      seen: () => this.shown,
       joint: () => this.pattern.marked?.joint ?? null,
+      pick: (picked) => { this.pattern.pick = picked; this.parts.pattern.classList.toggle("picking", picked !== null); },
+      mark: (places) => this.pattern.markPlaces(places),
     });
   }
 
@@ -106,7 +110,7 @@ class Page {
   }
 
   #listen() {
-    const { list, way, driver, play, reset, fit, centres, fold, obj, png } = this.parts;
+    const { list, way, driver, play, reset, fit, centres, fold, obj, png, svg, json } = this.parts;
     list.addEventListener("change", () => this.#show(Number(list.value)));
     way.addEventListener("change", () => { this.#mechanism?.take(Number(way.value)); this.#asked(); });
     driver.addEventListener("change", () => { this.#mechanism?.drive(Number(driver.value)); this.#asked(); });
@@ -116,6 +120,8 @@ class Page {
     fit.addEventListener("click", () => this.#model?.fit());
     fold.addEventListener("click", () => this.#save("fold"));
     obj.addEventListener("click", () => this.#save("obj"));
+    svg.addEventListener("click", () => this.#saveText(this.shown.pictures.light ?? "", "svg"));
+    json.addEventListener("click", () => this.#saveText(this.shown.answer, "json"));
     png.addEventListener("click", () => this.#model?.canvas.toBlob((blob) => blob && saved(blob, this.#file("png"))));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#model?.coloured());
   }
@@ -136,11 +142,12 @@ class Page {
     parts.part.textContent = "Click a link or a joint for its number.";
     this.pattern.show(shown);
     this.bench?.changed();
-    parts.panes.hidden = parts.part.hidden = parts.details.hidden = this.all.length === 0;
+    parts.panes.hidden = parts.part.hidden = parts.details.hidden = parts.told.hidden = this.all.length === 0;
     this.#mechanism = shown.moving ? new Mechanism(shown, shown.moving) : null;
     const moves = this.#mechanism?.moves ?? false;
     parts.model.hidden = !this.#mechanism;
     parts.controls.hidden = !this.#mechanism;
+    parts.svg.disabled = !shown.pictures.light;
     if (parts.centres.parentElement) parts.centres.parentElement.hidden = !shown.moving?.centres.length;
     const moving = [parts.play, parts.driver, parts.way, parts.reset];
     for (const one of moving) one.disabled = !moves;
@@ -308,7 +315,14 @@ class Page {
   #save(kind) {
     const mechanism = this.#mechanism;
     if (!mechanism) return;
-    const text = kind === "fold" ? foldText(this.shown, mechanism) : objText(mechanism);
+    this.#saveText(kind === "fold" ? foldText(this.shown, mechanism) : objText(mechanism), kind);
+  }
+
+  /**
+   * @param {string} text
+   * @param {string} kind
+   */
+  #saveText(text, kind) {
     saved(new Blob([text], { type: "text/plain" }), this.#file(kind));
   }
 

@@ -2,6 +2,8 @@
 
 /** @import { ShownData } from "./types.js" */
 
+/** Pixels from a vertex at which that is meant; radius of a mark in the unit of the picture. */
+const NEAR = 12, MARK = 4;
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 export class Pattern {
@@ -15,7 +17,14 @@ export class Pattern {
     this.shown = null;
     /** @type {{joint?: string, link?: string} | null} */
     this.marked = null;
-    pane.addEventListener("click", (event) => chosen(idOf(event.target)));
+    /** @type {((x: number, y: number, near: number) => void) | null} - Takes clicks while places are asked for. */
+    this.pick = null;
+    /** @type {[number, number][]} */
+    this.marks = [];
+    pane.addEventListener("click", (event) => {
+      if (this.pick) this.#picked(event, this.pick);
+      else chosen(idOf(event.target));
+    });
     dark.addEventListener("change", () => this.#draw());
   }
 
@@ -23,6 +32,7 @@ export class Pattern {
   show(shown) {
     this.shown = shown;
     this.marked = null;
+    this.marks = [];
     this.#draw();
   }
 
@@ -38,6 +48,33 @@ export class Pattern {
       const same = id?.joint === undefined ? link !== undefined && link === id?.link : joint === id.joint;
       shape.classList.toggle("chosen", same);
     }
+  }
+
+  /**
+   * Mark places of the picture.
+   *
+   * @param {[number, number][]} marks
+   */
+  markPlaces(marks) {
+    this.marks = marks;
+    const svg = this.pane.querySelector("svg");
+    for (const old of this.pane.querySelectorAll(".place")) old.remove();
+    for (const [x, y] of marks) {
+      const disc = document.createElementNS("http://www.w3.org/2000/svg", "circle");
+      for (const [key, value] of Object.entries({ class: "place", cx: x, cy: y, r: MARK })) disc.setAttribute(key, `${value}`);
+      svg?.append(disc);
+    }
+  }
+
+  /**
+   * @param {MouseEvent} event
+   * @param {(x: number, y: number, near: number) => void} pick
+   */
+  #picked(event, pick) {
+    const seen = this.pane.querySelector("svg")?.getScreenCTM();
+    if (!seen) return;
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(seen.inverse());
+    pick(x, y, NEAR / seen.a);
   }
 
   #draw() {
@@ -58,6 +95,7 @@ export class Pattern {
     }
     pane.replaceChildren(svg);
     this.mark(this.marked);
+    this.markPlaces(this.marks);
   }
 }
 

@@ -40,6 +40,11 @@
  * @property {number} extent
  * @property {number[]} middle
  *
+ * @typedef {object} DrawnData
+ * @property {number[][]} vertices - Coordinates as the file has them.
+ * @property {[number, number][]} edges
+ * @property {[number, number][]} places - Of the vertices in the picture, in its unit.
+ *
  * @typedef {object} ShownData
  * @property {string} name
  * @property {string} verdict
@@ -49,6 +54,9 @@
  * @property {MovingData | null} moving
  * @property {string[]} stiff
  * @property {string[][]} clusters
+ * @property {DrawnData | null} drawn - Of a crease pattern in a plane.
+ * @property {boolean} on_request - Whether it is so large that its motion is looked for on request only.
+ * @property {string} answer - JSON: what `synth mobility --json` prints.
  *
  * @typedef {object} PageData
  * @property {ShownData[]} shown
