@@ -218,7 +218,7 @@ def shown_of(
         json.dumps(answer.to_json(), indent=2, allow_nan=False),
         tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
-        _drawn(placed),
+        _drawn(placed) if isinstance(placed, Sheet) else None,
         on_request,
     )
 
@@ -236,11 +236,10 @@ def _still(thing: Mechanism, notes: list[str]) -> Moving | None:
     return Moving(linkage, bodies, None, (), largest_panel(mechanism.panels), limited=True)
 
 
-def _drawn(thing: Mechanism) -> Drawn | None:
-    coordinates = thing.coordinates if isinstance(thing, Sheet) else None
-    if not isinstance(thing, Sheet) or coordinates is None or not lies_flat(thing):
+def _drawn(sheet: Sheet) -> Drawn | None:
+    if sheet.coordinates is None or not lies_flat(sheet):
         return None
-    return Drawn(coordinates, with_all_edges(thing).edges, places_on_page(thing, _BOX))
+    return Drawn(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
 
 
 def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving | None]:

@@ -15,8 +15,6 @@ from starlette.responses import HTMLResponse, PlainTextResponse, Response, Strea
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
-from synth.viewer.pages import page
-from synth.viewer.shown import Shown
 from synth.viewer.workbench.asking import Engine, file_name
 from synth.viewer.workbench.editing import are_edits
 from synth.viewer.workbench.guard import HEADERS, MOST_BYTES, Guard, Place
@@ -56,21 +54,18 @@ class Presence:
                 self._timer = asyncio.get_running_loop().call_later(self._after, self._ended)
 
 
-def application(
-    place: Place, shown: Sequence[Shown], presence: Presence, sources: Sequence[bytes | None] = ()
-) -> ASGIApp:
+def application(place: Place, text: str, presence: Presence, sources: Sequence[bytes | None] = ()) -> ASGIApp:
     """Return the workbench as an ASGI application.
 
     Parameters
     ----------
     place : Place
-    shown : sequence of Shown
-        What is there when it is opened.
+    text : str
+        The page.
     presence : Presence
     sources : sequence of bytes or None
-        The files that these were read from, where they were files; the page asks for them to have them edited.
+        The files that what it shows was read from, where they were files; it asks for them to have them edited.
     """
-    text = page(shown, "workbench", workbench=True)
     engine = Engine()
 
     async def opened(_: Request) -> Response:
@@ -122,7 +117,9 @@ def application(
         Route("/given", given, methods=["GET"]),
         Route("/open", line, methods=["GET"]),
     ]
-    return Guard(Starlette(routes=routes), place)
+    app = Starlette(routes=routes)
+    app.router.redirect_slashes = False  # to addresses without the token, which lead nowhere
+    return Guard(app, place)
 
 
 async def _body(request: Request) -> bytes | None:

@@ -1,17 +1,12 @@
 """The workbench as it is served: in Chromium, and to who should not ask."""
 
 import json
-import os
-import shutil
-import signal
-import subprocess
-import sys
-import urllib.error
-import urllib.request
+import re
 from itertools import combinations
 
 import numpy as np
 import pytest
+from workbench import DROP, WAIT, opened, status
 
 import synth
 from graphs.creasing.edits import crease_sheet, lock_crease
@@ -19,20 +14,9 @@ from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.building import BUILT
 from synth.viewer.workbench.editing import edited
 
 pytestmark = pytest.mark.web
-
-pytest.importorskip("uvicorn", reason="the workbench is not installed")
-sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-
-WAIT = 60_000
-DROP = """([name, text]) => {
-  const carried = new DataTransfer();
-  carried.items.add(new File([text], name));
-  document.dispatchEvent(new DragEvent("drop", { dataTransfer: carried, bubbles: true, cancelable: true }));
-}"""
 
 
 def fold_document(sheet):
@@ -45,68 +29,10 @@ def fold_document(sheet):
     }
 
 
-class Served:
-    """A workbench in a process of its own; its address is what it printed."""
-
-    def __init__(self, *files):
-        command = [sys.executable, "-u", "-m", "synth.cli", "view", *map(str, files)]
-        quiet = {**os.environ, "BROWSER": shutil.which("true") or "true"}
-        self.process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=quiet
-        )
-        self.address = self.process.stdout.readline().split()[1]
-
-    def end(self):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
-        try:
-            return self.process.wait(timeout=20)
-        finally:
-            self.process.kill()
-            self.process.communicate()
-
-
-@pytest.fixture
-def served():
-    if not (BUILT / "page.js").is_file():
-        pytest.skip("the script of the page was not built")
-    made = []
-
-    def serve(*files):
-        made.append(Served(*files))
-        return made[-1]
-
-    yield serve
-    for one in made:
-        one.end()
-
-
-@pytest.fixture
-def tab():
-    place = shutil.which("chromium")
-    if place is None:
-        pytest.skip("Chromium is not installed")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=place, args=["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
-        )
-        yield browser.new_page()
-        browser.close()
-
-
-def status(address, **headers):
-    try:
-        with urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=20) as answer:
-            return answer.status
-    except urllib.error.HTTPError as error:
-        return error.code
-
-
 def test_what_is_dropped_is_shown_and_folds_and_what_cannot_be_read_is_told(served, tab, data):
     bench, said = served(), []
     tab.on("pageerror", lambda error: said.append(str(error)))
-    tab.goto(bench.address)
-    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
+    opened(tab, bench)
     place = data / "wiener" / "square-twist.fold"
     tab.evaluate(DROP, [place.name, place.read_text()])
     verdict = synth.mobility(read(place)).verdict.text
@@ -126,9 +52,7 @@ def test_what_is_dropped_is_shown_and_folds_and_what_cannot_be_read_is_told(serv
 
 def test_a_crease_is_locked_and_that_undone(served, tab, data):
     place = data / "patterns" / "four-bar-vertex.fold"
-    bench = served(place)
-    tab.goto(bench.address)
-    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
+    opened(tab, served(place))
     first = synth.mobility(read(place)).verdict.text
     locked = synth.mobility(lock_crease(read(place), 0).sheet).verdict.text
     assert locked != first
@@ -139,11 +63,6 @@ def test_a_crease_is_locked_and_that_undone(served, tab, data):
     tab.get_by_role("button", name="Undo").click()
     tab.locator(".verdict", has_text=first).wait_for(timeout=WAIT)
     assert tab.get_by_role("button", name="Undo").is_disabled()
-
-
-def opened(tab, bench):
-    tab.goto(bench.address)
-    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
 
 
 def verdict_is(tab, mechanism):
@@ -244,6 +163,34 @@ def test_large_sheets_are_shown_at_once_and_their_motion_on_request(served, tab)
     assert tab.locator(".sliders input[type=range]").count() == 2
 
 
+def test_what_claims_too_much_is_refused_and_what_hangs_nobody(served, tab):
+    """A million faces, entities, deep nesting, script in every name: a message, and the page goes on."""
+    bench, said = served(), []
+    tab.on("pageerror", lambda error: said.append(str(error)))
+    tab.on("dialog", lambda dialog: said.append(dialog.message))
+    opened(tab, bench)
+    script = "</script><img src=x onerror=alert(1)><script>alert(2)</script>"
+    corners = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    hostile = {
+        "million.fold": json.dumps({"vertices_coords": corners, "faces_vertices": [[0, 1, 2]] * 1_000_000}),
+        "deep.fold": "[" * 100_000,
+        "entities.svg": '<!DOCTYPE s [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><svg>&b;</svg>',
+        "huge.fold": json.dumps({"vertices_coords": [[1e308, -1e308]] * 3, "faces_vertices": [[0, 1, 2]]}),
+        f"{script}.fold": "{",
+    }
+    for name, text in hostile.items():
+        tab.evaluate(DROP, [name, text])
+        refused = re.compile(rf"\.{name.rpartition('.')[2]}: (?!waiting|reading|looking|counting|drawing)")
+        tab.locator(".bench [role=status]", has_text=refused).wait_for(timeout=WAIT)
+        assert tab.locator(".verdict").text_content() == ""
+    names = {"edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], "edges_assignment": [*"BBBBV"]}
+    sheet = {"file_title": script, "vertices_coords": corners, "faces_vertices": [[0, 1, 2], [0, 2, 3]], **names}
+    tab.evaluate(DROP, [f"{script}.fold", json.dumps(sheet)])
+    tab.locator(".verdict", has_text="Folds with 1 freedom").wait_for(timeout=WAIT)
+    assert said == []
+    assert tab.locator("img").count() == 0
+
+
 def test_others_get_nothing_and_ctrl_c_ends_it(served, data):
     first, second = served(data / "patterns" / "four-bar-vertex.fold"), served()
     assert status(first.address) == status(second.address) == 200
@@ -260,8 +207,7 @@ def test_others_get_nothing_and_ctrl_c_ends_it(served, data):
 
 def test_it_ends_when_its_page_was_closed(served, tab):
     bench = served()
-    tab.goto(bench.address)
-    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
+    opened(tab, bench)
     tab.reload()
     tab.wait_for_selector("main[data-ready]", timeout=WAIT)
     tab.close()

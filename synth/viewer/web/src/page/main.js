@@ -3,6 +3,7 @@
 /** @import { PageData, ShownData } from "./types.js" */
 /** @import { Held } from "./dragging.js" */
 import { Dragging } from "./dragging.js";
+import { forgetColours } from "./colours.js";
 import { filled, layout } from "./layout.js";
 import { Mechanism } from "./mechanism.js";
 import { Model } from "./model.js";
@@ -122,8 +123,14 @@ class Page {
     obj.addEventListener("click", () => this.#save("obj"));
     svg.addEventListener("click", () => this.#saveText(this.shown.pictures.light ?? "", "svg"));
     json.addEventListener("click", () => this.#saveText(this.shown.answer, "json"));
-    png.addEventListener("click", () => this.#model?.canvas.toBlob((blob) => blob && saved(blob, this.#file("png"))));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#model?.coloured());
+    png.addEventListener("click", async () => {
+      const blob = await this.#model?.picture();
+      if (blob) saved(blob, this.#file("png"));
+    });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      forgetColours();
+      this.#model?.coloured();
+    });
   }
 
   /** @param {number} number */

@@ -20,12 +20,15 @@ const LEAST = 0.2;
 const TURN = 0.1, ZOOM = 1.1;
 
 export class Model {
+  /** The request to draw that is not yet answered; 0: none. */
+  #drawing = 0;
+
   /**
    * @param {HTMLElement} pane
    * @throws {Error} If there is no WebGL.
    */
   constructor(pane) {
-    this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new three.WebGLRenderer({ antialias: true });
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
@@ -210,7 +213,20 @@ export class Model {
     return { link: face.link, corners, place, depth: hit.point.project(this.camera).z };
   }
 
+  /** Draw it before the next picture, once, however much changes until then. */
   render() {
+    this.#drawing ||= requestAnimationFrame(() => this.#draw());
+  }
+
+  /** Return what is seen now, as PNG. */
+  picture() {
+    this.#draw();
+    return new Promise((/** @type {(blob: Blob | null) => void} */ made) => this.canvas.toBlob(made));
+  }
+
+  #draw() {
+    cancelAnimationFrame(this.#drawing);
+    this.#drawing = 0;
     this.light.position.copy(this.camera.position).add(new three.Vector3(0.4, 0.2, 0.9));
     this.renderer.render(this.scene, this.camera);
   }

@@ -4,6 +4,8 @@
 
 /** Pixels from a vertex at which that is meant; radius of a mark in the unit of the picture. */
 const NEAR = 12, MARK = 4;
+/** Letters of a picture that is drawn after the model. */
+const LARGE = 100_000;
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 export class Pattern {
@@ -33,7 +35,24 @@ export class Pattern {
     this.shown = shown;
     this.marked = null;
     this.marks = [];
-    this.#draw();
+    const { length } = this.#picture(shown);
+    if (length < LARGE) this.#draw();
+    else this.#drawLater(shown);
+  }
+
+  /**
+   * Draw when the model has been seen: a large drawing takes a second where the machine has no graphics.
+   *
+   * @param {ShownData} shown
+   */
+  #drawLater(shown) {
+    this.pane.textContent = "Drawing ...";
+    requestAnimationFrame(() => setTimeout(() => { if (shown === this.shown) this.#draw(); }));
+  }
+
+  /** @param {ShownData} shown */
+  #picture({ pictures }) {
+    return (dark.matches ? pictures.dark : pictures.light) ?? pictures.light ?? "";
   }
 
   /**
@@ -80,7 +99,7 @@ export class Pattern {
   #draw() {
     const { shown, pane } = this;
     if (!shown) return;
-    const picture = (dark.matches ? shown.pictures.dark : shown.pictures.light) ?? shown.pictures.light;
+    const picture = this.#picture(shown);
     if (!picture) {
       pane.textContent = "No drawing.";
       return;
