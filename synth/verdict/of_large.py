@@ -9,7 +9,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from synth.folding.branches import Certainty
-from synth.folding.freedoms import free_rates
+from synth.folding.following.freedoms import free_rates
 from synth.folding.prepared import Prepared
 from synth.folding.singular.nearest import begun_near
 from synth.folding.singular.sampling import MOVED, walked

@@ -14,7 +14,7 @@ from graphs.arrays import Floats, Ints
 from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
-from synth.folding.freedoms import free_rates, independent_joints
+from synth.folding.following.freedoms import free_rates, independent_joints
 from synth.folding.linkage import PosedLinkage
 from synth.folding.prepared import Prepared
 from synth.folding.singular.sampling import walked

@@ -26,6 +26,7 @@ PANELS = {
     "bird base": lambda data: read(data / "patterns" / "bird-base.fold"),
     "pop-up": lambda _: synth.generate("slit-array").mechanism,
     "square twist": lambda data: read(data / "wiener" / "square-twist.fold"),
+    "hybrid": lambda data: synth.realise(read(data / "wiener" / "hybrid-ten-bar.json")).sheet,
 }
 OTHERS = {
     "Bennett": lambda data: read(data / "linkages" / "bennett.json"),
@@ -298,6 +299,77 @@ def test_what_is_rigid_and_what_has_no_pose_is_said(opened, data):
     window.tab.get_by_label("Mechanism").select_option("1")
     assert "has none" in window.tab.locator(".notes").text_content()
     assert window.tab.locator(".pattern svg").is_visible()
+
+
+@pytest.mark.parametrize("name", [*PANELS, *OTHERS])
+def test_what_is_dragged_moves(opened, data, name):
+    window = opened((PANELS | OTHERS)[name](data))
+    window.tab.locator(".model canvas").scroll_into_view_if_needed()
+    window.to(window.angle() + 10)
+    before = np.array(window.pose()["vertices_coords"])
+    x, y = somewhere_on_it(window)
+    window.tab.mouse.move(x, y)
+    window.tab.mouse.down()
+    for step in range(1, 8):
+        window.tab.mouse.move(x + 6 * step, y - 9 * step)
+    window.tab.mouse.up()
+    after = np.array(window.pose()["vertices_coords"])
+    assert np.abs(after - before).max() > 1e-3 * np.ptp(before, axis=0).max()
+    assert window.closure() <= 1e-10
+
+
+def somewhere_on_it(window):
+    """A place of the page at which a click hits a link or a joint."""
+    box = window.tab.locator(".model canvas").bounding_box()
+    for part in (0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65):
+        for other in (0.5, 0.4, 0.6):
+            x, y = box["x"] + part * box["width"], box["y"] + other * box["height"]
+            window.tab.mouse.click(x, y)
+            if window.tab.locator(".part").text_content().startswith(("Link", "Joint")):
+                return x, y
+    raise AssertionError("nothing was hit")
+
+
+def test_a_finger_drags_it(browser, tmp_path, data):
+    place = tmp_path / "page.html"
+    place.write_text(page([shown_of(PANELS["Miura"](data))]), encoding="utf-8")
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    tab = context.new_page()
+    tab.goto(place.as_uri())
+    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
+    slider = tab.locator(".sliders input[type=range]").first
+    before = float(slider.input_value())
+    box = tab.locator(".model canvas").bounding_box()
+    touch = context.new_cdp_session(tab)
+    at = {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [at]})
+    for step in range(1, 8):
+        moved = {"x": at["x"] + 7 * step, "y": at["y"] + 3 * step}
+        touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [moved]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert abs(float(slider.input_value()) - before) > 1
+    context.close()
+
+
+def test_it_is_used_by_keyboard_and_every_control_has_a_name(opened, data):
+    window = opened(PANELS["bird base"](data), OTHERS["Bennett"](data))
+    before = window.angle()
+    window.tab.locator(".sliders input[type=range]").first.focus()
+    window.tab.keyboard.press("PageUp")
+    assert window.angle() != before
+    window.tab.locator(".model canvas").focus()
+    window.tab.keyboard.press("ArrowLeft")
+    reached = set()
+    for _ in range(60):
+        window.tab.keyboard.press("Tab")
+        reached.add(window.tab.evaluate("document.activeElement.tagName"))
+    assert {"SELECT", "BUTTON", "INPUT", "CANVAS", "SUMMARY"} <= reached
+    controls = window.tab.locator("button, select, input, canvas, summary, progress")
+    nameless = controls.evaluate_all(
+        """all => all.filter(one => !(one.ariaLabel || one.textContent.trim() || one.labels?.length))
+                      .map(one => one.outerHTML)"""
+    )
+    assert nameless == []
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

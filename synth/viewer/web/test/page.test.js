@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { middleOf, radiusOf, turnBack } from "../src/page/aligned.js";
 import { Crossing } from "../src/page/crossing.js";
+import { snapped } from "../src/page/editing.js";
 import { trianglesOf } from "../src/page/geometry.js";
 
 test("a turned body is turned back", () => {
@@ -62,4 +63,14 @@ test("panels cross that pass through each other; not those that touch, lie on ea
 
 test("a square is crossed along its diagonal", () => {
   assert.deepEqual(crossings([[1, 1, -1], [0.5, 0.5, 1], [1.5, 1.5, 1]]), [[0, 1]]);
+});
+
+test("an end of a crease is the vertex near to a click, else a point of the nearest edge", () => {
+  /** @type {import("../src/page/types.js").DrawnData} */
+  const drawn = {
+    vertices: [[0, 0, 1], [2, 0, 1], [2, 1, 1]], edges: [[0, 1], [1, 2]], places: [[10, 90], [90, 90], [90, 50]],
+  };
+  assert.deepEqual(snapped(drawn, [88, 92], 5), { named: "1", place: [90, 90] });
+  assert.deepEqual(snapped(drawn, [50, 80], 5), { named: "1,0,1", place: [50, 90] });
+  assert.deepEqual(snapped(drawn, [95, 60], 5), { named: "2,0.75,1", place: [90, 60] });
 });

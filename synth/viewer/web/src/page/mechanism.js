@@ -73,6 +73,11 @@ export class Mechanism {
     return this.motion.travelled * DEGREES;
   }
 
+  /** Freedoms of the way, where they are known. */
+  get freedoms() {
+    return this.data.ways?.all[this.way].freedoms ?? null;
+  }
+
   /** The other joints with a freedom of their own. */
   get held() {
     return this.drivers.filter((joint) => joint !== this.driver);
@@ -106,7 +111,8 @@ export class Mechanism {
     if (!this.canDrive(joint) || joint === this.driver) return;
     if (!this.drivers.includes(joint)) {
       const shares = this.#besideStart().space.madeOf(joint, this.drivers).map(Math.abs);
-      this.drivers[shares.indexOf(Math.max(...shares))] = joint;
+      const most = Math.max(...shares);
+      this.drivers[most > 0 ? shares.indexOf(most) : this.drivers.indexOf(this.driver)] = joint;
     }
     this.driver = joint;
     this.motion.travelled = 0;

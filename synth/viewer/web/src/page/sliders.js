@@ -46,7 +46,11 @@ export class Sliders {
   show(mechanism) {
     const [least, most] = mechanism.range.map(String);
     this.#rows = mechanism.drivers.map((joint) => this.#made(joint, mechanism.data.joints[joint], least, most));
-    this.place.replaceChildren(...this.#rows.map(({ row }) => row), this.pathRow);
+    const { freedoms, drivers } = mechanism;
+    const more = freedoms !== null && freedoms > drivers.length
+      ? [element("p", {}, `${freedoms} freedoms: ${drivers.length} joints have sliders; drag others, or choose them below.`)]
+      : [];
+    this.place.replaceChildren(...this.#rows.map(({ row }) => row), ...more, this.pathRow);
     this.place.hidden = !mechanism.moves;
   }
 

@@ -159,9 +159,10 @@ export class Motion {
    *
    * @param {Drive} drive
    * @param {number} way - In which it goes if they are new: 1 or -1.
+   * @param {number} sense - Which way along the path that is.
    * @returns {Stepping}
    */
-  #steps({ joint, held }, way) {
+  #steps({ joint, held }, way, sense = way) {
     const free = this.direction !== null && this.moved < LEAVING;
     const kept = free ? [] : held;
     const old = this.#stepping;
@@ -170,7 +171,7 @@ export class Motion {
     const branch = this.pose === this.start ? this.direction : null;
     const rates = branch && branch[joint] * way < 0 ? branch.map((rate) => -rate) : branch;
     this.#stepping = new Stepping(this.equations, { joint, held: kept }, rates);
-    this.#sense = way;
+    this.#sense = sense;
     return this.#stepping;
   }
 
@@ -195,13 +196,13 @@ export class Motion {
    * @returns {Stopped}
    */
   #straightOn(drive, most) {
-    const way = this.#sense;
-    const stepping = this.#steps(drive, way);
+    const way = Math.sign(this.#stepping?.rates?.[drive.joint] ?? 0) || this.#sense; // it may have turned back
+    const stepping = this.#steps(drive, way, this.#sense);
     const rates = stepping.straightOn(this.pose, way);
     if (largest(rates) === 0) return "still";
     const ahead = this.#startAhead(rates);
     if (ahead <= 1.5 * AT_START) {
-      this.#throughStart(drive, rates, way);
+      this.#throughStart(drive, rates);
       return "";
     }
     const step = stepping.takenUpTo(this.pose, rates, Math.min(most, ahead - AT_START));
@@ -226,14 +227,12 @@ export class Motion {
    *
    * @param {Drive} drive
    * @param {Float64Array} rates - With which it came.
-   * @param {number} sense
    */
-  #throughStart({ joint }, rates, sense) {
-    this.#putAtStart();
+  #throughStart({ joint }, rates) {
+    this.pose = this.start;
     const branch = /** @type {Float64Array} */ (this.direction);
     const onwards = dot(branch, rates) < 0 ? branch.map((rate) => -rate) : branch;
     this.#stepping = new Stepping(this.equations, { joint, held: [] }, onwards);
-    this.#sense = sense;
   }
 
   /**

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
-from synth.folding.freedoms import free_rates, independent_joints
+from synth.folding.following.freedoms import free_rates, independent_joints
 from synth.folding.prepared import prepared
 
 
