@@ -167,7 +167,7 @@ def _beginning(number: int, branch: Branch, rates: Floats, closure: ClosureEquat
     told = "freedoms not known" if freedoms is None else f"{freedoms} freedom{'s' * (freedoms != 1)}"
     moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.still, dtype=np.int64))
     # rates that close to first order may be more than the freedoms, which are those to second order
-    drivers = (first,) if freedoms is None else _driven(closure, branch.sample, moving, first)[1][:freedoms]
+    drivers = (first,) if not freedoms else _driven(closure, branch.sample, moving, first)[1][:freedoms]
     return Beginning(f"way {number}: {told}, {branch.certainty}", rates, drivers, branch.still, freedoms)
 
 
