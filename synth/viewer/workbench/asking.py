@@ -12,7 +12,7 @@ import sys
 from collections.abc import AsyncIterator, Sequence
 from contextlib import suppress
 
-__all__ = ["Engine", "file_name"]
+__all__ = ["Engine", "beating", "file_name"]
 
 _LONGEST = 120
 _SECONDS = 120.0
@@ -64,8 +64,8 @@ class Engine:
             process = await _begun(module, words)
             feeding = asyncio.create_task(_fed(process, content))
             try:
-                async for piece in _taken(process):
-                    yield piece or b"\n"
+                async for piece in beating(_taken(process)):
+                    yield piece
                 if await process.wait():
                     yield _error(words[0], _FAILED)
             except TimeoutError:
@@ -91,6 +91,22 @@ class Engine:
                 return 1, b""
             finally:
                 await _ended(process, feeding)
+
+
+async def beating(pieces: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+    """Yield pieces of lines, and a blank line for each that is empty, but none within a line.
+
+    Parameters
+    ----------
+    pieces : asynchronous iterator of bytes
+    """
+    between = True
+    async for piece in pieces:
+        if piece:
+            between = piece.endswith(b"\n")
+            yield piece
+        elif between:
+            yield b"\n"
 
 
 async def _begun(module: str, words: Sequence[str]) -> asyncio.subprocess.Process:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.creasing.edits import crease_sheet
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
@@ -53,6 +54,15 @@ def test_creases_are_added_between_vertices_and_points(square_twist):
     made = edited(square_twist, [f"crease:{x!r},{y!r}~{end}"])
     assert made == crease_sheet(square_twist, (x, y), end).sheet
     assert len(made.faces) == len(square_twist.faces) + 1
+
+
+def test_a_locked_crease_is_free_again_when_it_is_creased(square_twist):
+    mechanism = mechanism_of_sheet(square_twist)
+    joint, (start, end) = next(iter(mechanism.hinges.items()))
+    locked = edited(square_twist, [f"lock:{joint}"])
+    assert joint not in mechanism_of_sheet(locked).sc.joints
+    freed = edited(locked, [f"crease:{start}~{end}"])
+    assert set(mechanism_of_sheet(freed).sc.joints) == set(mechanism.sc.joints)
 
 
 def test_what_cannot_be_edited_is_told(data, square_twist):

@@ -109,7 +109,7 @@ export class Workbench {
    */
   #inTurn(what) {
     const stops = this.#stops;
-    this.#queue = this.#queue.then(() => (stops === this.#stops ? what() : undefined));
+    this.#queue = this.#queue.then(() => (stops === this.#stops ? what() : undefined)).catch(reportError);
   }
 
   /** @param {File[]} files */
@@ -194,16 +194,17 @@ export class Workbench {
   async #followed(name, body) {
     const reader = body.getReader(), decoder = new TextDecoder();
     this.stop.hidden = false;
-    let rest = "", last = {};
+    let rest = "", last = "{}";
     for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
       const lines = (rest + decoder.decode(piece.value, { stream: true })).split("\n");
       rest = lines.pop() ?? "";
       for (const line of lines.filter(Boolean)) {
-        last = JSON.parse(line);
-        if ("doing" in last) this.#told(name, /** @type {{doing: string, step: number, of: number}} */ (last));
+        last = line; // of one that broke off, an error comes after it
+        if (line.startsWith('{"doing"')) this.#told(name, JSON.parse(line));
       }
     }
-    return "doing" in last ? { error: `${name}: ${NO_ANSWER}` } : last;
+    const answer = JSON.parse(last);
+    return answer.shown || answer.error ? answer : { error: `${name}: ${NO_ANSWER}` };
   }
 
   /**
@@ -250,6 +251,6 @@ export class Workbench {
  */
 function reason(broken) {
   if (broken instanceof DOMException && broken.name === "AbortError") return "stopped";
-  if (broken instanceof TypeError) return NO_ANSWER;
+  if (broken instanceof TypeError || broken instanceof SyntaxError) return NO_ANSWER;
   throw broken;
 }
