@@ -26,6 +26,8 @@ export class Editing {
   constructor(page, asked) {
     this.page = page;
     this.asked = asked;
+    /** @type {DrawnData | null} - The pattern that is seen. */
+    this.drawn = null;
     /** @type {Map<string, [number, number]>} - Where in the drawing ends of creases are. */
     this.picked = new Map();
     this.motion = button("Look for its motion", () => asked.motion());
@@ -63,7 +65,14 @@ export class Editing {
     this.undo.disabled = !source?.edits.length;
     this.motion.hidden = !seen.on_request;
     if (!source) this.#open(false);
+    if (this.drawn !== seen.drawn) this.#clear();
     this.drawn = seen.drawn;
+  }
+
+  /** Forget the ends of a crease: they were of another pattern, or have been used. */
+  #clear() {
+    this.from.value = this.to.value = "";
+    this.picked.clear();
   }
 
   /** @param {"lock" | "remove"} what - Is done with the joint that was clicked last. */
@@ -75,8 +84,7 @@ export class Editing {
   /** @param {boolean} open - Whether ends of a crease are asked for. */
   #open(open) {
     this.form.hidden = !open;
-    this.from.value = this.to.value = "";
-    this.picked.clear();
+    this.#clear();
     this.page.pick(open ? (x, y, near) => this.#picked(x, y, near) : null);
     this.#mark();
     if (open) this.from.focus();

@@ -147,6 +147,7 @@ class Page {
       return item;
     }));
     parts.part.textContent = "Click a link or a joint for its number.";
+    parts.crossed.textContent = "";
     this.pattern.show(shown);
     this.bench?.changed();
     parts.panes.hidden = parts.part.hidden = parts.details.hidden = parts.told.hidden = this.all.length === 0;

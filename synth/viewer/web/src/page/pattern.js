@@ -80,7 +80,8 @@ export class Pattern {
     for (const old of this.pane.querySelectorAll(".place")) old.remove();
     for (const [x, y] of marks) {
       const disc = document.createElementNS("http://www.w3.org/2000/svg", "circle");
-      for (const [key, value] of Object.entries({ class: "place", cx: x, cy: y, r: MARK })) disc.setAttribute(key, `${value}`);
+      const look = { class: "place", cx: x, cy: y, r: MARK };
+      for (const [key, value] of Object.entries(look)) disc.setAttribute(key, `${value}`);
       svg?.append(disc);
     }
   }

@@ -235,7 +235,8 @@ export class Workbench {
       const answer = await fetch(`${what}?${words}`, { method: "POST", body: file, signal: this.#asked.signal });
       if (answer.ok) return { answer };
       const told = await answer.text();
-      return { error: answer.headers.get("Content-Type") === "application/json" ? JSON.parse(told).error : `${name}: ${told}` };
+      const inWords = answer.headers.get("Content-Type") === "application/json";
+      return { error: inWords ? JSON.parse(told).error : `${name}: ${told}` };
     } catch (broken) {
       return { error: `${name}: ${reason(broken)}` };
     } finally {
