@@ -48,9 +48,11 @@ def question(n: int) -> dict[str, object]:
         "near": pattern.linkage.angles.tolist(),
         "direction": None,
         "driver": driver,
+        "held": [],
         "goals": [begun + np.sign(begun) * np.radians(degrees) for degrees in range(1, FRAMES + 1)],
         "vertices": bodies.vertices.tolist(),
         "owners": bodies.owners,
+        "faces": [],
     }
 
 

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
+from graphs.arrays import Floats
 from synth.folding.branches import Certainty
-from synth.folding.closure import ClosureEquations
-from synth.folding.newton import TangentSpace
+from synth.folding.following.freedoms import free_rates
 from synth.folding.prepared import Prepared
 from synth.folding.singular.nearest import begun_near
 from synth.folding.singular.sampling import MOVED, walked
@@ -18,12 +17,9 @@ from synth.verdict.marked import Marked
 from synth.verdict.verdict import Verdict, Way, clusters_of
 from synth.verdict.words import Posed, Told, flaps_of, text_of_motion
 
-__all__ = ["freedoms_by_projection", "verdict_of_large"]
+__all__ = ["verdict_of_large"]
 
 _STILL = 1e-9
-_BLOCK, _MOST = 8, 512
-_FREE = 1e-4
-"""Projected random rates have singular values above this part of the largest, or none: it is far from both."""
 
 
 def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
@@ -50,7 +46,8 @@ def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
     if rates is None or far <= MOVED:
         return _unmoved(posed, begun.rigid, generic)
     moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
-    freedoms = freedoms_by_projection(closure, end, moving)
+    basis = free_rates(closure, end, moving)
+    freedoms = None if basis is None else basis.shape[1]
     still = tuple(joint for place, joint in enumerate(joints) if place not in set(moving.tolist()))
     signs = "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in rates)
     way = Way(signs, freedoms, "numerical", still, far)
@@ -68,42 +65,6 @@ def _unmoved(posed: Posed, rigid: bool, generic: int | None) -> Verdict:
     text = text_of_motion(Told(posed, (), None, rigid, generic, (), None), freedoms, certainty)
     stiff = tuple(posed.linkage.graph.joints) if rigid else ()
     return Verdict(freedoms, "motion", certainty, text, (), rigid, stiff, clusters_of(posed.linkage.graph, stiff))
-
-
-def freedoms_by_projection(closure: ClosureEquations, angles: Floats, moving: Ints | None = None) -> int | None:
-    """Return how many rates a pose has, by random ones projected onto them; None where they are too many.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    angles : float[J]
-        A closed pose, radians.
-    moving : int[n], optional
-        The joints that move, of a branch on which others are still: these may have rates of their own at its
-        poses, which begin other branches. By default all.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
-    >>> ring = SCGraph(8, [(link, (link + 1) % 8) for link in range(8)])
-    >>> axes = {j: (np.cos([j, j + 2.0, 2.0 * j]), np.sin([3.0 * j, j, j + 1.0])) for j in range(8)}
-    >>> linkage = linkage_of_axes(ring, axes)
-    >>> freedoms_by_projection(ClosureEquations(linkage), linkage.angles)
-    2
-    """
-    jacobian = closure.at(angles)[1]
-    space = TangentSpace(jacobian if moving is None else jacobian[:, moving])
-    size = len(angles) if moving is None else len(moving)
-    chance = np.random.default_rng(size)
-    found: list[Floats] = []
-    while len(found) < min(_MOST, size):
-        found += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
-        sizes = np.linalg.svd(np.array(found), compute_uv=False)
-        rank = int((sizes > _FREE * np.sqrt(size)).sum())
-        if rank < len(found):
-            return rank
-    return None
 
 
 def _as_marked(marks: Floats, rates: Floats) -> Marked | None:

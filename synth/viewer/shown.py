@@ -5,32 +5,42 @@ What cannot be moved is shown all the same, and why it cannot. Theory: docs/theo
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.plain_text import plain
+from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
 from synth.folding.closure import ClosureEquations
 from synth.folding.driving import check_closed
-from synth.folding.linkage import PosedLinkage
+from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.placement import largest_panel
 from synth.folding.prepared import Prepared, prepared
 from synth.moving.linkages import linkage_of, sheet_of
-from synth.verdict.judged import mobility
+from synth.verdict.judged import MOST_PANELS, mobility
 from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet
+from synth.viewer.centres import ShownCentre, centres_of_linkage, centres_of_pattern
 from synth.viewer.solver_data import solver_data
 from synth.viewer.ways import Ways, ways_of_linkage, ways_of_pattern
 
-__all__ = ["Moving", "Shown", "shown_of"]
+__all__ = ["Drawn", "Moving", "Report", "Shown", "shown_of"]
+
+Report = Callable[[str, int, int], None]
+"""Told what is done next, which step that is, and of how many."""
 
 _Posed = TypeVar("_Posed")
 _BOX = (420.0, 420.0)
 """Points of the picture, at most."""
+_STEPS = 4
+"""Of what is reported; the last is that the page puts it up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +53,7 @@ class Moving:
     bodies : Bodies
     ways : Ways or None
         None where nothing moves, or no motion was found.
+    centres : tuple of ShownCentre
     ground : int
         Place of the link that stays.
     limited : bool
@@ -52,6 +63,7 @@ class Moving:
     linkage: PosedLinkage
     bodies: Bodies
     ways: Ways | None
+    centres: tuple[ShownCentre, ...]
     ground: int
     limited: bool
 
@@ -63,12 +75,36 @@ class Moving:
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
             "ways": None if self.ways is None else self.ways.to_json(),
+            "centres": [centre.to_json() for centre in self.centres],
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
             "between": [[number[one], number[other]] for one, other in graph.joints.values()],
             "extent": self.linkage.extent,
             "middle": self.linkage.middle.tolist(),
         }
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A crease pattern where it is drawn, so that creases can be added between places on the picture.
+
+    Attributes
+    ----------
+    vertices : tuple of (x, y, ...)
+        Coordinates as the file has them.
+    edges : tuple of (vertex, vertex)
+        All of them.
+    places : list of (x, y)
+        Of the vertices in the picture.
+    """
+
+    vertices: tuple[tuple[float, ...], ...]
+    edges: tuple[tuple[int, int], ...]
+    places: list[tuple[float, float]]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: `DrawnData` of web/src/page/types.js."""
+        return {"vertices": self.vertices, "edges": self.edges, "places": self.places}
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +124,14 @@ class Shown:
         Light and dark; empty where there is none.
     moving : Moving or None
         None of what has no pose.
+    answer : str
+        JSON: what `synth mobility --json` prints. Text, since numbers of a page have 53 bits only.
     stiff, clusters : tuple
         Ids of joints that move on no way, and of links that are one.
+    drawn : Drawn or None
+        Of a crease pattern that lies in a plane.
+    on_request : bool
+        Whether it is so large that its motion is looked for on request only.
     """
 
     name: str
@@ -98,8 +140,11 @@ class Shown:
     notes: tuple[str, ...]
     pictures: dict[str, str]
     moving: Moving | None
+    answer: str
     stiff: tuple[str, ...]
     clusters: tuple[tuple[str, ...], ...]
+    drawn: Drawn | None = None
+    on_request: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `ShownData` of web/src/page/types.js."""
@@ -110,12 +155,21 @@ class Shown:
             "notes": list(self.notes),
             "pictures": self.pictures,
             "moving": None if self.moving is None else self.moving.to_json(),
+            "answer": self.answer,
             "stiff": list(self.stiff),
             "clusters": [list(cluster) for cluster in self.clusters],
+            "drawn": None if self.drawn is None else self.drawn.to_json(),
+            "on_request": self.on_request,
         }
 
 
-def shown_of(thing: Mechanism, name: str = "") -> Shown:
+def shown_of(
+    thing: Mechanism,
+    name: str = "",
+    *,
+    motion: bool | None = None,
+    report: Report = lambda _what, _step, _of: None,
+) -> Shown:
     """Return what a page shows of a mechanism.
 
     Parameters
@@ -124,6 +178,11 @@ def shown_of(thing: Mechanism, name: str = "") -> Shown:
         Of a sheet with several frames the first that has coordinates is moved.
     name : str, optional
         What it is called on the page, such as the name of its file.
+    motion : bool, optional
+        Look for the motion of a crease pattern from its pose; by default of what is not too large, as
+        `synth.mobility` does.
+    report : callable, optional
+        Called before each step.
 
     Raises
     ------
@@ -140,10 +199,14 @@ def shown_of(thing: Mechanism, name: str = "") -> Shown:
     """
     placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
     notes: list[str] = []
-    pattern, moving = _moving(placed, notes)
-    answer = mobility(placed, pattern=pattern)
+    on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
+    report("looking for ways to move", 1, _STEPS)
+    pattern, moving = (None, _still(placed, notes)) if on_request else _moving(placed, notes)
+    report("counting and judging", 2, _STEPS)
+    answer = mobility(placed, pattern=pattern, motion=motion)
     verdict = answer.verdict
     assert verdict is not None
+    report("drawing", 3, _STEPS)
     pictures = _pictures(placed, notes)
     return Shown(
         plain(name),
@@ -152,9 +215,31 @@ def shown_of(thing: Mechanism, name: str = "") -> Shown:
         tuple(notes),
         pictures,
         moving,
+        json.dumps(answer.to_json(), indent=2, allow_nan=False),
         tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
+        _drawn(placed) if isinstance(placed, Sheet) else None,
+        on_request,
     )
+
+
+def _still(thing: Mechanism, notes: list[str]) -> Moving | None:
+    """Return a sheet at its pose, its motion not looked for; note why there is none."""
+    assert isinstance(thing, Sheet)
+    try:
+        mechanism = mechanism_of_sheet(thing)
+        linkage = linkage_of_sheet(thing, mechanism)
+    except SynthedraError as error:
+        notes.append(f"not moved: {error}")
+        return None
+    bodies = bodies_of_sheet(with_all_edges(thing), mechanism, linkage)
+    return Moving(linkage, bodies, None, (), largest_panel(mechanism.panels), limited=True)
+
+
+def _drawn(sheet: Sheet) -> Drawn | None:
+    if sheet.coordinates is None or not lies_flat(sheet):
+        return None
+    return Drawn(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
 
 
 def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving | None]:
@@ -173,14 +258,15 @@ def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving
 def _linkage(linkage: PosedLinkage, notes: list[str]) -> Moving:
     check_closed(ClosureEquations(linkage), linkage)
     ways = _begun(ways_of_linkage, linkage, notes) if len(linkage.angles) else None
-    return Moving(linkage, bodies_of_linkage(linkage), ways, ground=0, limited=False)
+    return Moving(linkage, bodies_of_linkage(linkage), ways, centres_of_linkage(linkage), ground=0, limited=False)
 
 
 def _pattern(pattern: Prepared, notes: list[str]) -> Moving:
     notes += [f"mended: {repair}" for repair in pattern.repairs]
     ways = _begun(ways_of_pattern, pattern, notes) if len(pattern.linkage.angles) else None
     bodies = bodies_of_sheet(pattern.sheet, pattern.mechanism, pattern.linkage)
-    return Moving(pattern.linkage, bodies, ways, largest_panel(pattern.mechanism.panels), limited=True)
+    ground = largest_panel(pattern.mechanism.panels)
+    return Moving(pattern.linkage, bodies, ways, centres_of_pattern(pattern), ground, limited=True)
 
 
 def _begun(ways_of: Callable[[_Posed], Ways], posed: _Posed, notes: list[str]) -> Ways | None:

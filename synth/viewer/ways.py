@@ -10,16 +10,21 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.arrays import Floats, Ints
 from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.freedoms import free_rates, independent_joints
 from synth.folding.linkage import PosedLinkage
 from synth.folding.prepared import Prepared
+from synth.folding.singular.sampling import walked
 
 __all__ = ["Ways", "ways_of_linkage", "ways_of_pattern"]
 
 _NEAREST = "near to the marks"
+_STILL = 1e-9
+_MOST_DRIVERS = 40
+"""Joints with a slider of their own, at most; others can be dragged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,21 +37,28 @@ class Beginning:
         What it is called.
     rates : float[J]
         At the pose; the largest is 1 or -1.
+    drivers : tuple of int
+        Places of the joints that are driven, one for each freedom; the first begins fastest.
     still : tuple of int
         Places of the joints that do not move on it.
+    freedoms : int or None
+        Where they are known.
     """
 
     told: str
     rates: Floats
+    drivers: tuple[int, ...]
     still: tuple[int, ...] = ()
+    freedoms: int | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Return plain data; `driver` is the joint that begins fastest."""
+        """Return plain data: `WayData` of web/src/page/types.js."""
         return {
             "told": self.told,
             "rates": self.rates.tolist(),
+            "drivers": list(self.drivers),
             "still": list(self.still),
-            "driver": int(np.abs(self.rates).argmax()),
+            "freedoms": self.freedoms,
         }
 
 
@@ -132,17 +144,39 @@ def _ways(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | No
     number, rates = beginning(closure, linkage, found, wanted)
     rates = rates / np.abs(rates).max()
     if found is None:
-        return Ways((Beginning(_NEAREST, rates),), singular=True, taken=0)
+        return Ways((_nearest(linkage, closure, rates),), singular=True, taken=0)
     if number is None:
-        return Ways((_beginning(0, found.branches[0], rates),), singular=False, taken=0)
+        return Ways((_beginning(0, found.branches[0], rates, closure),), singular=False, taken=0)
     every = [
-        _beginning(place, branch, rates if place == number else branch.rates)
+        _beginning(place, branch, rates if place == number else branch.rates, closure)
         for place, branch in enumerate(found.branches)
     ]
     return Ways(tuple(every), singular=True, taken=number)
 
 
-def _beginning(number: int, branch: Branch, rates: Floats) -> Beginning:
-    freedoms = branch.freedoms
+def _nearest(linkage: PosedLinkage, closure: ClosureEquations, rates: Floats) -> Beginning:
+    """Return the one way of a linkage whose branches are not looked for."""
+    first, end = int(np.abs(rates).argmax()), walked(linkage.angles, closure, rates)[0]
+    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
+    freedoms, drivers = _driven(closure, end, moving, first)
+    return Beginning(_NEAREST, rates, drivers, freedoms=freedoms)
+
+
+def _beginning(number: int, branch: Branch, rates: Floats, closure: ClosureEquations) -> Beginning:
+    freedoms, first = branch.freedoms, int(np.abs(rates).argmax())
     told = "freedoms not known" if freedoms is None else f"{freedoms} freedom{'s' * (freedoms != 1)}"
-    return Beginning(f"way {number}: {told}, {branch.certainty}", rates, branch.still)
+    moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.still, dtype=np.int64))
+    # rates that close to first order may be more than the freedoms, which are those to second order
+    drivers = (first,) if not freedoms else _driven(closure, branch.sample, moving, first)[1][:freedoms]
+    return Beginning(f"way {number}: {told}, {branch.certainty}", rates, drivers, branch.still, freedoms)
+
+
+def _driven(
+    closure: ClosureEquations, angles: Floats, moving: Ints, first: int
+) -> tuple[int | None, tuple[int, ...]]:
+    """Return how many freedoms a pose has, and the places of joints that drive it: one for each, not too many."""
+    basis = free_rates(closure, angles, moving)
+    if basis is None or first not in moving:
+        return None, (first,)
+    rows = independent_joints(basis, int(np.searchsorted(moving, first)))
+    return basis.shape[1], tuple(int(moving[row]) for row in rows[:_MOST_DRIVERS])

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.collisions import Panels
 from synth.folding.newton import corrected
 from synth.folding.path import PathOptions, driven_path
 from synth.folding.placement import link_motions
@@ -51,6 +52,8 @@ class Asked:
     stopped: str
     places: np.ndarray
     freedoms: int
+    crossing: list[tuple[int, int] | None]
+    """Of each frame, the first two panels that cross."""
 
 
 def asked_of(moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames: int = 4) -> Asked:
@@ -70,15 +73,18 @@ def asked_of(moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames
     path = driven_path(closure, linkage.angles, [driver], goals[:, None], options=PathOptions(towards, limited))
     near = path.angles[-1] + rng.normal(scale=1e-3, size=closure.joints)
     ground = list(linkage.graph.nodes)[moving.ground]
+    faces = bodies.faces if moving.limited else []
     question = {
         "linkage": solver_data(linkage, limited=moving.limited, ground=ground),
         "anywhere": anywhere.tolist(),
         "near": near.tolist(),
         "direction": None if towards is None else towards.tolist(),
         "driver": driver,
+        "held": [],
         "goals": goals.tolist(),
         "vertices": bodies.vertices.tolist(),
         "owners": bodies.owners,
+        "faces": [{"link": link, "vertices": around} for link, around in faces],
     }
     motions = list(link_motions(linkage, path.angles, ground).values())
     carried = zip(bodies.vertices, bodies.owners, strict=True)
@@ -86,4 +92,6 @@ def asked_of(moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames
     last = closure.at(path.angles[-1])[1].toarray()
     freedoms = closure.joints - (int(np.linalg.matrix_rank(last, tol=1e-6)) if len(last) else 0)
     gathered, closed = jacobian.T @ residual, corrected(closure, near).angles
-    return Asked(question, residual, gathered, closed, path.angles, path.stopped, places, freedoms)
+    panels = Panels([around for _, around in faces], [link for link, _ in faces], bodies.vertices)
+    crossing = [panels.crossing(frame) for frame in places.swapaxes(0, 1)]
+    return Asked(question, residual, gathered, closed, path.angles, path.stopped, places, freedoms, crossing)

@@ -24,12 +24,14 @@ __all__ = ["view"]
 def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
     """Make a page that shows mechanisms and lets them move, without a network: one file, by double click.
 
-    The drawing is on it, and the model in space: drag a crease or a panel, or move the slider of the driven joint,
-    and all others follow, panels rigid, loops closed to 1e-12. Ways to move are found now and chosen there; stiff
-    joints and what moves as one are coloured; poses are saved as FOLD, OBJ or PNG. Several files make a list to
+    The drawing is on it, and the model in space: drag a crease or a panel, or move a slider, one for each freedom,
+    and all others follow, panels rigid, loops closed to 1e-12; a slider along the path goes on where a joint turns
+    back. Ways to move are found now and chosen there; stiff joints, what moves as one, panels that pass through
+    each other and spherical centres are shown; poses are saved as FOLD, OBJ or PNG. Several files make a list to
     choose from.
 
-    Without -o the page is opened in a browser with a workbench behind it: drop any file on it it can read.
+    Without -o the page is opened in a browser with a workbench behind it: drop any file on it that can be read,
+    lock, remove and add creases, take ride-alongs off, download templates.
     It ends with Ctrl-C, or 10 seconds after its last page was closed (extra: pip install 'synthedra[view]').
 
     \b

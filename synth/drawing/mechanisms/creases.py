@@ -26,7 +26,7 @@ from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_o
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
 
-__all__ = ["COLOURINGS", "crease_scene", "inside"]
+__all__ = ["COLOURINGS", "crease_scene", "inside", "places_on_page"]
 
 COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
 """What colours tell: letters of the file; what is still, and moves as one; how creases begin to fold on a branch;
@@ -119,17 +119,46 @@ def crease_scene(
     if branch is not None and colour != "branch":
         raise InvariantError("branch", f"the colouring {shown(colour)} shows none", "the colouring 'branch'")
     whole = with_all_edges(sheet)
-    flat = flat_places(whole, "a picture of a crease pattern")
-    extent = max(max(p[i] for p in flat) - min(p[i] for p in flat) for i in (0, 1)) if flat else 1.0
-    frame = framed(flat, min(box) / (extent or 1.0), box)
+    frame, places = _framed(whole, box)
     mechanism = mechanism_of_sheet(sheet)
-    drawn = _Drawn(whole, mechanism, frame, frame.row(flat), _motions(sheet, colour, branch))
+    drawn = _Drawn(whole, mechanism, frame, places, _motions(sheet, colour, branch))
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
     if graph:
         layers.append(Layer("graph", tuple(_graph(drawn))))
     if numbers:
         layers.append(Layer("labels", tuple(_labels(drawn, graph))))
     return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph), drawn.motions.said))
+
+
+def places_on_page(sheet: Sheet, box: tuple[float, float] = (COLUMN, COLUMN)) -> list[Point]:
+    """Return where the vertices of a crease pattern are in its picture, where that has no lines below.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    box : (width, height), optional
+        As of the picture.
+
+    Raises
+    ------
+    UnsolvableError
+        As `crease_scene` does.
+
+    Examples
+    --------
+    >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> places_on_page(square, (120.0, 120.0))
+    [(16.0, 104.0), (104.0, 104.0), (104.0, 16.0), (16.0, 16.0)]
+    """
+    return _framed(with_all_edges(sheet), box)[1]
+
+
+def _framed(whole: Sheet, box: tuple[float, float]) -> tuple[Frame, list[Point]]:
+    """Return the frame of a picture, and the places of the vertices in it."""
+    flat = flat_places(whole, "a picture of a crease pattern")
+    extent = max(max(p[i] for p in flat) - min(p[i] for p in flat) for i in (0, 1)) if flat else 1.0
+    frame = framed(flat, min(box) / (extent or 1.0), box)
+    return frame, frame.row(flat)
 
 
 def _motions(sheet: Sheet, colour: str, branch: int | str | None) -> Motions:

@@ -1,8 +1,8 @@
 """One path of closed poses, step by step: how far a step can be trusted, and what happens on the way.
 
 `stepping` takes the steps, `leg` goes from one frame to the next, `between` finds a pose within a step, `rank`
-watches for singular poses, `parting` says how many ways there are, `event` names what was met. `collisions`:
-panels that pass through each other. Theory: docs/theory/folding.md.
+watches for singular poses, `parting` says how many ways there are, `event` names what was met. `freedoms`: which
+joints drive a pose. `collisions`: panels that pass through each other. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations

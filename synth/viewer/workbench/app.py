@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable, Sequence
+from math import isfinite
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -14,16 +15,20 @@ from starlette.responses import HTMLResponse, PlainTextResponse, Response, Strea
 from starlette.routing import Route
 from starlette.types import ASGIApp
 
-from synth.viewer.pages import page
-from synth.viewer.shown import Shown
-from synth.viewer.workbench.asking import Judging, are_edits, file_name
+from synth.viewer.workbench.asking import Engine, file_name
+from synth.viewer.workbench.editing import are_edits
 from synth.viewer.workbench.guard import HEADERS, MOST_BYTES, Guard, Place
+from synth.viewer.workbench.printing import KINDS, REFUSED
+from synth.viewer.workbench.reading import MOTION
 
 __all__ = ["Presence", "application"]
 
 _BEAT = 1.0
 _AFTER = 10.0
 """Seconds after which a workbench without pages ends: a reload takes less."""
+_TYPES = {"pdf": "application/pdf", "svg": "image/svg+xml", "dxf": "image/vnd.dxf", "zip": "application/zip"}
+_LARGEST = 10_000.0
+"""Millimetres of a template."""
 
 
 class Presence:
@@ -49,42 +54,55 @@ class Presence:
                 self._timer = asyncio.get_running_loop().call_later(self._after, self._ended)
 
 
-def application(
-    place: Place, shown: Sequence[Shown], presence: Presence, sources: Sequence[bytes | None] = ()
-) -> ASGIApp:
+def application(place: Place, text: str, presence: Presence, sources: Sequence[bytes | None] = ()) -> ASGIApp:
     """Return the workbench as an ASGI application.
 
     Parameters
     ----------
     place : Place
-    shown : sequence of Shown
-        What is there when it is opened.
+    text : str
+        The page.
     presence : Presence
     sources : sequence of bytes or None
-        The files that these were read from, where they were files; the page asks for them to have them edited.
+        The files that what it shows was read from, where they were files; it asks for them to have them edited.
     """
-    text = page(shown, "workbench", workbench=True)
-    judging = Judging()
+    engine = Engine()
 
     async def opened(_: Request) -> Response:
         return HTMLResponse(text, headers=HEADERS)
 
     async def asked(request: Request) -> Response:
-        content = b""
-        async for chunk in request.stream():
-            content += chunk
-            if len(content) > MOST_BYTES:
-                return PlainTextResponse("the file is larger than it said", 413, headers=HEADERS)
-        name = file_name(request.query_params.get("name", ""))
-        edits = request.query_params.getlist("edit")
-        if not are_edits(edits):
-            return PlainTextResponse("expected edits such as lock:3 or remove:3", 400, headers=HEADERS)
-        answer = await judging.of([name, *edits], content, request.is_disconnected)
-        return Response(answer, media_type="application/json", headers=HEADERS)
+        content = await _body(request)
+        words = _words(request)
+        if content is None or words is None:
+            return _refused(content)
+        if request.query_params.get("motion") == "yes":
+            words.append(MOTION)
+        lines = engine.lines("reading", words, content)
+        return StreamingResponse(lines, media_type="application/x-ndjson", headers=HEADERS)
+
+    async def printed(request: Request) -> Response:
+        content = await _body(request)
+        words = _words(request)
+        if content is None or words is None:
+            return _refused(content)
+        kind, size = request.query_params.get("kind", ""), _size(request.query_params.get("size", ""))
+        if kind not in KINDS or size is None:
+            expected = f"expected a kind, one of {', '.join(KINDS)}, and a size up to {_LARGEST:g} millimetres"
+            return PlainTextResponse(expected, 400, headers=HEADERS)
+        name, *edits = words
+        status, made = await engine.whole("printing", [name, f"{size}", kind, *edits], content)
+        if status == REFUSED:
+            return Response(made, 422, media_type="application/json", headers=HEADERS)
+        if status:
+            return PlainTextResponse("the template could not be made: the engine failed", 500, headers=HEADERS)
+        kind = "zip" if made.startswith(b"PK") else kind
+        return Response(made, media_type=_TYPES[kind], headers=HEADERS)
 
     async def given(request: Request) -> Response:
         number = request.query_params.get("number", "")
-        source = sources[int(number)] if number.isdecimal() and int(number) < len(sources) else None
+        known = number.isascii() and number.isdigit() and len(number) < 6 and int(number) < len(sources)
+        source = sources[int(number)] if known else None
         if source is None:
             return PlainTextResponse("there is no such file", 404, headers=HEADERS)
         return Response(source, media_type="application/octet-stream", headers=HEADERS)
@@ -95,7 +113,42 @@ def application(
     routes = [
         Route("/", opened, methods=["GET"]),
         Route("/shown", asked, methods=["POST"]),
+        Route("/template", printed, methods=["POST"]),
         Route("/given", given, methods=["GET"]),
         Route("/open", line, methods=["GET"]),
     ]
-    return Guard(Starlette(routes=routes), place)
+    app = Starlette(routes=routes)
+    app.router.redirect_slashes = False  # to addresses without the token, which lead nowhere
+    return Guard(app, place)
+
+
+async def _body(request: Request) -> bytes | None:
+    """Return what was sent; None if it is larger than it may be."""
+    pieces, size = [], 0
+    async for chunk in request.stream():
+        pieces.append(chunk)
+        size += len(chunk)
+        if size > MOST_BYTES:
+            return None
+    return b"".join(pieces)
+
+
+def _words(request: Request) -> list[str] | None:
+    """Return a safe name of a file, and edits; None if there are none of the kinds that are known."""
+    edits = request.query_params.getlist("edit")
+    return [file_name(request.query_params.get("name", "")), *edits] if are_edits(edits) else None
+
+
+def _refused(content: bytes | None) -> Response:
+    if content is None:
+        return PlainTextResponse("the file is larger than it said", 413, headers=HEADERS)
+    return PlainTextResponse("expected edits such as lock:3 or crease:0~12", 400, headers=HEADERS)
+
+
+def _size(given: str) -> float | None:
+    """Return a number of millimetres; None if it is none that a template can have."""
+    try:
+        size = float(given)
+    except ValueError:
+        return None
+    return size if isfinite(size) and 0.0 < size <= _LARGEST else None

@@ -1,4 +1,4 @@
-"""Files read and judged in processes of their own, one after the other, which end with who asked.
+"""Files read, judged and printed in processes of their own, a few at a time, which end with who asked.
 
 Theory: docs/theory/viewer.md.
 """
@@ -9,17 +9,18 @@ import asyncio
 import json
 import re
 import sys
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import AsyncIterator, Sequence
+from contextlib import suppress
 
-__all__ = ["Judging", "are_edits", "file_name"]
+__all__ = ["Engine", "beating", "file_name"]
 
 _LONGEST = 120
-_MOST_EDITS = 200
 _SECONDS = 120.0
-_LOOK = 0.25
-"""Seconds between two looks whether somebody still waits."""
+_BEAT = 1.0
+"""Seconds after which a blank line is sent, so that it is seen whether somebody still waits."""
+_CHUNK = 1 << 16
 _AT_ONCE = 2
-_COMMAND = (sys.executable, "-m", "synth.viewer.workbench.reading")
+_FAILED = "it could not be read: the engine failed"
 
 
 def file_name(given: str) -> str:
@@ -35,75 +36,125 @@ def file_name(given: str) -> str:
     return made or "file"
 
 
-def are_edits(given: Sequence[str]) -> bool:
-    """Tell whether edits are of the kinds that are known, and not too many.
-
-    Examples
-    --------
-    >>> are_edits(["lock:3", "remove:12"]), are_edits(["lock:-1"]), are_edits(["rm:1"])
-    (True, False, False)
-    """
-    return len(given) <= _MOST_EDITS and all(re.fullmatch(r"(lock|remove):[0-9]{1,9}", edit) for edit in given)
-
-
-class Judging:
-    """Files judged, a few at a time."""
+class Engine:
+    """Modules of this package run on files, each in a process of its own."""
 
     def __init__(self) -> None:
         self._free = asyncio.Semaphore(_AT_ONCE)
 
-    async def of(self, words: Sequence[str], content: bytes, gone: Callable[[], Awaitable[bool]]) -> bytes:
-        """Return what a page shows of a file, as JSON.
+    async def lines(self, module: str, words: Sequence[str], content: bytes) -> AsyncIterator[bytes]:
+        """Yield what a module prints about a file, as it comes, and blank lines while there is nothing.
+
+        The process ends when nobody takes what is yielded any more, or it took too long.
 
         Parameters
         ----------
+        module : str
+            Its name in this package.
         words : sequence of str
-            A safe name, and edits.
+            A safe name, and what else the module is told.
         content : bytes
-        gone : callable
-            Whether nobody waits for it any more; then it is stopped.
 
-        Returns
-        -------
+        Yields
+        ------
         bytes
-            JSON with ``shown`` or ``error``.
+            Lines of JSON, in pieces; the last has ``error`` if the process did not end well.
         """
         async with self._free:
-            return await _judged(words, content, gone)
+            process = await _begun(module, words)
+            feeding = asyncio.create_task(_fed(process, content))
+            try:
+                async for piece in beating(_taken(process)):
+                    yield piece
+                if await process.wait():
+                    yield _error(words[0], _FAILED)
+            except TimeoutError:
+                yield _error(words[0], f"stopped after {_SECONDS:g} seconds; `synth mobility` has no such limit")
+            finally:
+                await _ended(process, feeding)
+
+    async def whole(self, module: str, words: Sequence[str], content: bytes) -> tuple[int, bytes]:
+        """Return the status of a module run on a file, and all that it wrote.
+
+        Parameters
+        ----------
+        module, words, content
+            As of `lines`.
+        """
+        async with self._free:
+            process = await _begun(module, words)
+            feeding = asyncio.create_task(_fed(process, content))
+            try:
+                pieces = [piece async for piece in _taken(process)]
+                return await process.wait(), b"".join(pieces)
+            except TimeoutError:
+                return 1, b""
+            finally:
+                await _ended(process, feeding)
 
 
-async def _judged(words: Sequence[str], content: bytes, gone: Callable[[], Awaitable[bool]]) -> bytes:
+async def beating(pieces: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+    """Yield pieces of lines, and a blank line for each that is empty, but none within a line.
+
+    Parameters
+    ----------
+    pieces : asynchronous iterator of bytes
+    """
+    between = True
+    async for piece in pieces:
+        if piece:
+            between = piece.endswith(b"\n")
+            yield piece
+        elif between:
+            yield b"\n"
+
+
+async def _begun(module: str, words: Sequence[str]) -> asyncio.subprocess.Process:
     pipe = asyncio.subprocess.PIPE
-    process = await asyncio.create_subprocess_exec(
-        *_COMMAND, *words, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
+    command = (sys.executable, "-m", f"{__package__}.{module}", *words)
+    return await asyncio.create_subprocess_exec(
+        *command, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
     )
-    answer = asyncio.create_task(process.communicate(content))
-    try:
-        why = await _watched(answer, gone)
-        if why:
-            return _error(words[0], why)
-        out, _ = answer.result()
-        return out if process.returncode == 0 else _error(words[0], "it could not be read: the engine failed")
-    finally:
-        if process.returncode is None:
-            process.kill()
-        await asyncio.gather(answer, return_exceptions=True)
 
 
-async def _watched(answer: asyncio.Task[tuple[bytes, bytes]], gone: Callable[[], Awaitable[bool]]) -> str:
-    """Wait for an answer; return why it is not waited for any longer, or nothing."""
+async def _fed(process: asyncio.subprocess.Process, content: bytes) -> None:
+    assert process.stdin is not None
+    with suppress(BrokenPipeError, ConnectionResetError):  # it ended before it had read all
+        process.stdin.write(content)
+        await process.stdin.drain()
+    process.stdin.close()
+
+
+async def _taken(process: asyncio.subprocess.Process) -> AsyncIterator[bytes]:
+    """Yield what a process writes, and nothing now and then where it is silent."""
+    assert process.stdout is not None
     loop = asyncio.get_running_loop()
     end = loop.time() + _SECONDS
-    while not answer.done():
-        await asyncio.wait([answer], timeout=_LOOK)
-        if answer.done():
-            break
-        if await gone():
-            return "stopped"
-        if loop.time() > end:
-            return f"stopped after {_SECONDS:g} seconds; `synth mobility` has no such limit"
-    return ""
+    reading = asyncio.create_task(process.stdout.read(_CHUNK))
+    try:
+        while True:
+            done, _ = await asyncio.wait([reading], timeout=_BEAT)
+            if not done:
+                yield b""
+            elif piece := reading.result():
+                yield piece
+                reading = asyncio.create_task(process.stdout.read(_CHUNK))
+            else:
+                return
+            if loop.time() > end:
+                raise TimeoutError
+    finally:
+        reading.cancel()
+
+
+async def _ended(process: asyncio.subprocess.Process, feeding: asyncio.Task[None]) -> None:
+    feeding.cancel()
+    if process.returncode is None:
+        with suppress(ProcessLookupError):
+            process.kill()
+    await asyncio.gather(feeding, return_exceptions=True)
+    await process.wait()
 
 
 def _error(name: str, why: str) -> bytes:
-    return json.dumps({"error": f"{name}: {why}"}).encode()
+    return b"\n" + json.dumps({"error": f"{name}: {why}"}).encode() + b"\n"

@@ -1,9 +1,8 @@
 """One file read and judged, in a process of its own: what hangs, or needs too much, is ended with it.
 
-    python -m synth.viewer.workbench.reading NAME [EDIT...] < file
+    python -m synth.viewer.workbench.reading NAME [--motion] [EDIT...] < file
 
-prints JSON: what a page shows, or in what words the file is refused. Readers take files by their names, so what
-comes is put into a private folder that goes with the process.
+prints lines of JSON: how far it is, and last what a page shows, or in what words the file is refused.
 """
 
 from __future__ import annotations
@@ -11,25 +10,32 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from graphs.convert.table import Mechanism
-from graphs.creasing.edits import lock_crease, remove_crease
-from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
+from graphs.errors import FileError, InvariantError, SynthedraError
 from graphs.files.formats import read
-from graphs.mechanism.sheet import Sheet
-from synth.viewer.shown import shown_of
+from synth.viewer.shown import Report, shown_of
+from synth.viewer.workbench.editing import edited
 
-__all__ = ["answered"]
+__all__ = ["MOTION", "answered", "read_and_edited", "refusal"]
+
+MOTION = "--motion"
+"""The word that asks for the motion of what is so large that it is looked for on request only."""
 
 
-_EDITS = {"lock": lock_crease, "remove": remove_crease}
-
-
-def answered(name: str, content: bytes, edits: Sequence[str] = ()) -> dict[str, Any]:
+def answered(
+    name: str,
+    content: bytes,
+    edits: Sequence[str] = (),
+    *,
+    motion: bool | None = None,
+    report: Report = lambda _what, _step, _of: None,
+) -> dict[str, Any]:
     """Return what a page shows of a file, or why it shows nothing.
 
     Parameters
@@ -38,7 +44,11 @@ def answered(name: str, content: bytes, edits: Sequence[str] = ()) -> dict[str, 
         Without folders.
     content : bytes
     edits : sequence of str
-        ``lock:JOINT`` or ``remove:JOINT``, one after the other, each with the ids that the last one left.
+        Of the kinds of `synth.viewer.workbench.editing`.
+    motion : bool, optional
+        Look for the motion, however large it is.
+    report : callable, optional
+        Called before each step.
 
     Returns
     -------
@@ -50,37 +60,63 @@ def answered(name: str, content: bytes, edits: Sequence[str] = ()) -> dict[str, 
     >>> answered("a.fold", b"{")["error"][:14]
     'a.fold: line 1'
     """
+    report("reading", 0, 4)
+    return refusal(
+        name,
+        lambda: {
+            "shown": shown_of(read_and_edited(name, content, edits), name, motion=motion, report=report).to_json()
+        },
+    )
+
+
+def read_and_edited(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
+    """Return what a file holds, after edits. Readers take files by their names: it is put into a private folder.
+
+    Raises
+    ------
+    SynthedraError
+        As readers and edits do; messages name the file alone.
+    """
+    with _private_folder():
+        Path(name).write_bytes(content)
+        return edited(read(name), edits)
+
+
+def refusal(name: str, made: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """Return what is made, or ``error``: why it was refused, in one line that names the file."""
+    try:
+        return made()
+    except FileError as error:
+        return {"error": str(error)}
+    except InvariantError as error:
+        return {"error": str(FileError(name, "", error.offender, error.expected))}
+    except SynthedraError as error:
+        return {"error": str(FileError(name, "", str(error)))}
+
+
+@contextmanager
+def _private_folder() -> Iterator[None]:
+    """Work in a folder of one's own, which goes again."""
     before = Path.cwd()
     with TemporaryDirectory() as folder:
-        (Path(folder) / name).write_bytes(content)
-        os.chdir(folder)  # so that messages name the file alone
+        os.chdir(folder)
         try:
-            return {"shown": shown_of(_edited(read(name), edits), name).to_json()}
-        except FileError as error:
-            return {"error": str(error)}
-        except InvariantError as error:
-            return {"error": str(FileError(name, "", error.offender, error.expected))}
-        except SynthedraError as error:
-            return {"error": str(FileError(name, "", str(error)))}
+            yield
         finally:
             os.chdir(before)
 
 
-def _edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
-    if not edits:
-        return thing
-    if not isinstance(thing, Sheet):
-        raise UnsolvableError("only crease patterns are edited here; other mechanisms by `synth edit`")
-    sheet = thing if thing.frames is None else thing.frames.first_placed()
-    for edit in edits:
-        what, _, joint = edit.partition(":")
-        sheet = _EDITS[what](sheet, int(joint)).sheet
-    return sheet
+def _report(what: str, step: int, of: int) -> None:
+    print(json.dumps({"doing": what, "step": step, "of": of}), flush=True)
 
 
 def main() -> None:
     """Answer about the file on standard input."""
-    json.dump(answered(sys.argv[1], sys.stdin.buffer.read(), sys.argv[2:]), sys.stdout)
+    name, *words = sys.argv[1:]
+    motion = True if MOTION in words else None
+    edits = [word for word in words if word != MOTION]
+    told = answered(name, sys.stdin.buffer.read(), edits, motion=motion, report=_report)
+    print(json.dumps(told, allow_nan=False))
 
 
 if __name__ == "__main__":

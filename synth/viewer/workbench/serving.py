@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 
 import uvicorn
 
+from synth.viewer.pages import page
 from synth.viewer.shown import Shown
 from synth.viewer.workbench.app import Presence, application
 from synth.viewer.workbench.guard import Place
@@ -37,10 +38,11 @@ def serve(shown: Sequence[Shown], sources: Sequence[bytes | None], opened: Calla
     KeyboardInterrupt
         If it was stopped.
     """
+    text = page(shown, "workbench", workbench=True)
     with socket.create_server(("127.0.0.1", 0)) as listening:
         place = Place(listening.getsockname()[1], secrets.token_urlsafe(24))
         presence = Presence(lambda: setattr(server, "should_exit", True))
-        app = application(place, shown, presence, sources)
+        app = application(place, text, presence, sources)
         config = uvicorn.Config(
             app, log_level="critical", lifespan="off", server_header=False, timeout_graceful_shutdown=_LINGER
         )

@@ -8,6 +8,7 @@ import pytest
 
 import synth
 from graphs.files.formats import read
+from graphs.mechanism.sheet import Sheet
 from synth.viewer.building import BUILT
 from synth.viewer.pages import page
 from synth.viewer.shown import shown_of
@@ -25,6 +26,7 @@ PANELS = {
     "bird base": lambda data: read(data / "patterns" / "bird-base.fold"),
     "pop-up": lambda _: synth.generate("slit-array").mechanism,
     "square twist": lambda data: read(data / "wiener" / "square-twist.fold"),
+    "hybrid": lambda data: synth.realise(read(data / "wiener" / "hybrid-ten-bar.json")).sheet,
 }
 OTHERS = {
     "Bennett": lambda data: read(data / "linkages" / "bennett.json"),
@@ -69,12 +71,25 @@ class Opened:
         self.tab.goto(place.as_uri())
         self.tab.wait_for_selector("main[data-ready]", timeout=WAIT)
 
-    def to(self, degrees):
-        self.tab.get_by_label("Angle, degrees").fill(str(degrees))
-        self.tab.get_by_label("Angle, degrees").press("Enter")
+    def to(self, degrees, slider=0):
+        field = self.tab.locator(".sliders input[type=number]").nth(slider)
+        field.fill(str(degrees))
+        field.press("Enter")
+
+    def angles(self):
+        """Degrees at the sliders, one for each freedom; the last slider is that of the path."""
+        sliders = self.tab.locator(".sliders .drive:not(.path) input[type=range]")
+        return [float(slider.input_value()) for slider in sliders.all()]
 
     def angle(self):
-        return float(self.tab.get_by_label("Angle of the driven joint, degrees").input_value())
+        return self.angles()[0]
+
+    def travelled(self):
+        return float(self.tab.get_by_label("Along the path").input_value())
+
+    def along(self, degrees):
+        """Go to a place along the path."""
+        self.tab.get_by_label("Along the path").fill(str(degrees))
 
     def status(self):
         return self.tab.locator(".status").text_content()
@@ -163,7 +178,7 @@ def test_it_plays_and_stops(opened, data):
     before = window.angle()
     window.tab.get_by_role("button", name="Play").click()
     window.tab.wait_for_function(
-        "before => Math.abs(document.querySelector('input[type=range]').value - before) > 3",
+        "before => Math.abs(document.querySelector('.sliders input[type=range]').value - before) > 3",
         arg=before,
         timeout=WAIT,
     )
@@ -171,6 +186,84 @@ def test_it_plays_and_stops(opened, data):
     here = window.angle()
     window.tab.wait_for_timeout(100)
     assert window.angle() == here
+
+
+def test_there_is_a_slider_for_each_freedom_and_the_others_stay(opened, data):
+    window = opened(PANELS["bird base"](data), name="bird base")
+    assert len(window.angles()) == 5
+    window.to(40)  # the first leaves the flat sheet, and the others with it
+    for slider, turn in ((3, 4), (1, 2), (4, -2)):
+        before = window.angles()
+        degrees = before[slider] + turn
+        window.to(degrees, slider)
+        after = window.angles()
+        assert after[slider] == pytest.approx(degrees, abs=1e-6)
+        assert [a for n, a in enumerate(after) if n != slider] == [b for n, b in enumerate(before) if n != slider]
+        assert window.closure() <= 1e-10
+
+
+def test_sliders_pulled_in_another_order_lead_to_the_same_pose(opened, data):
+    window, found = opened(PANELS["bird base"](data)), []
+    for order in ((1, 3, 4), (4, 1, 3)):
+        window.tab.get_by_role("button", name="Reset").click()
+        window.to(40)
+        begun = window.angles()
+        for slider in order:
+            window.to(begun[slider] + {1: 2, 3: 4, 4: -2}[slider], slider)
+        found.append(window.pose()["vertices_coords"])
+    np.testing.assert_allclose(found[1], found[0], atol=1e-6)
+
+
+def test_along_the_path_it_goes_past_where_the_driven_joint_turns_back(opened, data):
+    window = opened(PANELS["bird base"](data))
+    window.to(150)
+    assert "turns back here" in window.status()
+    top, travelled = window.angle(), window.travelled()
+    window.along(travelled + 40)
+    assert window.angle() < top - 1
+    assert window.closure() <= 1e-10
+    window.along(travelled)
+    assert window.angle() == pytest.approx(top, abs=0.1)
+
+
+def test_any_joint_gets_a_slider(opened, data):
+    window = opened(PANELS["bird base"](data))
+    window.tab.get_by_label("Driven joint").select_option(label="joint 3")
+    names = window.tab.locator(".sliders .name").all_inner_texts()
+    assert len(names) == 6
+    assert "joint 3" in names
+    assert window.tab.locator(".sliders .driven .name").inner_text() == "joint 3"
+
+
+def test_panels_that_pass_through_each_other_are_told(opened):
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1), (-1.5, 0), (-1.5, 1), (2.5, 0), (2.5, 1))
+    strip = Sheet(8, ((0, 3), (1, 2)), "VV", ((0, 1, 2, 3), (4, 0, 3, 5), (1, 6, 7, 2)), corners)
+    window = opened(strip)
+    crossed = window.tab.locator(".crossed")
+    window.to(120, 0)
+    assert crossed.text_content() == ""
+    window.to(130, 1)
+    assert crossed.text_content() == "Panels pass through each other: 1 and 2"
+    window.to(20, 1)
+    assert crossed.text_content() == ""
+
+
+def test_a_limit_is_told_in_words(opened):
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1))
+    window = opened(Sheet(6, ((1, 2),), "V", ((0, 1, 2, 3), (1, 4, 5, 2)), corners))
+    window.along(200)
+    assert "panels lie on each other at joint 0" in window.status()
+    assert window.angle() == pytest.approx(180)
+
+
+def test_a_centre_that_is_clicked_tells_what_it_is(opened, data):
+    window = opened(PANELS["bird base"](data))
+    window.tab.locator(".model canvas").click()
+    told = window.tab.locator(".part").text_content()
+    assert told.startswith("Centre 0, explicit: a vertex of panels; of joints ")
+    window.tab.get_by_label("centres").uncheck()
+    window.tab.locator(".model canvas").click()
+    assert window.tab.locator(".part").text_content().startswith("Joint ")
 
 
 def test_a_click_in_the_drawing_tells_the_number(opened, data):
@@ -206,6 +299,77 @@ def test_what_is_rigid_and_what_has_no_pose_is_said(opened, data):
     window.tab.get_by_label("Mechanism").select_option("1")
     assert "has none" in window.tab.locator(".notes").text_content()
     assert window.tab.locator(".pattern svg").is_visible()
+
+
+@pytest.mark.parametrize("name", [*PANELS, *OTHERS])
+def test_what_is_dragged_moves(opened, data, name):
+    window = opened((PANELS | OTHERS)[name](data))
+    window.tab.locator(".model canvas").scroll_into_view_if_needed()
+    window.to(window.angle() + 10)
+    before = np.array(window.pose()["vertices_coords"])
+    x, y = somewhere_on_it(window)
+    window.tab.mouse.move(x, y)
+    window.tab.mouse.down()
+    for step in range(1, 8):
+        window.tab.mouse.move(x + 6 * step, y - 9 * step)
+    window.tab.mouse.up()
+    after = np.array(window.pose()["vertices_coords"])
+    assert np.abs(after - before).max() > 1e-3 * np.ptp(before, axis=0).max()
+    assert window.closure() <= 1e-10
+
+
+def somewhere_on_it(window):
+    """A place of the page at which a click hits a link or a joint."""
+    box = window.tab.locator(".model canvas").bounding_box()
+    for part in (0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65):
+        for other in (0.5, 0.4, 0.6):
+            x, y = box["x"] + part * box["width"], box["y"] + other * box["height"]
+            window.tab.mouse.click(x, y)
+            if window.tab.locator(".part").text_content().startswith(("Link", "Joint")):
+                return x, y
+    raise AssertionError("nothing was hit")
+
+
+def test_a_finger_drags_it(browser, tmp_path, data):
+    place = tmp_path / "page.html"
+    place.write_text(page([shown_of(PANELS["Miura"](data))]), encoding="utf-8")
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    tab = context.new_page()
+    tab.goto(place.as_uri())
+    tab.wait_for_selector("main[data-ready]", timeout=WAIT)
+    slider = tab.locator(".sliders input[type=range]").first
+    before = float(slider.input_value())
+    box = tab.locator(".model canvas").bounding_box()
+    touch = context.new_cdp_session(tab)
+    at = {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [at]})
+    for step in range(1, 8):
+        moved = {"x": at["x"] + 7 * step, "y": at["y"] + 3 * step}
+        touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [moved]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert abs(float(slider.input_value()) - before) > 1
+    context.close()
+
+
+def test_it_is_used_by_keyboard_and_every_control_has_a_name(opened, data):
+    window = opened(PANELS["bird base"](data), OTHERS["Bennett"](data))
+    before = window.angle()
+    window.tab.locator(".sliders input[type=range]").first.focus()
+    window.tab.keyboard.press("PageUp")
+    assert window.angle() != before
+    window.tab.locator(".model canvas").focus()
+    window.tab.keyboard.press("ArrowLeft")
+    reached = set()
+    for _ in range(60):
+        window.tab.keyboard.press("Tab")
+        reached.add(window.tab.evaluate("document.activeElement.tagName"))
+    assert {"SELECT", "BUTTON", "INPUT", "CANVAS", "SUMMARY"} <= reached
+    controls = window.tab.locator("button, select, input, canvas, summary, progress")
+    nameless = controls.evaluate_all(
+        """all => all.filter(one => !(one.ariaLabel || one.textContent.trim() || one.labels?.length))
+                      .map(one => one.outerHTML)"""
+    )
+    assert nameless == []
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -8,7 +8,11 @@ from page_solver import answers, asked_of
 from graphs.files.formats import read
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from synth.folding.closure import ClosureEquations
+from synth.folding.following.collisions import Panels
+from synth.folding.path import driven_path
 from synth.viewer.shown import Moving, shown_of
 
 pytestmark = pytest.mark.web
@@ -35,8 +39,64 @@ def compare(things: list[Moving]) -> int:
         np.testing.assert_allclose(poses, one.frames[1:], rtol=0, atol=tolerance)
         for frame, places in zip(answer["frames"], one.places[:, 1:].swapaxes(0, 1), strict=True):
             np.testing.assert_allclose(np.reshape(frame["places"], (-1, 3)), places, rtol=0, atol=tolerance)
+        for frame, crossing in zip(answer["frames"], one.crossing[1:], strict=True):
+            assert bool(frame["crossings"]) == (crossing is not None)
+            assert crossing is None or list(crossing) in frame["crossings"]
         whole += 1
     return whole
+
+
+def test_joints_that_are_held():
+    """A ring of eight skew axes has two freedoms: one is driven, the other held, as both are driven in Python."""
+    chance = np.random.default_rng(3)
+    axes = {joint: (chance.normal(size=3).tolist(), chance.normal(size=3).tolist()) for joint in range(8)}
+    moving = moving_of(HingedSolids(SCGraph(8, [(k, (k + 1) % 8) for k in range(8)]), axes))
+    first, second = moving.ways.all[0].drivers
+    closure = ClosureEquations(moving.linkage)
+    goals = np.stack([np.linspace(0.1, 0.3, 3), np.zeros(3)], axis=1)
+    path = driven_path(closure, moving.linkage.angles, [first, second], goals)
+    assert not path.stopped
+    question = {
+        **asked_of(moving, chance).question,
+        "driver": first,
+        "held": [second],
+        "goals": goals[:, 0].tolist(),
+    }
+    (answer,) = answers([question])
+    np.testing.assert_allclose(
+        [one["angles"] for one in answer["frames"]], path.angles[1:], rtol=0, atol=SAME_POSE
+    )
+    assert [one["angles"][second] for one in answer["frames"]] == [0.0, 0.0, 0.0]
+
+
+def test_panels_that_cross():
+    """Two flaps on a strip, longer than it is wide: one stands inwards already, the other is folded through it."""
+    turned = np.radians(120.0)
+    low, high = -1.5 * np.cos(turned), 1.5 * np.sin(turned)
+    corners = (
+        (0, 0, 0),
+        (1, 0, 0),
+        (1, 1, 0),
+        (0, 1, 0),
+        (low, 0, high),
+        (low, 1, high),
+        (2.5, 0, 0),
+        (2.5, 1, 0),
+    )
+    faces = ((0, 1, 2, 3), (4, 0, 3, 5), (1, 6, 7, 2))
+    moving = moving_of(Sheet(8, ((0, 3), (1, 2)), "VV", faces, corners))
+    one = asked_of(moving, np.random.default_rng(1))
+    driver = int(np.flatnonzero(np.abs(moving.linkage.angles) < 0.1)[0])
+    goals = np.radians([30.0, 60.0, 90.0, 120.0, 150.0])
+    question = {**one.question, "driver": driver, "held": [1 - driver], "direction": None, "goals": goals.tolist()}
+    (answer,) = answers([question])
+    panels = Panels(faces, range(3), moving.bodies.vertices)
+    expected = [panels.crossing(np.reshape(frame["places"], (-1, 3))) for frame in answer["frames"]]
+    assert [frame["crossings"] for frame in answer["frames"]] == [
+        [list(pair)] if pair else [] for pair in expected
+    ]
+    assert expected[0] is None
+    assert (1, 2) in expected
 
 
 def moving_of(thing) -> Moving | None:

@@ -1,6 +1,7 @@
 """What pages show: data of things that move, of what is rigid, of types without a pose."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -29,6 +30,21 @@ def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(bird_base):
     assert told["verdict"] in told["report"]
     assert {"light", "dark"} == set(told["pictures"])
     assert len(told["moving"]["between"]) == len(told["moving"]["joints"]) == 20
+
+
+def test_each_way_has_a_driver_for_each_freedom_the_fastest_first(bird_base):
+    for way in bird_base.moving.ways.all:
+        assert len(set(way.drivers)) == len(way.drivers) == way.freedoms == 5
+        assert abs(way.rates[way.drivers[0]]) == 1.0
+        assert not set(way.drivers) & set(way.still)
+
+
+def test_a_pattern_is_told_where_it_is_drawn(bird_base):
+    shape = re.search(r'data-link="0" d="([^"]*)"', bird_base.pictures["light"]).group(1)
+    corners = np.array(re.findall(r"-?[0-9.]+", shape), dtype=float).reshape(-1, 2)
+    places = np.array(bird_base.drawn.places)
+    assert len(corners) >= 3
+    assert np.linalg.norm(corners[:, None] - places, axis=-1).min(axis=1).max() < 0.02
 
 
 def test_what_is_rigid_is_shown_with_the_reason(data):

@@ -6,6 +6,7 @@
 
 /** @import { LinkageData } from "./solver/types.js" */
 import { readFileSync } from "node:fs";
+import { Crossing } from "./page/crossing.js";
 import { Closure } from "./solver/closure.js";
 import { Motion } from "./solver/motion.js";
 import { Equations } from "./solver/newton.js";
@@ -18,25 +19,28 @@ import { linkMotions, vertexPlaces } from "./solver/placement.js";
  * @property {number[]} near - Angles from which Newton's method begins.
  * @property {number[] | null} direction - Rates to begin with.
  * @property {number} driver
+ * @property {number[]} held - Joints that stay.
  * @property {number[]} goals - Its angles, one after the other.
  * @property {number[][]} vertices
  * @property {number[]} owners
+ * @property {{link: number, vertices: number[]}[]} faces - Panels that may cross.
  */
 
 /** @param {Question} question */
-function answered({ linkage, anywhere, near, direction, driver, goals, vertices, owners }) {
+function answered({ linkage, anywhere, near, direction, driver, held, goals, vertices, owners, faces }) {
   const closure = new Closure(linkage);
   const { residual, derivatives } = closure.at(Float64Array.from(anywhere));
   const corrected = new Equations(closure, linkage.order).corrected(Float64Array.from(near));
   const motion = new Motion(linkage, direction && Float64Array.from(direction));
+  const crossing = new Crossing({ vertices, owners, faces, edges: [] });
   const frames = goals.map((goal) => {
     const before = process.cpuUsage();
-    const stopped = motion.to(driver, goal);
+    const stopped = motion.to({ joint: driver, held }, goal);
     const used = process.cpuUsage(before);
     const took = (used.user + used.system) / 1000; // milliseconds of the processor
     const { angles, error } = motion.pose;
     const places = vertexPlaces(linkMotions(linkage, angles), vertices, owners);
-    return { stopped, took, error, angles: [...angles], places: [...places] };
+    return { stopped, took, error, angles: [...angles], places: [...places], crossings: crossing.at(places) };
   });
   return {
     residual: [...residual],

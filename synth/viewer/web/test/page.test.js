@@ -3,6 +3,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { middleOf, radiusOf, turnBack } from "../src/page/aligned.js";
+import { Crossing } from "../src/page/crossing.js";
+import { snapped } from "../src/page/editing.js";
 import { trianglesOf } from "../src/page/geometry.js";
 
 test("a turned body is turned back", () => {
@@ -40,3 +42,35 @@ for (const turned of [false, true]) {
     assert.equal(area, turned ? -10 : 10);
   });
 }
+
+/**
+ * Two panels: a square in the plane and a triangle that stands on end.
+ *
+ * @param {number[][]} standing - Corners of the triangle.
+ */
+function crossings(standing) {
+  const vertices = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], ...standing];
+  const faces = [{ link: 0, vertices: [0, 1, 2, 3] }, { link: 1, vertices: [4, 5, 6] }];
+  return new Crossing({ vertices, owners: [0, 0, 0, 0, 1, 1, 1], faces, edges: [] }).at(vertices.flat());
+}
+
+test("panels cross that pass through each other; not those that touch, lie on each other or are apart", () => {
+  assert.deepEqual(crossings([[1, 1, -1], [1.2, 1, 1], [0.8, 1, 1]]), [[0, 1]]);
+  assert.deepEqual(crossings([[1, 1, 0], [1.2, 1, 1], [0.8, 1, 1]]), []);
+  assert.deepEqual(crossings([[0.5, 0.5, 0], [1.5, 0.5, 0], [1, 1.5, 0]]), []);
+  assert.deepEqual(crossings([[3, 1, -1], [3.2, 1, 1], [2.8, 1, 1]]), []);
+});
+
+test("a square is crossed along its diagonal", () => {
+  assert.deepEqual(crossings([[1, 1, -1], [0.5, 0.5, 1], [1.5, 1.5, 1]]), [[0, 1]]);
+});
+
+test("an end of a crease is the vertex near to a click, else a point of the nearest edge", () => {
+  /** @type {import("../src/page/types.js").DrawnData} */
+  const drawn = {
+    vertices: [[0, 0, 1], [2, 0, 1], [2, 1, 1]], edges: [[0, 1], [1, 2]], places: [[10, 90], [90, 90], [90, 50]],
+  };
+  assert.deepEqual(snapped(drawn, [88, 92], 5), { named: "1", place: [90, 90] });
+  assert.deepEqual(snapped(drawn, [50, 80], 5), { named: "1,0,1", place: [50, 90] });
+  assert.deepEqual(snapped(drawn, [95, 60], 5), { named: "2,0.75,1", place: [90, 60] });
+});

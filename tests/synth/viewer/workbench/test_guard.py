@@ -9,7 +9,7 @@ pytest.importorskip("starlette", reason="the workbench is not installed")
 
 from starlette.responses import PlainTextResponse
 
-from synth.viewer.workbench.app import Presence
+from synth.viewer.workbench.app import Presence, application
 from synth.viewer.workbench.asking import file_name
 from synth.viewer.workbench.guard import MOST_BYTES, Guard, Place
 
@@ -21,22 +21,27 @@ async def inside(scope, receive, send):
     await PlainTextResponse(f"inside {scope['path']}")(scope, receive, send)
 
 
-def asked(path="/T0ken-of-this_one/", headers=OWN, method="GET"):
-    """Status and text of one request."""
+async def answered(app, path, method, headers, query="", body=b""):
+    """Status and text that an application answers one request with."""
     sent = []
 
     async def receive():
-        return {"type": "http.request", "body": b"", "more_body": False}
+        return {"type": "http.request", "body": body, "more_body": False}
 
     async def send(message):
         sent.append(message)
 
     scope = {
         "type": "http", "method": method, "path": path, "raw_path": path.encode("utf-8", "surrogateescape"),
-        "query_string": b"", "headers": headers,
+        "query_string": query.encode(), "headers": headers,
     }  # fmt: skip
-    asyncio.run(Guard(inside, PLACE)(scope, receive, send))
+    await app(scope, receive, send)
     return sent[0]["status"], sent[1]["body"].decode()
+
+
+def asked(path="/T0ken-of-this_one/", headers=OWN, method="GET"):
+    """Status and text of one request to the guard."""
+    return asyncio.run(answered(Guard(inside, PLACE), path, method, headers))
 
 
 def test_its_own_page_gets_in():
@@ -103,6 +108,33 @@ def test_malformed_requests_get_a_message_and_nothing_else(count):
         )
         assert status in (403, 404)
         assert "inside" not in text
+
+
+@pytest.mark.parametrize("count", [300, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_malformed_requests_of_its_own_page_get_a_message(count):
+    """With the token, but with queries and bodies that are none: nothing is begun, nothing breaks."""
+    draw = random.Random(11)
+    app = application(PLACE, "the page", Presence(lambda: None))
+    routes = ["", "shown", "template", "given", "open/", "../x", "%2e%2e/x", "shown/../given"]
+    keys = ["edit", "edit", "kind", "size", "number", "motion", "x"]
+
+    def word():
+        letters = draw.choices(range(1, 256), k=draw.randrange(12))
+        return "".join(f"%{letter:02x}" for letter in letters)
+
+    async def story():
+        for _ in range(count):
+            query = "&".join(f"{draw.choice(keys)}={word()}" for _ in range(draw.randrange(4)))
+            route, method = draw.choice(routes), draw.choice(["GET", "POST"])
+            body = bytes(draw.choices(range(256), k=draw.randrange(20)))
+            if route in ("shown", "template") and method == "POST":
+                query += f"&edit=x{word()}"  # those would be judged
+            headers = [*OWN, (b"content-length", str(len(body)).encode())]
+            status, _ = await answered(app, f"/T0ken-of-this_one/{route}", method, headers, query, body)
+            assert status in (200, 400, 404, 405)
+            assert status != 200 or (route == "" and method == "GET")
+
+    asyncio.run(story())
 
 
 @pytest.mark.parametrize(

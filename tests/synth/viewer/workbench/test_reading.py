@@ -4,13 +4,17 @@ import json
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 from real_patterns import names_of_patterns
 
 import synth
 from graphs.creasing.edits import lock_crease, remove_crease
-from graphs.errors import SynthedraError
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
+from synth.patterns.creases.tessellations import miura
+from synth.viewer.shown import shown_of
+from synth.viewer.workbench.printing import printed
 from synth.viewer.workbench.reading import answered
 from tests.support.commands import run
 
@@ -52,6 +56,51 @@ def test_creases_are_locked_and_removed_one_after_the_other(data):
         answered(place.name, content, ["lock:0", "remove:2"])["shown"]["verdict"]
         == synth.mobility(twice).verdict.text
     )
+
+
+def test_it_is_told_how_far_it_is(data):
+    place, told = data / "patterns" / "four-bar-vertex.fold", []
+    answered(place.name, place.read_bytes(), report=lambda what, step, of: told.append((what, step, of)))
+    assert [step for _, step, _ in told] == [0, 1, 2, 3]
+    assert {of for _, _, of in told} == {4}
+    assert told[1][0] == "looking for ways to move"
+
+
+@pytest.mark.slow
+def test_what_is_large_is_judged_on_request():
+    sheet = miura(30, 41, np.radians(60.0))
+    shown = shown_of(sheet)
+    assert shown.on_request
+    assert shown.verdict == synth.mobility(sheet).verdict.text
+    assert "the motion of 1230 panels is looked for on request" in shown.verdict
+    assert len(shown.moving.bodies.faces) == 1230
+    assert shown.moving.ways is None
+    shown = shown_of(sheet, motion=True)
+    assert not shown.on_request
+    assert "Folds with 1 freedom" in shown.verdict
+    assert len(shown.moving.ways.all[0].drivers) == 1
+
+
+def test_numbers_of_the_answer_keep_all_their_digits(data):
+    place = data / "patterns" / "four-bar-vertex.fold"
+    told = answered(place.name, place.read_bytes())["shown"]
+    assert json.loads(told["answer"])["exact"]["primes"] == list(synth.mobility(read(place)).exact.primes)
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "begins"), [("svg", 150.0, b"<svg"), ("svg", 600.0, b"PK"), ("dxf", 150.0, b"999")]
+)
+def test_templates_are_printed(data, kind, size, begins):
+    place = data / "patterns" / "bird-base.fold"
+    made, content = printed(place.name, place.read_bytes(), size, kind, ["lock:0"])
+    assert made == ("zip" if begins == b"PK" else kind)
+    assert content.startswith(begins)
+
+
+def test_what_has_no_panels_has_no_template(data):
+    place = data / "wiener" / "six-bar.json"
+    with pytest.raises(UnsolvableError, match="a template needs panels"):
+        printed(place.name, place.read_bytes(), 150.0, "svg")
 
 
 def test_what_cannot_be_edited_is_said(data):

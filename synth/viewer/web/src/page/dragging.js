@@ -11,6 +11,8 @@ import { Vector3 } from "three";
 
 /** Pixels from a crease at which it is hit: by a mouse, by a finger. */
 const NEAR = { mouse: 8, touch: 16 };
+/** Pixels from a centre at which that is hit, before the creases that meet there. */
+const NEAR_CENTRE = { mouse: 6, touch: 12 };
 const DEPTH = 0.003;
 /** Pixels before a press is a drag. */
 const DRAGGED = 4;
@@ -21,9 +23,9 @@ const HARDLY = 40, UPWARDS = 160;
 const MOST = 0.25;
 
 /**
- * What is held: weights of the corners of a triangle, or the middle of a crease.
+ * What is held: weights of the corners of a triangle, or the middle of a crease; the centre that was hit, -1: none.
  *
- * @typedef {{joint: number, link: number, corners: number[], weights: number[]}} Held
+ * @typedef {{joint: number, link: number, corners: number[], weights: number[], centre: number}} Held
  */
 
 export class Dragging {
@@ -52,7 +54,7 @@ export class Dragging {
     if (event.button !== 0 || !event.isPrimary || !mechanism) return;
     const held = this.#hit(mechanism, event);
     this.#drag = held && { held, x: event.clientX, y: event.clientY, moved: false };
-    if (!held || !this.page.folds() || !mechanism.moves) return;
+    if (!held?.corners.length || !this.page.folds() || !mechanism.moves) return;
     this.model.controls.enabled = false;
     this.model.canvas.setPointerCapture(event.pointerId);
   }
@@ -71,7 +73,7 @@ export class Dragging {
     }
     if (this.model.controls.enabled) return;
     const turn = this.#turn(mechanism, drag.held, dx, dy);
-    mechanism.to(mechanism.value + (Math.min(MOST, Math.max(-MOST, turn)) * 180) / Math.PI);
+    mechanism.pull(mechanism.value + (Math.min(MOST, Math.max(-MOST, turn)) * 180) / Math.PI);
     [drag.x, drag.y] = [event.clientX, event.clientY];
     this.page.changed();
   }
@@ -144,10 +146,31 @@ export class Dragging {
       const depth = a.depth + part * (b.depth - a.depth);
       if (off >= best || (panel && depth > panel.depth + DEPTH)) continue;
       best = off;
-      held = { joint, link: -1, corners: ends, weights: [1 - part, part] };
+      held = { joint, link: -1, corners: ends, weights: [1 - part, part], centre: -1 };
     }
-    if (held || !panel) return held;
-    return { joint: -1, link: panel.link, corners: panel.corners, weights: this.#weights(mechanism, panel) };
+    const centre = this.#centreAt(mechanism, x, y, pointerType === "touch" ? NEAR_CENTRE.touch : NEAR_CENTRE.mouse);
+    if (held) return { ...held, centre };
+    if (!panel) return centre < 0 ? null : { joint: -1, link: -1, corners: [], weights: [], centre };
+    const weights = this.#weights(mechanism, panel);
+    return { joint: -1, link: panel.link, corners: panel.corners, weights, centre };
+  }
+
+  /**
+   * @param {Mechanism} mechanism
+   * @param {number} x
+   * @param {number} y
+   * @param {number} near - Pixels.
+   */
+  #centreAt(mechanism, x, y, near) {
+    const { centres } = this.model;
+    if (!centres.group.visible) return -1;
+    let best = near, found = -1;
+    mechanism.data.centres.forEach((_, n) => {
+      const at = this.model.seenAt(centres.placeOf(n));
+      const off = Math.hypot(x - at.x, y - at.y);
+      if (off < best) [best, found] = [off, n];
+    });
+    return found;
   }
 
   /**

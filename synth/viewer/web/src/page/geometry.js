@@ -44,6 +44,25 @@ export function gathered(places, corners, row) {
   }
 }
 
+/** Of a polygon's area: corners that turn in by less are in line but for rounding. */
+const IN_LINE = 1e-9;
+
+/**
+ * Tell whether a plane polygon is convex.
+ *
+ * @param {number[][]} around
+ */
+export function isConvex(around) {
+  const [x, y] = largestPlane(around);
+  const count = around.length;
+  const turns = around.map((here, n) => {
+    const next = around[(n + 1) % count], last = around[(n + 2) % count];
+    return (next[x] - here[x]) * (last[y] - next[y]) - (next[y] - here[y]) * (last[x] - next[x]);
+  });
+  const rounding = IN_LINE * Math.max(...turns.map(Math.abs));
+  return turns.every((turn) => turn >= -rounding) || turns.every((turn) => turn <= rounding);
+}
+
 /**
  * @param {number[][]} around
  * @returns {number[][]}

@@ -31,14 +31,17 @@ export function layout(root) {
     driver: element("select", { "aria-label": "Driven joint" }),
     play: element("button", { type: "button", class: "play" }, "Play"),
     speed: element("select", { "aria-label": "Speed" }, ...speeds()),
-    slider: element("input", { type: "range", step: "any", "aria-label": "Angle of the driven joint, degrees" }),
-    angle: element("input", { type: "number", step: "any", "aria-label": "Angle, degrees" }),
+    sliders: element("div", { class: "sliders", role: "group", "aria-label": "A slider for each freedom" }),
+    centres: element("input", { type: "checkbox", checked: "" }),
+    crossed: element("p", { class: "crossed", role: "status", "aria-live": "polite" }),
     reset: element("button", { type: "button" }, "Reset"),
     fit: element("button", { type: "button" }, "Fit"),
     folds: element("input", { type: "checkbox", checked: "" }),
     fold: element("button", { type: "button" }, "FOLD"),
     obj: element("button", { type: "button" }, "OBJ"),
     png: element("button", { type: "button" }, "PNG"),
+    svg: element("button", { type: "button" }, "SVG"),
+    json: element("button", { type: "button" }, "JSON"),
     status: element("p", { class: "status", role: "status", "aria-live": "polite" }),
     part: element("p", { class: "part", role: "status", "aria-live": "polite" }),
     notes: element("ul", { class: "notes" }),
@@ -47,18 +50,21 @@ export function layout(root) {
     details: element("details", {}, element("summary", {}, "Freedoms and equations")),
     bench: element("div", { class: "bench" }),
   };
-  const drive = element("div", { class: "row drive" },
-    made.play, made.slider, element("span", { class: "angle" }, made.angle, "°"));
   const choose = element("div", { class: "row" },
+    made.play, made.reset, made.fit,
     labelled("Drive", made.driver), labelled("Way", made.way), labelled("Speed", made.speed),
-    element("label", { class: "check" }, made.folds, "drag folds"), made.reset, made.fit,
-    element("span", { class: "save" }, "Save ", made.fold, made.obj, made.png));
-  const controls = element("section", { class: "controls", "aria-label": "Motion" }, drive, choose, made.status);
+    element("label", { class: "check" }, made.folds, "drag folds"),
+    element("label", { class: "check" }, made.centres, "centres"),
+    element("span", { class: "save" }, "Pose ", made.fold, made.obj, made.png));
+  const told = element("div", { class: "row" },
+    element("span", { class: "save" }, "Drawing ", made.svg, " Answer ", made.json));
+  const controls = element("section", { class: "controls", "aria-label": "Motion" },
+    made.sliders, choose, made.crossed, made.status);
   made.panes.append(made.pattern, made.model);
   made.details.append(made.report);
   const header = element("header", {}, made.bench, made.list, made.verdict);
-  root.append(header, made.panes, controls, made.part, made.notes, made.details);
-  return { ...made, controls };
+  root.append(header, made.panes, controls, made.part, made.notes, made.details, told);
+  return { ...made, controls, told };
 }
 
 /** @typedef {ReturnType<typeof layout>} Layout */

@@ -3,22 +3,35 @@
 /** @import { PageData, ShownData } from "./types.js" */
 /** @import { Held } from "./dragging.js" */
 import { Dragging } from "./dragging.js";
+import { forgetColours } from "./colours.js";
 import { filled, layout } from "./layout.js";
 import { Mechanism } from "./mechanism.js";
 import { Model } from "./model.js";
 import { Pattern } from "./pattern.js";
 import { Playing } from "./playing.js";
 import { foldText, objText, saved } from "./saving.js";
+import { Sliders } from "./sliders.js";
 import { Workbench } from "./workbench.js";
 import "./style.css";
 
 /** @type {Record<string, string>} */
 const WORDS = { M: "mountain", V: "valley", U: "unassigned", B: "border", C: "cut", F: "flat", J: "join" };
+const KINDS = {
+  explicit: "explicit: a vertex of panels",
+  implicit: "implicit: panels do not reach it",
+  finite: "a point",
+  infinite: "at infinity: the axes are parallel",
+};
+/** Faces up to which it is looked after every picture whether panels cross; milliseconds to wait with more. */
+const FEW_FACES = 300, RESTED = 150;
+/** Pairs of panels that are named. */
+const MOST_TOLD = 4;
 const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the drawing and the figures are here.";
 
 /** @type {ShownData} */
 const NOTHING = {
-  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [],
+  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [], drawn: null,
+  on_request: false, answer: "",
 };
 
 class Page {
@@ -28,6 +41,8 @@ class Page {
   #model = null;
   /** @type {Workbench | null} */
   bench = null;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #looking;
 
   /**
    * @param {HTMLElement} root
@@ -44,6 +59,10 @@ class Page {
       speed: () => Number(this.parts.speed.value),
       changed: () => this.#changed(),
       ended: () => { this.parts.play.textContent = "Play"; },
+    });
+    this.sliders = new Sliders(this.parts.sliders, {
+      to: (joint, degrees) => this.#to(joint, degrees),
+      along: (degrees) => this.#ask((mechanism) => mechanism.along(degrees)),
     });
     this.#model = this.#modelOrWhy();
     if (this.#model) {
@@ -66,7 +85,10 @@ class Page {
       add: (shown) => { this.all.push(shown); this.#listed(this.all.length - 1); },
       put: (shown, number) => { this.all[number] = shown; this.#listed(number); },
       number: () => this.all.indexOf(this.shown),
+      seen: () => this.shown,
       joint: () => this.pattern.marked?.joint ?? null,
+      pick: (picked) => { this.pattern.pick = picked; this.parts.pattern.classList.toggle("picking", picked !== null); },
+      mark: (places) => this.pattern.markPlaces(places),
     });
   }
 
@@ -89,19 +111,26 @@ class Page {
   }
 
   #listen() {
-    const { list, way, driver, slider, angle, play, reset, fit, fold, obj, png } = this.parts;
+    const { list, way, driver, play, reset, fit, centres, fold, obj, png, svg, json } = this.parts;
     list.addEventListener("change", () => this.#show(Number(list.value)));
     way.addEventListener("change", () => { this.#mechanism?.take(Number(way.value)); this.#asked(); });
     driver.addEventListener("change", () => { this.#mechanism?.drive(Number(driver.value)); this.#asked(); });
-    slider.addEventListener("input", () => this.#to(Number(slider.value)));
-    angle.addEventListener("change", () => this.#to(Number(angle.value)));
+    centres.addEventListener("change", () => this.#model?.showCentres(centres.checked));
     play.addEventListener("click", () => this.#toggle());
     reset.addEventListener("click", () => { this.#mechanism?.reset(); this.#asked(); });
     fit.addEventListener("click", () => this.#model?.fit());
     fold.addEventListener("click", () => this.#save("fold"));
     obj.addEventListener("click", () => this.#save("obj"));
-    png.addEventListener("click", () => this.#model?.canvas.toBlob((blob) => blob && saved(blob, this.#file("png"))));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#model?.coloured());
+    svg.addEventListener("click", () => this.#saveText(this.shown.pictures.light ?? "", "svg"));
+    json.addEventListener("click", () => this.#saveText(this.shown.answer, "json"));
+    png.addEventListener("click", async () => {
+      const blob = await this.#model?.picture();
+      if (blob) saved(blob, this.#file("png"));
+    });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      forgetColours();
+      this.#model?.coloured();
+    });
   }
 
   /** @param {number} number */
@@ -118,14 +147,17 @@ class Page {
       return item;
     }));
     parts.part.textContent = "Click a link or a joint for its number.";
+    parts.crossed.textContent = "";
     this.pattern.show(shown);
     this.bench?.changed();
-    parts.panes.hidden = parts.part.hidden = parts.details.hidden = this.all.length === 0;
+    parts.panes.hidden = parts.part.hidden = parts.details.hidden = parts.told.hidden = this.all.length === 0;
     this.#mechanism = shown.moving ? new Mechanism(shown, shown.moving) : null;
     const moves = this.#mechanism?.moves ?? false;
     parts.model.hidden = !this.#mechanism;
     parts.controls.hidden = !this.#mechanism;
-    const moving = [parts.play, parts.slider, parts.angle, parts.driver, parts.way, parts.reset];
+    parts.svg.disabled = !shown.pictures.light;
+    if (parts.centres.parentElement) parts.centres.parentElement.hidden = !shown.moving?.centres.length;
+    const moving = [parts.play, parts.driver, parts.way, parts.reset];
     for (const one of moving) one.disabled = !moves;
     if (!this.#mechanism) return;
     const ways = shown.moving?.ways?.all ?? [];
@@ -143,17 +175,31 @@ class Page {
   #asked() {
     const mechanism = this.#mechanism;
     if (!mechanism) return;
-    const { driver, slider } = this.parts;
+    const { driver } = this.parts;
     const joints = mechanism.data.joints.map((id, value) => ({ value, told: `joint ${id}` }));
     filled(driver, joints.filter(({ value }) => mechanism.canDrive(value)), mechanism.driver);
-    [slider.min, slider.max] = mechanism.range.map(String);
+    this.sliders.show(mechanism);
     this.#changed();
   }
 
-  /** @param {number} degrees */
-  #to(degrees) {
+  /**
+   * Bring a joint to an angle, the others with a slider held.
+   *
+   * @param {number} joint
+   * @param {number} degrees
+   */
+  #to(joint, degrees) {
+    if (!Number.isFinite(degrees)) return this.#changed();
+    this.#ask((mechanism) => {
+      mechanism.drive(joint);
+      mechanism.to(degrees);
+    });
+  }
+
+  /** @param {(mechanism: Mechanism) => void} what */
+  #ask(what) {
     this.playing.stop();
-    if (Number.isFinite(degrees)) this.#mechanism?.to(degrees);
+    if (this.#mechanism) what(this.#mechanism);
     this.#changed();
     this.#onwards();
   }
@@ -164,7 +210,7 @@ class Page {
     const goal = mechanism?.goal ?? null;
     if (goal === null) return;
     requestAnimationFrame(() => {
-      if (this.#mechanism === mechanism && mechanism?.goal === goal) this.#to(goal);
+      if (this.#mechanism === mechanism && mechanism?.goal === goal) this.#ask(() => mechanism.goOn());
     });
   }
 
@@ -177,23 +223,47 @@ class Page {
   #changed() {
     const mechanism = this.#mechanism;
     if (!mechanism) return;
-    const { slider, angle, status, driver } = this.parts;
+    const { status, driver } = this.parts;
     this.#model?.moved();
+    this.#crossed(mechanism);
     if (!mechanism.moves) {
       status.textContent = "Nothing moves.";
       return;
     }
-    slider.value = String(mechanism.goal ?? mechanism.value);
+    this.sliders.moved(mechanism);
     driver.value = String(mechanism.driver);
-    if (document.activeElement !== angle) angle.value = mechanism.value.toFixed(2);
-    const joint = `joint ${mechanism.data.joints[mechanism.driver]}`;
-    const told = mechanism.stopped ? `${joint} ${mechanism.stopped}; ` : `${joint} driven; `;
+    const told = `${mechanism.stopped || `joint ${mechanism.data.joints[mechanism.driver]} driven`}; `;
     status.textContent = `${told}loops close to ${mechanism.error ? mechanism.error.toExponential(0) : 0}`;
+  }
+
+  /**
+   * Say which panels pass through each other; of many panels when they have come to rest.
+   *
+   * @param {Mechanism} mechanism
+   */
+  #crossed(mechanism) {
+    clearTimeout(this.#looking);
+    const look = () => {
+      if (mechanism !== this.#mechanism) return;
+      const pairs = mechanism.crossings();
+      this.#model?.cross(new Set(pairs.flat()));
+      const { links } = mechanism.data;
+      const told = pairs.slice(0, MOST_TOLD).map((pair) => pair.map((link) => links[link]).join(" and "));
+      if (pairs.length > MOST_TOLD) told.push(`${pairs.length - MOST_TOLD} more pairs`);
+      this.parts.crossed.textContent = pairs.length ? `Panels pass through each other: ${told.join(", ")}` : "";
+    };
+    if (mechanism.data.bodies.faces.length <= FEW_FACES) look();
+    else this.#looking = setTimeout(look, RESTED);
   }
 
   /** @param {Held | null} held */
   #chooseHeld(held) {
-    this.#choose(held?.joint ?? -1, held?.link ?? -1);
+    const centre = this.shown.moving?.centres[held?.centre ?? -1];
+    if (!centre) return this.#choose(held?.joint ?? -1, held?.link ?? -1);
+    const joints = centre.joints.map((joint) => this.shown.moving?.joints[joint]).join(", ");
+    const shared = centre.loops > 1 ? `, shared by ${centre.loops} loops` : "";
+    this.#choose(-1, -1);
+    this.parts.part.textContent = `Centre ${held?.centre}, ${KINDS[centre.kind]}; of joints ${joints}${shared}`;
   }
 
   /** @param {{joint?: string, link?: string} | null} id */
@@ -253,7 +323,14 @@ class Page {
   #save(kind) {
     const mechanism = this.#mechanism;
     if (!mechanism) return;
-    const text = kind === "fold" ? foldText(this.shown, mechanism) : objText(mechanism);
+    this.#saveText(kind === "fold" ? foldText(this.shown, mechanism) : objText(mechanism), kind);
+  }
+
+  /**
+   * @param {string} text
+   * @param {string} kind
+   */
+  #saveText(text, kind) {
     saved(new Blob([text], { type: "text/plain" }), this.#file(kind));
   }
 

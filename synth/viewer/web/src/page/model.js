@@ -7,6 +7,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { middleOf, radiusOf, turnBack } from "./aligned.js";
+import { Centres } from "./centres.js";
 import { clusterColour, colour, letterColour } from "./colours.js";
 import { gathered, trianglesOf } from "./geometry.js";
 
@@ -19,12 +20,15 @@ const LEAST = 0.2;
 const TURN = 0.1, ZOOM = 1.1;
 
 export class Model {
+  /** The request to draw that is not yet answered; 0: none. */
+  #drawing = 0;
+
   /**
    * @param {HTMLElement} pane
    * @throws {Error} If there is no WebGL.
    */
   constructor(pane) {
-    this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new three.WebGLRenderer({ antialias: true });
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
@@ -42,6 +46,9 @@ export class Model {
     this.turn = [0, 0, 0, 1];
     this.scene.add(this.group);
     this.chosen = { joint: -1, link: -1 };
+    /** @type {Set<number>} - Links that pass through others. */
+    this.crossed = new Set();
+    this.centres = new Centres();
     this.fitted = LEAST;
     this.canvas.addEventListener("keydown", (event) => this.#key(event));
     new ResizeObserver(() => this.#resize()).observe(pane);
@@ -74,7 +81,9 @@ export class Model {
     this.lines = new LineSegments2(new LineSegmentsGeometry(), pen);
     this.mark = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: CHOSEN }));
     this.group.clear();
-    this.group.add(this.mesh, new three.Mesh(panels, back), this.lines, this.mark);
+    this.centres.show(mechanism.data.centres);
+    this.group.add(this.mesh, new three.Mesh(panels, back), this.lines, this.mark, this.centres.group);
+    this.crossed = new Set();
     this.coloured();
     this.fit();
   }
@@ -101,6 +110,7 @@ export class Model {
     const row = new Float32Array(3 * ends.length);
     gathered(mechanism.places, ends, row);
     lines.geometry.setPositions(row);
+    this.centres.moved(mechanism);
     this.turn = turnBack(mechanism.places, first, turn);
     const [x, y, z, w] = this.turn;
     this.group.quaternion.set(x, y, z, w);
@@ -132,6 +142,7 @@ export class Model {
     lines.geometry.setPositions(positions);
     lines.geometry.setColors(row);
     this.mark?.material.color.set(colour("chosen"));
+    this.centres.coloured();
     this.#marked();
     this.render();
   }
@@ -144,6 +155,23 @@ export class Model {
   choose(chosen) {
     this.chosen = chosen;
     this.coloured();
+  }
+
+  /**
+   * Colour the links that pass through others.
+   *
+   * @param {Set<number>} links
+   */
+  cross(links) {
+    if (links.size === this.crossed.size && [...links].every((link) => this.crossed.has(link))) return;
+    this.crossed = links;
+    this.coloured();
+  }
+
+  /** @param {boolean} shown - Whether centres are. */
+  showCentres(shown) {
+    this.centres.group.visible = shown;
+    this.render();
   }
 
   /**
@@ -185,7 +213,20 @@ export class Model {
     return { link: face.link, corners, place, depth: hit.point.project(this.camera).z };
   }
 
+  /** Draw it before the next picture, once, however much changes until then. */
   render() {
+    this.#drawing ||= requestAnimationFrame(() => this.#draw());
+  }
+
+  /** Return what is seen now, as PNG. */
+  picture() {
+    this.#draw();
+    return new Promise((/** @type {(blob: Blob | null) => void} */ made) => this.canvas.toBlob(made));
+  }
+
+  #draw() {
+    cancelAnimationFrame(this.#drawing);
+    this.#drawing = 0;
     this.light.position.copy(this.camera.position).add(new three.Vector3(0.4, 0.2, 0.9));
     this.renderer.render(this.scene, this.camera);
   }
@@ -205,6 +246,7 @@ export class Model {
   /** @param {number} link */
   #faceColour(link) {
     if (link === this.chosen.link) return colour("chosen-panel");
+    if (this.crossed.has(link)) return colour("crossed");
     const cluster = this.mechanism?.clusterOf.get(link);
     return cluster === undefined ? colour("panel") : clusterColour(cluster);
   }

@@ -2,6 +2,10 @@
 
 /** @import { ShownData } from "./types.js" */
 
+/** Pixels from a vertex at which that is meant; radius of a mark in the unit of the picture. */
+const NEAR = 12, MARK = 4;
+/** Letters of a picture that is drawn after the model. */
+const LARGE = 100_000;
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 export class Pattern {
@@ -15,7 +19,14 @@ export class Pattern {
     this.shown = null;
     /** @type {{joint?: string, link?: string} | null} */
     this.marked = null;
-    pane.addEventListener("click", (event) => chosen(idOf(event.target)));
+    /** @type {((x: number, y: number, near: number) => void) | null} - Takes clicks while places are asked for. */
+    this.pick = null;
+    /** @type {[number, number][]} */
+    this.marks = [];
+    pane.addEventListener("click", (event) => {
+      if (this.pick) this.#picked(event, this.pick);
+      else chosen(idOf(event.target));
+    });
     dark.addEventListener("change", () => this.#draw());
   }
 
@@ -23,7 +34,25 @@ export class Pattern {
   show(shown) {
     this.shown = shown;
     this.marked = null;
-    this.#draw();
+    this.marks = [];
+    const { length } = this.#picture(shown);
+    if (length < LARGE) this.#draw();
+    else this.#drawLater(shown);
+  }
+
+  /**
+   * Draw when the model has been seen: a large drawing takes a second where the machine has no graphics.
+   *
+   * @param {ShownData} shown
+   */
+  #drawLater(shown) {
+    this.pane.textContent = "Drawing ...";
+    requestAnimationFrame(() => setTimeout(() => { if (shown === this.shown) this.#draw(); }));
+  }
+
+  /** @param {ShownData} shown */
+  #picture({ pictures }) {
+    return (dark.matches ? pictures.dark : pictures.light) ?? pictures.light ?? "";
   }
 
   /**
@@ -40,10 +69,38 @@ export class Pattern {
     }
   }
 
+  /**
+   * Mark places of the picture.
+   *
+   * @param {[number, number][]} marks
+   */
+  markPlaces(marks) {
+    this.marks = marks;
+    const svg = this.pane.querySelector("svg");
+    for (const old of this.pane.querySelectorAll(".place")) old.remove();
+    for (const [x, y] of marks) {
+      const disc = document.createElementNS("http://www.w3.org/2000/svg", "circle");
+      const look = { class: "place", cx: x, cy: y, r: MARK };
+      for (const [key, value] of Object.entries(look)) disc.setAttribute(key, `${value}`);
+      svg?.append(disc);
+    }
+  }
+
+  /**
+   * @param {MouseEvent} event
+   * @param {(x: number, y: number, near: number) => void} pick
+   */
+  #picked(event, pick) {
+    const seen = this.pane.querySelector("svg")?.getScreenCTM();
+    if (!seen) return;
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(seen.inverse());
+    pick(x, y, NEAR / seen.a);
+  }
+
   #draw() {
     const { shown, pane } = this;
     if (!shown) return;
-    const picture = (dark.matches ? shown.pictures.dark : shown.pictures.light) ?? shown.pictures.light;
+    const picture = this.#picture(shown);
     if (!picture) {
       pane.textContent = "No drawing.";
       return;
@@ -58,6 +115,7 @@ export class Pattern {
     }
     pane.replaceChildren(svg);
     this.mark(this.marked);
+    this.markPlaces(this.marks);
   }
 }
 

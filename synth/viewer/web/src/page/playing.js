@@ -1,9 +1,11 @@
-/** Play: the driven joint goes on by itself, and back where its path ends. */
+/** Play: the mechanism goes on along its path by itself, past turning points, and back where the path ends. */
 
 /** @import { Mechanism } from "./mechanism.js" */
 
 /** Seconds that count, at most, between two pictures: a page in the background does not jump. */
 const LONGEST = 0.1;
+/** Degrees that are no motion. */
+const STILL = 1e-9;
 
 export class Playing {
   #way = 1;
@@ -59,9 +61,9 @@ export class Playing {
     if (!mechanism) return this.stop();
     const seconds = Math.min(LONGEST, Math.max(0, (now - this.#last) / 1000));
     this.#last = now;
-    const before = mechanism.value;
-    const reached = mechanism.to(before + this.#way * this.page.speed() * seconds);
-    const moved = Math.abs(mechanism.value - before) > 1e-9;
+    const before = mechanism.travelled;
+    const reached = mechanism.along(before + this.#way * this.page.speed() * seconds);
+    const moved = Math.abs(mechanism.travelled - before) > STILL;
     if ((!reached || !moved) && mechanism.goal === null && seconds > 0) {
       if (this.#turned && !moved) return this.stop();
       this.#way = -this.#way;

@@ -13,22 +13,37 @@
  * @property {string} told
  * @property {number[]} rates
  * @property {number[]} still - Places of joints.
- * @property {number} driver
+ * @property {number[]} drivers - Of independent ones, one for each freedom; the first begins fastest.
+ * @property {number | null} freedoms - Null: not known.
  *
  * @typedef {object} WaysData
  * @property {WayData[]} all
  * @property {boolean} singular
  * @property {number} taken
  *
+ * @typedef {object} CentreData
+ * @property {"explicit" | "implicit" | "finite" | "infinite"} kind
+ * @property {number[]} place - At the pose of the file; of an infinite one among its axes.
+ * @property {number[] | null} direction - Of the axes of an infinite one.
+ * @property {number} link - One that carries it.
+ * @property {number[]} joints - Those whose axes pass through it.
+ * @property {number} loops - How many share it.
+ *
  * @typedef {object} MovingData
  * @property {LinkageData} solver
  * @property {BodyData} bodies
  * @property {WaysData | null} ways
+ * @property {CentreData[]} centres
  * @property {string[]} joints
  * @property {string[]} links
  * @property {[number, number][]} between - The links that each joint joins, by their places.
  * @property {number} extent
  * @property {number[]} middle
+ *
+ * @typedef {object} DrawnData
+ * @property {number[][]} vertices - Coordinates as the file has them.
+ * @property {[number, number][]} edges
+ * @property {[number, number][]} places - Of the vertices in the picture, in its unit.
  *
  * @typedef {object} ShownData
  * @property {string} name
@@ -39,6 +54,9 @@
  * @property {MovingData | null} moving
  * @property {string[]} stiff
  * @property {string[][]} clusters
+ * @property {DrawnData | null} drawn - Of a crease pattern in a plane.
+ * @property {boolean} on_request - Whether it is so large that its motion is looked for on request only.
+ * @property {string} answer - JSON: what `synth mobility --json` prints.
  *
  * @typedef {object} PageData
  * @property {ShownData[]} shown

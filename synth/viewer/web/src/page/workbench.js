@@ -4,42 +4,68 @@
  */
 
 /** @import { ShownData } from "./types.js" */
+import { Editing } from "./editing.js";
 import { element } from "./layout.js";
+import { saved } from "./saving.js";
 
 const INVITED = "Drop a crease pattern, a graph or a model here.";
+const ENDED = "The workbench has ended; what is shown still moves.";
+const NO_ANSWER = "the workbench does not answer";
 
 /**
  * What a mechanism that is shown was read from; no file: the one that the workbench was begun with.
  *
- * @typedef {{name: string, file: Blob | null, edits: string[]}} Source
+ * @typedef {object} Source
+ * @property {string} name
+ * @property {Blob | null} file
+ * @property {string[]} edits
+ * @property {boolean} motion - Whether motion was asked for of what is too large to look for it unasked.
+ */
+
+/**
+ * What the workbench is told of the page, and asks of it.
+ *
+ * @typedef {object} Paged
+ * @property {ShownData[]} shown - Those that are there when it is begun.
+ * @property {(shown: ShownData) => void} add
+ * @property {(shown: ShownData, number: number) => void} put
+ * @property {() => number} number - Of the one that is seen.
+ * @property {() => ShownData} seen
+ * @property {() => string | null} joint - That was clicked last.
+ * @property {(picked: ((x: number, y: number, near: number) => void) | null) => void} pick - Hand clicks in the
+ * drawing on, in its own unit, or do so no longer.
+ * @property {(places: [number, number][]) => void} mark - Mark places of the drawing.
  */
 
 export class Workbench {
   /** @type {AbortController | null} */
   #asked = null;
+  /** What is done one after the other; what was begun before a stop is left out. */
+  #queue = Promise.resolve();
+  #stops = 0;
 
   /**
    * @param {HTMLElement} root - Where files may be dropped.
    * @param {HTMLElement} bench - Where it is said what happens.
-   * @param {{shown: ShownData[], add: (shown: ShownData) => void, put: (shown: ShownData, number: number) => void,
-   *          number: () => number, joint: () => string | null}} page
+   * @param {Paged} page
    */
   constructor(root, bench, page) {
     this.page = page;
     /** @type {Source[]} - One for each mechanism that is shown. */
-    this.sources = page.shown.map(({ name }) => ({ name, file: null, edits: [] }));
+    this.sources = page.shown.map(({ name }) => ({ name, file: null, edits: [], motion: false }));
     this.status = element("span", { role: "status", "aria-live": "polite" }, INVITED);
+    this.progress = element("progress", { hidden: "", "aria-label": "How far it is" });
     this.stop = element("button", { type: "button", hidden: "" }, "Stop");
-    this.lock = element("button", { type: "button" }, "Lock joint");
-    this.remove = element("button", { type: "button" }, "Remove joint");
-    this.undo = element("button", { type: "button" }, "Undo");
+    this.editing = new Editing(page, {
+      edit: (edit) => this.#changedBy((source) => ({ ...source, edits: [...source.edits, edit] })),
+      undo: () => this.#changedBy((source) => ({ ...source, edits: source.edits.slice(0, -1) })),
+      motion: () => this.#changedBy((source) => ({ ...source, motion: true })),
+      template: (kind, size) => this.#print(kind, size),
+    });
     const chosen = element("input", { type: "file", multiple: "", "aria-label": "Files to open" });
-    bench.append(chosen, this.lock, this.remove, this.undo, this.status, this.stop);
+    bench.append(chosen, this.status, this.progress, this.stop, ...this.editing.parts);
     chosen.addEventListener("change", () => this.#read([...(chosen.files ?? [])]));
-    this.stop.addEventListener("click", () => this.#asked?.abort());
-    this.lock.addEventListener("click", () => this.#edit("lock"));
-    this.remove.addEventListener("click", () => this.#edit("remove"));
-    this.undo.addEventListener("click", () => this.#edited((edits) => edits.slice(0, -1)));
+    this.stop.addEventListener("click", () => { this.#stops += 1; this.#asked?.abort(); });
     this.#droppable(root);
     this.#present();
     this.changed();
@@ -47,11 +73,7 @@ export class Workbench {
 
   /** Tell what can be done with what is chosen now. */
   changed() {
-    const source = this.sources[this.page.number()];
-    const joint = this.page.joint();
-    this.lock.disabled = this.remove.disabled = !source || joint === null;
-    this.undo.disabled = !source?.edits.length;
-    for (const one of [this.lock, this.remove, this.undo]) one.hidden = !source;
+    this.editing.changed(this.sources[this.page.number()] ?? null);
   }
 
   /** @param {HTMLElement} root */
@@ -74,42 +96,74 @@ export class Workbench {
     try {
       const reader = (await fetch("open")).body?.getReader();
       while (reader && !(await reader.read()).done);
-    } finally {
-      this.status.textContent = "The workbench has ended; what is shown still moves.";
+    } catch (error) {
+      if (!(error instanceof TypeError)) throw error; // the line broke
     }
+    this.status.textContent = ENDED;
+  }
+
+  /**
+   * Do something when all before it is done.
+   *
+   * @param {() => Promise<void>} what
+   */
+  #inTurn(what) {
+    const stops = this.#stops;
+    this.#queue = this.#queue.then(() => (stops === this.#stops ? what() : undefined)).catch(reportError);
   }
 
   /** @param {File[]} files */
-  async #read(files) {
+  #read(files) {
+    /** @type {string[]} */
     const told = [];
     for (const file of files) {
-      const source = { name: file.name, file, edits: [] };
-      const { shown, error } = await this.#judged(source);
-      if (shown) {
-        this.sources.push(source);
-        this.page.add(shown);
-      } else told.push(error);
+      this.#inTurn(async () => {
+        const source = { name: file.name, file, edits: [], motion: false };
+        const { shown, error } = await this.#judged(source);
+        if (shown) {
+          this.sources.push(source);
+          this.page.add(shown);
+        } else told.push(error ?? NO_ANSWER);
+        this.status.textContent = told.join("\n") || INVITED;
+      });
     }
-    this.status.textContent = told.join("\n") || INVITED;
   }
 
-  /** @param {"lock" | "remove"} what - Is done with the joint that was clicked last. */
-  #edit(what) {
-    const joint = this.page.joint();
-    if (joint !== null) this.#edited((edits) => [...edits, `${what}:${joint}`]);
-  }
-
-  /** @param {(edits: string[]) => string[]} next */
-  async #edited(next) {
+  /** @param {(source: Source) => Source} changed */
+  #changedBy(changed) {
     const number = this.page.number();
-    const source = this.sources[number];
-    const file = source.file ?? (await (await fetch(`given?number=${number}`)).blob());
-    const changed = { ...source, file, edits: next(source.edits) };
-    const { shown, error } = await this.#judged(changed);
-    this.status.textContent = error ?? (changed.edits.join(", ") || INVITED);
-    if (!shown) return;
-    this.sources[number] = changed;
-    this.page.put(shown, number);
+    this.#inTurn(async () => {
+      const source = changed({ ...this.sources[number], file: await this.#fileOf(number) });
+      const { shown, error } = await this.#judged(source);
+      this.status.textContent = error ?? (source.edits.join(", ") || INVITED);
+      if (!shown) return;
+      this.sources[number] = source;
+      this.page.put(shown, number);
+    });
+  }
+
+  /**
+   * Save the template of what is seen.
+   *
+   * @param {string} kind
+   * @param {number} size - Millimetres of its longer side.
+   */
+  #print(kind, size) {
+    const number = this.page.number();
+    this.#inTurn(async () => {
+      const source = { ...this.sources[number], file: await this.#fileOf(number) };
+      const { answer, error } = await this.#answerOf("template", source, [["kind", kind], ["size", `${size}`]]);
+      this.status.textContent = error ?? INVITED;
+      if (!answer) return;
+      const content = await answer.blob();
+      const extension = content.type.includes("zip") ? "zip" : kind;
+      saved(content, `${source.name.replace(/\.\w+$/, "")}.${extension}`);
+    });
+  }
+
+  /** @param {number} number */
+  async #fileOf(number) {
+    return this.sources[number].file ?? (await (await fetch(`given?number=${number}`)).blob());
   }
 
   /**
@@ -118,20 +172,86 @@ export class Workbench {
    * @param {Source} source
    * @returns {Promise<{shown?: ShownData, error?: string}>}
    */
-  async #judged({ name, file, edits }) {
-    this.#asked?.abort();
+  async #judged(source) {
+    const { answer, error } = await this.#answerOf("shown", source, source.motion ? [["motion", "yes"]] : []);
+    if (!answer?.body) return { error };
+    try {
+      return await this.#followed(source.name, answer.body);
+    } catch (broken) {
+      return { error: `${source.name}: ${reason(broken)}` };
+    } finally {
+      this.progress.hidden = this.stop.hidden = true;
+    }
+  }
+
+  /**
+   * Tell how far an answer is, line by line; return the last.
+   *
+   * @param {string} name
+   * @param {ReadableStream<Uint8Array>} body
+   * @returns {Promise<{shown?: ShownData, error?: string}>}
+   */
+  async #followed(name, body) {
+    const reader = body.getReader(), decoder = new TextDecoder();
+    this.stop.hidden = false;
+    let rest = "", last = "{}";
+    for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+      const lines = (rest + decoder.decode(piece.value, { stream: true })).split("\n");
+      rest = lines.pop() ?? "";
+      for (const line of lines.filter(Boolean)) {
+        last = line; // of one that broke off, an error comes after it
+        if (line.startsWith('{"doing"')) this.#told(name, JSON.parse(line));
+      }
+    }
+    const answer = JSON.parse(last);
+    return answer.shown || answer.error ? answer : { error: `${name}: ${NO_ANSWER}` };
+  }
+
+  /**
+   * @param {string} name
+   * @param {{doing: string, step: number, of: number}} told
+   */
+  #told(name, { doing, step, of }) {
+    this.progress.hidden = false;
+    this.progress.max = of;
+    this.progress.value = step;
+    this.status.textContent = `${name}: ${doing} (${Math.round((100 * step) / of)} %)`;
+  }
+
+  /**
+   * Ask for something about a file; return why there is no answer.
+   *
+   * @param {string} what
+   * @param {Source} source
+   * @param {string[][]} more
+   * @returns {Promise<{answer?: Response, error?: string}>}
+   */
+  async #answerOf(what, { name, file, edits }, more) {
     this.#asked = new AbortController();
-    this.status.textContent = `Reading ${name} ...`;
+    this.status.textContent = `${name}: waiting`;
     this.stop.hidden = false;
     try {
-      const words = new URLSearchParams([["name", name], ...edits.map((edit) => ["edit", edit])]);
-      const answer = await fetch(`shown?${words}`, { method: "POST", body: file, signal: this.#asked.signal });
-      return answer.ok ? await answer.json() : { error: `${name}: ${await answer.text()}` };
-    } catch (error) {
-      if (!(error instanceof DOMException) && !(error instanceof TypeError)) throw error;
-      return { error: `${name}: ${error.name === "AbortError" ? "stopped" : "the workbench does not answer"}` };
+      const words = new URLSearchParams([["name", name], ...edits.map((edit) => ["edit", edit]), ...more]);
+      const answer = await fetch(`${what}?${words}`, { method: "POST", body: file, signal: this.#asked.signal });
+      if (answer.ok) return { answer };
+      const told = await answer.text();
+      const inWords = answer.headers.get("Content-Type") === "application/json";
+      return { error: inWords ? JSON.parse(told).error : `${name}: ${told}` };
+    } catch (broken) {
+      return { error: `${name}: ${reason(broken)}` };
     } finally {
       this.stop.hidden = true;
     }
   }
+}
+
+/**
+ * Return why a request broke off; what is no such reason is an error of the page.
+ *
+ * @param {unknown} broken
+ */
+function reason(broken) {
+  if (broken instanceof DOMException && broken.name === "AbortError") return "stopped";
+  if (broken instanceof TypeError || broken instanceof SyntaxError) return NO_ANSWER;
+  throw broken;
 }

@@ -1,5 +1,5 @@
 /**
- * Newton's method for closure equations: synth/folding/newton.py, with at most one joint held.
+ * Newton's method for closure equations: synth/folding/newton.py.
  *
  * The equations may depend on each other and leave freedoms, so each step is the least one in the sense of least
  * squares, by normal equations with a trace of regularisation.
@@ -7,7 +7,8 @@
 
 /** @import { Closure } from "./closure.js" */
 import { NormalPattern } from "./cholesky.js";
-import { added, largest, put } from "./vectors.js";
+import { solvedSymmetric } from "./small.js";
+import { added, largest, putAll } from "./vectors.js";
 
 /** Loops that close to this, radians and units of the extent, are closed. */
 export const CLOSED = 1e-12;
@@ -37,10 +38,10 @@ export class Equations {
    * Return joint angles near given ones at which all loops close.
    *
    * @param {Float64Array} angles - Radians.
-   * @param {number} [held] - Place of a joint that stays as it is, if the others can follow.
+   * @param {number[]} [held] - Places of joints that stay as they are, if the others can follow.
    * @returns {Corrected}
    */
-  corrected(angles, held = -1) {
+  corrected(angles, held = []) {
     let { residual, derivatives } = this.closure.at(angles);
     let best = new Corrected(this, angles, largest(residual), 0, derivatives);
     let off = residual, fresh = true;
@@ -65,18 +66,18 @@ export class Equations {
   }
 
   /**
-   * Return a pose with a held joint at its angle to the last digit; its error is that of the angles it has.
+   * Return a pose with held joints at their angles to the last digit; its error is that of the angles it has.
    *
-   * @param {Corrected} pose - Found with the joint held.
-   * @param {number} held
-   * @param {number} value - Radians.
+   * @param {Corrected} pose - Found with the joints held.
+   * @param {number[]} held - Their places.
+   * @param {Float64Array} values - Angles of all joints; those of the held ones count. Radians.
    */
-  exactlyHeld(pose, held, value) {
+  exactlyHeld(pose, held, values) {
     for (let n = 0; n < HOLDS; n++) {
-      if (pose.angles[held] === value) return pose;
-      pose = this.corrected(put(pose.angles, held, value), held);
+      if (held.every((joint) => pose.angles[joint] === values[joint])) return pose;
+      pose = this.corrected(putAll(pose.angles, held, values), held);
     }
-    const angles = put(pose.angles, held, value);
+    const angles = putAll(pose.angles, held, values);
     const { residual, derivatives } = this.closure.at(angles);
     return new Corrected(this, angles, largest(residual), pose.steps, derivatives);
   }
@@ -133,43 +134,90 @@ export class TangentSpace {
    * Return the least change of joint angles that takes a residual away to first order.
    *
    * @param {Float64Array} residual
-   * @param {number} held - Place of a joint that is not to move, if it need not; -1: none.
+   * @param {number[]} held - Places of joints that are not to move, if they need not.
    */
   step(residual, held) {
-    const change = this.solve(this.closure.gathered(this.derivatives, residual)).map((x) => -x);
-    if (held < 0) return change;
-    const move = this.#move(held);
-    return move[held] === 0 ? change : added(change, -change[held] / move[held], move);
+    return this.#without(this.solve(this.closure.gathered(this.derivatives, residual)).map((x) => -x), held);
   }
 
   /**
    * Return the rates nearest to given ones at which all loops stay closed to first order.
    *
    * @param {Float64Array} rates
+   * @param {number[]} [held] - Places of joints that have none, if they need not.
+   * @returns {Float64Array}
    */
-  projected(rates) {
+  projected(rates, held = []) {
     let kept = rates;
     for (let n = 0; n < 2; n++) { // the second takes off what regularisation left
       const image = this.closure.image(this.derivatives, kept);
       kept = added(kept, -1, this.solve(this.closure.gathered(this.derivatives, image)));
     }
-    return kept;
+    return this.#without(kept, held);
   }
 
   /**
-   * Return the least rates at which a joint has a wanted one; zeros if it cannot.
+   * Return the least rates at which a joint has a wanted one and others none; zeros if it cannot.
    *
    * @param {number} joint
    * @param {number} wanted
+   * @param {number[]} [held] - Places of the others.
    */
-  leastRates(joint, wanted) {
-    const move = this.#move(joint);
-    const share = move[joint] === 0 ? 0 : wanted / move[joint];
-    const possible = Math.abs(share * move[joint] - wanted) <= MISSED * Math.abs(wanted) && move[joint] > STILL;
-    return move.map((rate) => (possible ? share * rate : 0));
+  leastRates(joint, wanted, held = []) {
+    const joints = [joint, ...held];
+    const rates = this.#combined(joints, this.#shares(joints, joints.map((_, n) => (n ? 0 : wanted))));
+    const most = Math.max(...joints.map((one) => Math.abs(this.#move(one)[joint])));
+    const missed = Math.max(...joints.map((one, n) => Math.abs(rates[one] - (n ? 0 : wanted))));
+    return missed <= MISSED * Math.abs(wanted) && most > STILL ? rates : rates.fill(0);
   }
 
-  /** @param {number} joint */
+  /**
+   * Return what a joint's rate is made of: how much of it comes with the rate of each of others.
+   *
+   * @param {number} joint
+   * @param {number[]} others - Places of independent joints that say how all move.
+   */
+  madeOf(joint, others) {
+    return this.#shares(others, others.map((one) => this.#move(one)[joint]));
+  }
+
+  /**
+   * Return rates less those that held joints have in them.
+   *
+   * @param {Float64Array} rates
+   * @param {number[]} held
+   * @returns {Float64Array}
+   */
+  #without(rates, held) {
+    if (!held.length) return rates;
+    return added(rates, -1, this.#combined(held, this.#shares(held, held.map((joint) => rates[joint]))));
+  }
+
+  /**
+   * Return the shares of the moves of joints with which these have given rates.
+   *
+   * @param {number[]} joints
+   * @param {number[]} given
+   * @returns {number[]}
+   */
+  #shares(joints, given) {
+    return solvedSymmetric(joints.map((one) => joints.map((other) => this.#move(other)[one])), given);
+  }
+
+  /**
+   * @param {number[]} joints
+   * @param {number[]} shares
+   */
+  #combined(joints, shares) {
+    let sum = new Float64Array(this.closure.joints);
+    joints.forEach((joint, n) => { sum = added(sum, shares[n], this.#move(joint)); });
+    return sum;
+  }
+
+  /**
+   * @param {number} joint
+   * @returns {Float64Array}
+   */
   #move(joint) {
     let move = this.#moves.get(joint);
     if (move === undefined) {

@@ -13,14 +13,14 @@ const HALVINGS = 40;
 
 export class Step {
   /**
-   * @param {Equations} equations
+   * @param {{equations: Equations, held: number[]}} path - Its equations, and places of joints that stay on it.
    * @param {Corrected} before
    * @param {Corrected} after
    * @param {Float64Array} leaving - Rates along the path where it begins.
    * @param {Float64Array} arriving - Where it ends.
    */
-  constructor(equations, before, after, leaving, arriving) {
-    this.equations = equations;
+  constructor(path, before, after, leaving, arriving) {
+    this.path = path;
     this.before = before;
     this.after = after;
     this.leaving = leaving;
@@ -45,12 +45,21 @@ export class Step {
   }
 
   /**
+   * Return the pose at a part of the step.
+   *
+   * @param {number} part
+   */
+  #at(part) {
+    return this.path.equations.corrected(this.expected(part), this.path.held);
+  }
+
+  /**
    * Return the step as far as a closed pose on it.
    *
    * @param {Corrected} end
    */
   upTo(end) {
-    return new Step(this.equations, this.before, end, this.leaving, end.space.projected(this.leaving));
+    return new Step(this.path, this.before, end, this.leaving, end.space.projected(this.leaving, this.path.held));
   }
 
   /**
@@ -61,17 +70,18 @@ export class Step {
    * @returns {Corrected | null} Null if there is no closed one.
    */
   landing(joint, value) {
+    const { equations } = this.path, all = [joint, ...this.path.held];
     let low = 0, high = 1;
     let [lowest, highest] = [this.before.angles[joint], this.after.angles[joint]];
     const length = largest(added(this.after.angles, -1, this.before.angles));
     for (let n = 0; n < HALVINGS; n++) {
       const guess = low + ((high - low) * (value - lowest)) / (highest - lowest);
       const expected = put(this.expected(guess), joint, value);
-      const held = this.equations.exactlyHeld(this.equations.corrected(expected, joint), joint, value);
+      const held = equations.exactlyHeld(equations.corrected(expected, all), all, expected);
       const stray = largest(added(held.angles, -1, expected));
       if (held.closed && stray <= length * (high - low)) return held;
       const part = (low + high) / 2;
-      const middle = this.equations.corrected(this.expected(part)).angles[joint];
+      const middle = this.#at(part).angles[joint];
       if ((middle - value) * (lowest - value) > 0) [low, lowest] = [part, middle];
       else [high, highest] = [part, middle];
     }
@@ -87,7 +97,7 @@ export class Step {
     let low = 0, high = 1, kept = this.before;
     while (high - low > NEAR) {
       const middle = (low + high) / 2;
-      const between = this.equations.corrected(this.expected(middle));
+      const between = this.#at(middle);
       if (between.closed && holds(between.angles)) [low, kept] = [middle, between];
       else high = middle;
     }
@@ -104,8 +114,9 @@ export class Step {
     let low = 0, high = 1, kept = this.before;
     while (high - low > SEEN) {
       const middle = (low + high) / 2;
-      const between = this.equations.corrected(this.expected(middle));
-      if (between.closed && way * between.space.projected(this.leaving)[joint] > 0) [low, kept] = [middle, between];
+      const between = this.#at(middle);
+      const speed = way * between.space.projected(this.leaving, this.path.held)[joint];
+      if (between.closed && speed > 0) [low, kept] = [middle, between];
       else high = middle;
     }
     return kept;

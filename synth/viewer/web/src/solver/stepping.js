@@ -23,41 +23,58 @@ const EASY = 5;
 
 export class Stepping {
   #length = FIRST;
-  #begun = false;
+  /** Whether a step was taken. */
+  begun = false;
 
   /**
    * @param {Equations} equations
-   * @param {number} driver - Place of the joint that is driven.
+   * @param {Drive} drive
    * @param {Float64Array | null} direction - Rates to begin with at a singular pose; null: the least ones.
    */
-  constructor(equations, driver, direction) {
+  constructor(equations, drive, direction) {
     this.equations = equations;
-    this.driver = driver;
+    this.driver = drive.joint;
+    this.held = drive.held;
     this.rates = direction;
     this.bend = new Float64Array(equations.closure.joints);
   }
 
   /**
-   * Go back along the path if the driven joint does not go the way it is to go.
+   * Go back along the path if the driven joint does not go the way it is to go; tell whether it does so.
    *
    * @param {number} way - 1 or -1.
    */
   turnTowards(way) {
-    if (this.#begun && this.rates !== null && way * this.rates[this.driver] < 0) {
-      this.rates = this.rates.map((rate) => -rate);
-    }
+    const back = this.begun && this.rates !== null && way * this.rates[this.driver] < 0;
+    if (back) this.turnBack();
+    return back;
+  }
+
+  /** Go back along the path. */
+  turnBack() {
+    this.rates = this.rates?.map((rate) => -rate) ?? null;
   }
 
   /**
-   * Return the rates to go on with, the largest 1 or -1; zeros if nothing moves.
+   * Return the rates to go on with so that the driven joint moves, the largest 1 or -1; zeros if nothing moves.
    *
    * @param {Corrected} here
    * @param {number} left - How far the driven joint has to go, radians.
    */
   onwards(here, left) {
-    const rates = this.#onwards(here, left);
-    const size = largest(rates);
-    return size ? rates.map((rate) => rate / size) : rates;
+    return scaled(this.#onwards(here, left));
+  }
+
+  /**
+   * Return the rates to go straight on with, the largest 1 or -1, whatever the driven joint does; zeros if nothing
+   * moves.
+   *
+   * @param {Corrected} here
+   * @param {number} way - Where it begins: in which the driven joint goes, 1 or -1.
+   */
+  straightOn(here, way) {
+    if (this.rates === null) return scaled(here.space.leastRates(this.driver, way, this.held));
+    return scaled(this.begun ? here.space.projected(this.rates, this.held) : this.rates);
   }
 
   /**
@@ -66,13 +83,13 @@ export class Stepping {
    */
   #onwards(here, left) {
     const before = this.rates;
-    if (before !== null && !this.#begun) return before; // at a singular pose: it was chosen
-    const least = here.space.leastRates(this.driver, left);
+    if (before !== null && !this.begun) return before; // at a singular pose: it was chosen
+    const least = here.space.leastRates(this.driver, left, this.held);
     if (before === null) return least;
     const sign = Math.sign(dot(least, before));
     const towards = least.map((rate) => sign * rate);
     const hardly = Math.abs(towards[this.driver]) <= HARDLY * largest(towards);
-    return hardly || !alike(towards, before, ALIKE) ? here.space.projected(before) : towards;
+    return hardly || !alike(towards, before, ALIKE) ? here.space.projected(before, this.held) : towards;
   }
 
   /**
@@ -84,23 +101,47 @@ export class Stepping {
    * @returns {Step | null} Null if no closed pose is found.
    */
   taken(here, rates, left) {
+    const most = reach(rates[this.driver], this.bend[this.driver], left);
+    return this.#taken(here, rates, most, here.angles[this.driver] + left);
+  }
+
+  /**
+   * Take one step of the length that can be trusted, and not longer than given.
+   *
+   * @param {Corrected} here
+   * @param {Float64Array} rates - The largest 1 or -1.
+   * @param {number} most - Radians of the joint that moves most.
+   * @returns {Step | null} Null if no closed pose is found.
+   */
+  takenUpTo(here, rates, most) {
+    return this.#taken(here, rates, most, null);
+  }
+
+  /**
+   * @param {Corrected} here
+   * @param {Float64Array} rates
+   * @param {number} most - Length of a step, at most.
+   * @param {number | null} goal - Angle of the driven joint after a step of that length; null: any.
+   */
+  #taken(here, rates, most, goal) {
     const joint = this.driver;
-    const most = reach(rates[joint], this.bend[joint], left);
     while (this.#length >= LEAST) {
-      const lands = this.#length >= most;
-      const length = lands ? most : this.#length;
+      const whole = this.#length >= most;
+      const length = whole ? most : this.#length;
       const bent = (length * length) / 2;
-      let expected = here.angles.map((angle, i) => angle + length * rates[i] + bent * this.bend[i]);
-      const held = lands ? joint : -1;
-      if (lands) expected = put(expected, joint, here.angles[joint] + left);
+      const free = here.angles.map((angle, i) => angle + length * rates[i] + bent * this.bend[i]);
+      const lands = whole && goal !== null;
+      const expected = lands ? put(free, joint, goal) : free;
+      const held = lands ? [joint, ...this.held] : this.held;
+      for (const one of this.held) expected[one] = here.angles[one];
       let end = this.equations.corrected(expected, held);
       if (end.closed && largest(added(end.angles, -1, expected)) <= STRAY * length) {
-        const arriving = end.space.projected(rates);
-        const easy = end.steps <= EASY && !lands;
-        if (lands) end = this.equations.exactlyHeld(end, joint, expected[joint]);
+        const arriving = end.space.projected(rates, this.held);
+        const easy = end.steps <= EASY && !whole;
+        if (held.length) end = this.equations.exactlyHeld(end, held, expected);
         if (end.closed && alike(arriving, rates, ALIKE)) {
           if (easy) this.#length = Math.min(1.5 * this.#length, LARGEST);
-          return new Step(this.equations, here, end, rates, arriving);
+          return new Step(this, here, end, rates, arriving);
         }
       }
       this.#length = length / 2;
@@ -115,7 +156,7 @@ export class Stepping {
    * @param {Step} step
    */
   take(step) {
-    this.#begun = true;
+    this.begun = true;
     const length = largest(added(step.after.angles, -1, step.before.angles));
     if (!length) return;
     this.rates = step.arriving;
@@ -123,6 +164,14 @@ export class Stepping {
     const bend = step.arriving.map((rate, i) => (rate / speed - step.leaving[i]) / length);
     this.bend = largest(bend) * this.#length <= STRAY ? bend : bend.map(() => 0);
   }
+}
+
+/** @typedef {{joint: number, held: number[]}} Drive - A joint that is driven while others stay, by their places. */
+
+/** @param {Float64Array} rates */
+function scaled(rates) {
+  const size = largest(rates);
+  return size ? rates.map((rate) => rate / size) : rates;
 }
 
 /**

@@ -47,6 +47,19 @@ export function put(angles, joint, value) {
 }
 
 /**
+ * Return angles of which some joints have other values.
+ *
+ * @param {Float64Array} angles
+ * @param {number[]} joints
+ * @param {Float64Array} values - Of all joints.
+ */
+export function putAll(angles, joints, values) {
+  const made = Float64Array.from(angles);
+  for (const joint of joints) made[joint] = values[joint];
+  return made;
+}
+
+/**
  * Tell whether two directions are alike.
  *
  * @param {Float64Array} one

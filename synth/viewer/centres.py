@@ -1,0 +1,140 @@
+"""The spherical centres of a linkage as a page shows them: where they are, of what kind, which joints meet there.
+
+One for each centre class. A vertex of panels round which a loop goes is an explicit centre; where the panels of a
+sheet do not reach their centre it is implicit; of other linkages, whose links have no shape, it is finite. Theory:
+docs/theory/viewer.md, docs/theory/centre-classes.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.loops.classes import CentreClass
+from graphs.loops.loop import Centre
+from synth.folding.linkage import PosedLinkage
+from synth.folding.prepared import Prepared
+
+__all__ = ["ShownCentre", "centres_of_linkage", "centres_of_pattern"]
+
+Kind = Literal["explicit", "implicit", "finite", "infinite"]
+
+
+@dataclass(frozen=True, slots=True)
+class ShownCentre:
+    """A centre.
+
+    Attributes
+    ----------
+    kind : {"explicit", "implicit", "finite", "infinite"}
+        Explicit: a vertex of links. Implicit: links do not reach it. Finite: links have no shape that would tell.
+        Infinite: the axes are parallel.
+    place : float[3]
+        At the pose, in units of the extent, about the middle; of an infinite one a place among its axes.
+    direction : float[3] or None
+        Of the axes of an infinite one.
+    link : int
+        Place of a link that carries it.
+    joints : tuple of int
+        Places of the joints whose axes pass through it.
+    loops : int
+        How many loops share it.
+    """
+
+    kind: Kind
+    place: Floats
+    direction: Floats | None
+    link: int
+    joints: tuple[int, ...]
+    loops: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: `CentreData` of web/src/page/types.js."""
+        return {
+            "kind": self.kind,
+            "place": self.place.tolist(),
+            "direction": None if self.direction is None else self.direction.tolist(),
+            "link": self.link,
+            "joints": list(self.joints),
+            "loops": self.loops,
+        }
+
+
+def centres_of_pattern(pattern: Prepared) -> tuple[ShownCentre, ...]:
+    """Return the centres of a crease pattern.
+
+    Parameters
+    ----------
+    pattern : Prepared
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.prepared import prepared
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> (centre,) = centres_of_pattern(prepared(Sheet(5, (), "", faces, corners)))
+    >>> centre.kind, centre.joints, centre.place.round(3).tolist()
+    ('explicit', (0, 1, 2, 3), [-0.167, 0.0, 0.0])
+    """
+    mechanism = pattern.mechanism
+    loops = len(mechanism.sc.loops)
+    closing = range(loops, loops + len(mechanism.sc.closing))  # of closed surfaces: they go round vertices too
+    return _centres(pattern.linkage, {*range(len(mechanism.loop_vertices)), *closing}, "implicit")
+
+
+def centres_of_linkage(linkage: PosedLinkage) -> tuple[ShownCentre, ...]:
+    """Return the centres of a linkage whose links have no shape.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.folding.linkage import linkage_of_axes
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+    >>> linkage = linkage_of_axes(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)})
+    >>> [(centre.kind, centre.direction.tolist()) for centre in centres_of_linkage(linkage)]
+    [('infinite', [0.0, 0.0, 1.0])]
+    """
+    return _centres(linkage, set(), "finite")
+
+
+def _centres(linkage: PosedLinkage, at_vertices: set[int], otherwise: Kind) -> tuple[ShownCentre, ...]:
+    """Return all centres; those of loops round vertices are explicit, other finite ones of another kind."""
+    column = {joint: place for place, joint in enumerate(linkage.graph.joints)}
+    return tuple(
+        _shown(linkage, one, column, "explicit" if at_vertices.intersection(one.loops) else otherwise)
+        for one in linkage.graph.centre_classes()
+    )
+
+
+def _shown(linkage: PosedLinkage, one: CentreClass, column: dict[Any, int], finite: Kind) -> ShownCentre:
+    joints = tuple(sorted(column[joint] for joint in one.joints))
+    link = _carrier(linkage, joints)
+    if one.centre is Centre.INFINITE:
+        place = linkage.points[list(joints)].mean(axis=0)
+        return ShownCentre("infinite", place, linkage.directions[joints[0]], link, joints, len(one.loops))
+    return ShownCentre(finite, _meeting(linkage, joints), None, link, joints, len(one.loops))
+
+
+def _carrier(linkage: PosedLinkage, joints: tuple[int, ...]) -> int:
+    """Return the place of the link with most of some joints: their axes pass through the centre as it moves."""
+    pairs = list(linkage.graph.joints.values())
+    most = Counter(link for joint in joints for link in pairs[joint]).most_common(1)[0][0]
+    return list(linkage.graph.nodes).index(most)
+
+
+def _meeting(linkage: PosedLinkage, joints: tuple[int, ...]) -> Floats:
+    """Return the point nearest to axes in the sense of least squares: where they meet."""
+    directions, points = linkage.directions[list(joints)], linkage.points[list(joints)]
+    across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
+    return np.asarray(np.linalg.lstsq(across.sum(axis=0), (across @ points[:, :, None]).sum(axis=0)[:, 0])[0])

@@ -1,0 +1,91 @@
+"""The template of one file, in a process of its own.
+
+    python -m synth.viewer.workbench.printing NAME SIZE KIND [EDIT...] < file
+
+writes the template, its longer side SIZE millimetres, as ``pdf``, ``svg`` or ``dxf``; pictures of several pages
+in a ``zip``. Where the file is refused it prints why, as a line of JSON, and ends with status 2.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from zipfile import ZipFile
+
+from graphs.errors import UnsolvableError
+from synth.moving.linkages import sheet_of
+from synth.templates.template import template_of
+from synth.templates.writing import write_template
+from synth.viewer.workbench.reading import read_and_edited, refusal
+
+__all__ = ["KINDS", "printed"]
+
+KINDS = ("pdf", "svg", "dxf")
+REFUSED = 2
+"""Status of the process where the file is refused."""
+
+
+def printed(name: str, content: bytes, size: float, kind: str, edits: Sequence[str] = ()) -> tuple[str, bytes]:
+    r"""Return the template of a file: its extension, and what is in it.
+
+    Parameters
+    ----------
+    name : str
+        Without folders.
+    content : bytes
+    size : float
+        Millimetres of the longer side.
+    kind : {"pdf", "svg", "dxf"}
+    edits : sequence of str
+
+    Raises
+    ------
+    SynthedraError
+        If it cannot be read or edited, has no panels, or would need too many pages.
+
+    Examples
+    --------
+    >>> square = b"1 0 0 1 0\n1 1 0 1 1\n1 1 1 0 1\n1 0 1 0 0\n2 0 0 1 1\n"
+    >>> kind, made = printed("a.cp", square, 150.0, "svg")
+    >>> kind, made[:4]
+    ('svg', b'<svg')
+    """
+    sheet = sheet_of(read_and_edited(name, content, edits))
+    if sheet is not None and sheet.frames is not None:
+        sheet = sheet.frames.first_placed()
+    if sheet is None or sheet.coordinates is None:
+        raise UnsolvableError("a template needs panels with coordinates; a type gets them by `synth realise`")
+    template = template_of(sheet, size=size, title=sheet.title or name)
+    with TemporaryDirectory() as folder:
+        places = write_template(template, Path(folder) / f"template.{kind}")
+        if len(places) == 1:
+            return kind, places[0].read_bytes()
+        packed = BytesIO()
+        with ZipFile(packed, "w") as archive:
+            for place in places:
+                archive.write(place, place.name)
+    return "zip", packed.getvalue()
+
+
+def main() -> None:
+    """Print the template of the file on standard input."""
+    name, size, kind, *edits = sys.argv[1:]
+    made = b""
+
+    def found() -> dict[str, str]:
+        nonlocal made
+        _, made = printed(name, sys.stdin.buffer.read(), float(size), kind, edits)
+        return {}
+
+    refused = refusal(name, found)
+    sys.stdout.buffer.write(json.dumps(refused).encode() if refused else made)
+    sys.stdout.buffer.flush()
+    raise SystemExit(REFUSED if refused else 0)
+
+
+if __name__ == "__main__":
+    main()
