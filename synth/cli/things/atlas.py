@@ -203,11 +203,11 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
 @atlas_group.command()
 @ATLAS
 @click.argument("condition", required=False, default="")
-@click.option("-o", "--output", required=True, metavar="FOLDER", help="A new folder.")
+@click.option("-o", "--output", "folder", required=True, metavar="FOLDER", help="A new folder.")
 @click.option("--title", default="", help="Of the site.")
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Processes; one a core by default.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")
-def page(atlas: str, condition: str, output: str, title: str, workers: int | None, quiet: bool) -> None:
+def page(atlas: str, condition: str, folder: str, title: str, workers: int | None, quiet: bool) -> None:
     """Write a site: search, filter and sort types, a page for each with its drawing, and the thing that folds.
 
     It needs no server and no network: open index.html. Conditions are those of synth atlas query.
@@ -216,9 +216,9 @@ def page(atlas: str, condition: str, output: str, title: str, workers: int | Non
     from synth.atlas.site.writing import SiteSink, site_of
 
     site, first = site_of(open_atlas(atlas), condition, title)
-    running = RunOptions(output, workers, None, False, quiet, False)
-    run_whole(site, SiteSink(output, first), running)
-    click.echo(f"written: {plain(str(Path(output) / 'index.html'), 4096)}")
+    running = RunOptions(folder, workers, None, False, quiet, False)
+    run_whole(site, SiteSink(folder, first), running)
+    click.echo(f"written: {plain(str(Path(folder) / 'index.html'), 4096)}")
 
 
 @atlas_group.command()
