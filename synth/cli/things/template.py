@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
 
 from synth.cli.output import FORCE, about, plain
-
-if TYPE_CHECKING:
-    from graphs.convert.table import Mechanism
-    from graphs.mechanism.sheet import Sheet
+from synth.cli.things.given import MODE, ROW, given
 
 __all__ = ["template"]
 
@@ -19,20 +16,32 @@ __all__ = ["template"]
 @click.command(short_help="Print a crease pattern at true scale, to cut out and fold.")
 @click.argument("file", metavar="FILE")
 @click.option("-o", "--output", required=True, metavar="OUT", help="Template to write: .pdf, .svg or .dxf.")
+@ROW
+@MODE
+@click.option("--as", "kind", type=click.Choice(["sheet", "space"]), help="Realise a type so.  [default: sheet]")
 @click.option("--page", "page", default="A4", show_default=True, help="A4, A3, Letter, or WIDTHxHEIGHT in mm.")
 @click.option("--scale", type=float, help="Millimetres for a unit of the coordinates.  [default: 1]")
 @click.option("--size", type=float, metavar="MM", help="Longer side of the thing, instead of a scale.")
 @click.option("--tabs", type=float, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none.")
 @FORCE
 def template(
-    file: str, output: str, page: str, scale: float | None, size: float | None, tabs: float, force: bool
+    file: str,
+    output: str,
+    row: int | None,
+    mode: str | None,
+    kind: Any,
+    page: str,
+    force: bool,
+    **look: Any,
 ) -> None:
-    """Print panels at true scale, to cut out and fold. FILE is a file, or an id m1:... or k1:...
+    """Print panels at true scale, to cut out and fold.
 
-    Coordinates are millimetres unless --scale or --size says otherwise. What is larger than a page comes in tiles,
-    never smaller: tiles overlap by 10 mm, and crosses of one name lie over each other. Each page has a gauge of
-    100 mm: measure it. A type without coordinates is realised first, as a flat sheet. Of .svg a file is written
-    for each page; a .dxf is one drawing at full size.
+    FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of many, of which --row
+    names one. A type without coordinates is realised first. Coordinates are millimetres unless --scale or --size
+    says otherwise. What is larger than a page comes in tiles, never smaller: tiles overlap by 10 mm, and crosses
+    of one name lie over each other. Each page has a gauge of 100 mm: measure it. Of .svg a file is written for
+    each page; a .dxf is one drawing at full size.
+
     Panels that do not lie side by side are laid out in nets, none over another, with tabs: edges of one number are
     glued.
 
@@ -41,11 +50,13 @@ def template(
       synth template data/patterns/bird-base.fold --size 150 -o bird-base.pdf
       synth template data/patterns/bird-base.fold --size 600 --page A3 -o bird-base.pdf
       synth template m1:a-b.ac-.b-d.cd- --size 200 -o four-bar.dxf
+      synth template RR-R-RRR --mode D --size 180 -o ups.pdf
+      synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
-    from graphs.files.formats import read
     from synth.templates.paper import paper_named
     from synth.templates.template import template_of
+    from synth.templates.things import panels_of_thing
     from synth.templates.writing import check_template, write_template
 
     try:
@@ -53,28 +64,14 @@ def template(
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
     check_template(output, force=force)
-    thing = read(file)
-    with about(file):
-        sheet = _sheet_of(thing)
-        made = template_of(sheet, scale=scale, size=size, tabs=tabs, title=sheet.title or Path(file).name)
+    asked = given(file, row, mode)
+    with about(asked.name):
+        thing: Any = asked.thing
+        sheet, done = panels_of_thing(thing, kind=kind, mode=asked.mode)
+        made = template_of(sheet, title=sheet.title or Path(asked.name).name, **look)
+    if done:
+        click.echo(f"{done}, as `synth realise` does", err=True)
     for place in write_template(made, output, paper=paper, force=force):
         click.echo(f"written: {plain(str(place), 4096)}")
     if made.told:
         click.echo(f"not shown: {', '.join(made.told)}", err=True)
-
-
-def _sheet_of(thing: Mechanism) -> Sheet:
-    """Return the panels of a thing; a type gets coordinates."""
-    from graphs.errors import UnsolvableError
-    from graphs.mechanism.sc import SCGraph
-    from graphs.mechanism.scd import SCDGraph
-    from synth.moving.linkages import sheet_of
-    from synth.realisation.realised import realise
-
-    sheet = sheet_of(thing)
-    if sheet is not None:
-        return sheet.frames.first_placed() if sheet.frames is not None else sheet
-    if isinstance(thing, SCGraph | SCDGraph):
-        click.echo("no coordinates: realised as a flat sheet, as `synth realise` does", err=True)
-        return realise(thing).sheet
-    raise UnsolvableError(f"a template needs panels, and {thing!r} has none")

@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Row, Unit
+from enumerate.strings.panel_strings import ChainString
 from graphs.errors import SynthedraError
 from graphs.files.native.documents import dumps
 from graphs.files.patterns.fold import fold_text
@@ -91,7 +92,7 @@ class RealisationJob:
         """What the job is: a digest of the types, and the options."""
         digest = sha256()
         for entry in self._entries:
-            digest.update(f"{entry.number} {entry.name}\n{_text_of(entry.mechanism)}\n".encode())
+            digest.update(f"{entry.number} {entry.name}\n{_text_of(entry)}\n".encode())
         return {"realise": digest.hexdigest(), **dict(self.options)}
 
     @property
@@ -142,7 +143,7 @@ def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
     outcome: Outcome
     try:
-        found, outcome, reason = realise(entry.mechanism, **options), "realised", ""
+        found, outcome, reason = realise(entry.mechanism, mode=entry.mode, **options), "realised", ""
     except SynthedraError as error:
         found, outcome, reason = None, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
     told = {"number": entry.number, "name": entry.name, "outcome": outcome, "reason": reason, **_figures(found)}
@@ -163,5 +164,8 @@ def _figures(found: Realised | None) -> dict[str, Any]:
     }
 
 
-def _text_of(mechanism: Any) -> str:
-    return fold_text(mechanism) if isinstance(mechanism, Sheet) else dumps(mechanism)
+def _text_of(entry: CatalogueEntry) -> str:
+    """Return what an entry is, as text; of a string its name says it."""
+    if isinstance(entry.mechanism, ChainString):
+        return entry.name
+    return fold_text(entry.mechanism) if isinstance(entry.mechanism, Sheet) else dumps(entry.mechanism)

@@ -1,0 +1,55 @@
+"""The panels of anything that a template can be asked of: as they lie, or of a type, realised."""
+
+from __future__ import annotations
+
+from enumerate.strings.panel_strings import ChainString
+from graphs.convert.table import Mechanism
+from graphs.errors import UnsolvableError
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import Sheet
+from synth.moving.linkages import sheet_of
+from synth.realisation.realised import Kind, realise
+
+__all__ = ["panels_of_thing"]
+
+
+def panels_of_thing(
+    thing: Mechanism | ChainString, *, kind: Kind | None = None, mode: str | None = None
+) -> tuple[Sheet, str]:
+    """Return the panels of a thing with coordinates, and what was done to have them.
+
+    Parameters
+    ----------
+    thing : Mechanism or ChainString
+        A sheet, or a model of panels; or a type, which is realised.
+    kind : {"sheet", "space"}, optional
+        How a type is realised; a flat sheet without it.
+    mode : str, optional
+        Of an R/- string.
+
+    Returns
+    -------
+    sheet : Sheet
+    told : str
+        Empty for what has coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no panels, or cannot be realised; or if it has coordinates, and a kind or a mode is asked for.
+
+    Examples
+    --------
+    >>> panels_of_thing(ChainString((2, 1)))
+    (<Sheet: 4 faces, 3 creases, 9 vertices, flat>, 'no coordinates: realised as a flat sheet')
+    """
+    sheet = sheet_of(thing) if not isinstance(thing, ChainString) else None
+    if sheet is not None:
+        if kind is not None or mode is not None:
+            raise UnsolvableError("the thing has coordinates: only a type is realised, as a sheet or in space")
+        return (sheet.frames.first_placed() if sheet.frames is not None else sheet), ""
+    if not isinstance(thing, SCGraph | SCDGraph | ChainString):
+        raise UnsolvableError(f"a template needs panels, and {thing!r} has none")
+    how = "a flat sheet" if kind != "space" else "a pose in space"
+    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {how}"
