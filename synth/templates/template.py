@@ -5,18 +5,21 @@ Theory: docs/theory/templates.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.plane import flattened, in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from synth.drawing.scene.shapes import Scene
 from synth.templates.lines import Piece
+from synth.templates.note.folded import folded_picture
+from synth.templates.note.steps import steps_of_folds
 from synth.templates.pieces.flat import is_laid_out, piece_of_flat_sheet
 from synth.templates.pieces.nets import pieces_of_panels
 from synth.templates.scale import millimetres
 
-__all__ = ["TABS", "Template", "template_of"]
+__all__ = ["TABS", "Template", "pictured", "template_of"]
 
 TABS = 8.0
 """Depth of tabs, millimetres."""
@@ -35,12 +38,18 @@ class Template:
     title : str
     told : tuple of str
         What the lines do not show, by kind and number.
+    steps : tuple of str
+        How it is put together, once it is printed.
+    picture : Scene or None
+        What it looks like then (`synth.templates.note`).
     """
 
     pieces: tuple[Piece, ...]
     scale: float
     title: str = ""
     told: tuple[str, ...] = ()
+    steps: tuple[str, ...] = ()
+    picture: Scene | None = None
 
 
 def template_of(
@@ -51,7 +60,7 @@ def template_of(
     Parameters
     ----------
     sheet : Sheet
-        With coordinates and faces.
+        With coordinates and faces; of several frames the first that has coordinates.
     scale : float, optional
         Millimetres for a unit of the coordinates; 1 without it.
     size : float, optional
@@ -79,18 +88,41 @@ def template_of(
     >>> [stroke.kind for stroke in template_of(square, size=100).pieces[0].strokes]
     ['CREASE', 'CUT', 'CUT', 'CUT', 'CUT']
     """
-    if sheet.coordinates is None:
-        raise UnsolvableError("a template needs coordinates, and the sheet has none")
     if not (isfinite(tabs) and tabs >= 0):
         raise InvariantError("tabs", f"tabs {tabs!r}", "a number from 0 on")
-    if not sheet.faces:
+    placed = sheet if sheet.frames is None else sheet.frames.first_placed()
+    if placed.coordinates is None:
+        raise UnsolvableError("a template needs coordinates, and the sheet has none")
+    if not placed.faces:
         raise UnsolvableError("a template needs panels, and the sheet has none")
-    whole = with_all_edges(sheet)
+    whole = with_all_edges(placed)
     flat = flattened(whole)
     places = in_space(whole.coordinates or ()) if flat is None else flat.places
     factor = millimetres(places, scale, size)
+    title = title or placed.title
     if flat is not None and is_laid_out(whole, flat.places):
         piece, told = piece_of_flat_sheet(whole, flat.places * factor)
-        return Template((piece,), factor, title or sheet.title, told)
-    pieces, told = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, tabs)
-    return Template(tuple(pieces), factor, title or sheet.title, told)
+        return Template((piece,), factor, title, told, tuple(steps_of_folds([piece])))
+    nets = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, tabs)
+    return Template(nets.pieces, factor, title, nets.told, (*steps_of_folds(nets.pieces), *nets.steps))
+
+
+def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
+    """Return a template with a picture of the thing folded, and why it has none where it was not folded.
+
+    Parameters
+    ----------
+    template : Template
+    sheet : Sheet
+        That it was made of.
+
+    Examples
+    --------
+    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> pictured(template_of(square, size=100), square)[0].steps[-1]
+    'It then looks as below, folded half way; the printed side is grey, its back blue.'
+    """
+    picture, seen = folded_picture(sheet)
+    if picture is None:
+        return template, seen
+    return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}.")), ""

@@ -48,7 +48,7 @@ def panels_of_thing(
     if sheet is not None:
         if kind is not None or mode is not None:
             raise UnsolvableError("the thing has coordinates: only a type is realised, as a sheet or in space")
-        return (sheet.frames.first_placed() if sheet.frames is not None else sheet), ""
+        return sheet, ""
     if not isinstance(thing, SCGraph | SCDGraph | ChainString):
         raise UnsolvableError(f"a template needs panels, and {thing!r} has none")
     how = "a flat sheet" if kind != "space" else "a pose in space"

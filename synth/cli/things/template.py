@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from synth.cli.output import FORCE, about, plain
 from synth.cli.things.given import MODE, ROW, given
+
+if TYPE_CHECKING:
+    from graphs.mechanism.sheet import Sheet
+    from synth.templates.template import Template
 
 __all__ = ["template"]
 
@@ -23,6 +27,7 @@ __all__ = ["template"]
 @click.option("--scale", type=float, help="Millimetres for a unit of the coordinates.  [default: 1]")
 @click.option("--size", type=float, metavar="MM", help="Longer side of the thing, instead of a scale.")
 @click.option("--tabs", type=float, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none.")
+@click.option("--note/--no-note", default=True, show_default=True, help="How it is put together, with a picture.")
 @FORCE
 def template(
     file: str,
@@ -31,6 +36,7 @@ def template(
     mode: str | None,
     kind: Any,
     page: str,
+    note: bool,
     force: bool,
     **look: Any,
 ) -> None:
@@ -69,9 +75,26 @@ def template(
         thing: Any = asked.thing
         sheet, done = panels_of_thing(thing, kind=kind, mode=asked.mode)
         made = template_of(sheet, title=sheet.title or Path(asked.name).name, **look)
-    if done:
-        click.echo(f"{done}, as `synth realise` does", err=True)
+        made, unseen = _noted(made, sheet, note, output)
     for place in write_template(made, output, paper=paper, force=force):
         click.echo(f"written: {plain(str(place), 4096)}")
+    if done:
+        click.echo(f"{done}, as `synth realise` does", err=True)
     if made.told:
         click.echo(f"not shown: {', '.join(made.told)}", err=True)
+    if unseen:
+        click.echo(unseen, err=True)
+
+
+def _noted(made: Template, sheet: Sheet, note: bool, output: str) -> tuple[Template, str]:
+    """Return a template with a picture of the thing, or without a note; and what of the note is not written."""
+    from dataclasses import replace
+
+    from synth.templates.template import pictured
+
+    if not note:
+        return replace(made, steps=()), ""
+    if output.lower().endswith(".dxf"):
+        return made, "not written: how it is put together, with a picture (a .pdf or .svg has them)"
+    made, why = pictured(made, sheet)
+    return made, f"no picture of it folded: {plain(why, 1000)}" if why else ""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -16,12 +16,13 @@ from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
+from synth.templates.note.steps import steps_of_glue
 from synth.templates.pieces.cuts import cut_once
 from synth.templates.pieces.flat import FOLDS, put_together
 from synth.templates.pieces.tabs import tab_at
 from synth.templates.pieces.unfolding import Net, Panels, across, nets_of, panels_of
 
-__all__ = ["pieces_of_panels"]
+__all__ = ["CutNets", "pieces_of_panels"]
 
 _SAME = 1e-6
 """Two laid edges are one if their ends are this close, in millimetres."""
@@ -82,8 +83,16 @@ class _Side:
         return _point(place)
 
 
-def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> tuple[list[Piece], tuple[str, ...]]:
-    """Return the pieces of panels that stand in space, and what their strokes do not show.
+class CutNets(NamedTuple):
+    """Nets as pieces, what their strokes do not show, and how they are joined, in words."""
+
+    pieces: tuple[Piece, ...]
+    told: tuple[str, ...]
+    steps: tuple[str, ...]
+
+
+def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> CutNets:
+    """Return the pieces of panels that stand in space.
 
     Parameters
     ----------
@@ -112,7 +121,9 @@ def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> tuple[list[Pi
         _glue(panels, edge, (first, second), glue)
     _cut_borders(panels, of_face)
     told = [f"tabs at {numbered(glue.missing, 'edge')} with no room for one"] if glue.missing and tabs else []
-    return [_piece(work) for work in works], tuple(told)
+    return CutNets(
+        tuple(_piece(work) for work in works), tuple(told), tuple(steps_of_glue(glue.numbers, glue.missing))
+    )
 
 
 def _side(panels: Panels, work: _Work, face: int, edge: int) -> _Side:
