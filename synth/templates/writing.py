@@ -58,7 +58,7 @@ def write_template(
     template : Template
     path : str or Path
         ``.pdf``: a file with all pages, that of assembly last. ``.svg``: a file, or one for each page,
-        ``t-1.svg``, ``t-2.svg``, ..., and ``t-note.svg``. ``.dxf``: one drawing at full size, without pages or note.
+        ``t-1.svg``, ``t-2.svg``, ..., and ``t-note.svg``. ``.dxf``: one drawing at full size; no pages, no note.
     paper : Paper, optional
         A4 without it; it is turned where that saves pages.
     force : bool, optional

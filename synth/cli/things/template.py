@@ -27,6 +27,16 @@ __all__ = ["template"]
 @click.option("--scale", type=float, help="Millimetres for a unit of the coordinates.  [default: 1]")
 @click.option("--size", type=float, metavar="MM", help="Longer side of the thing, instead of a scale.")
 @click.option("--tabs", type=float, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none.")
+@click.option("--slots", is_flag=True, help="Tabs go through slots, without glue.")
+@click.option(
+    "--hinges",
+    "hinge_kind",
+    type=click.Choice(["fold", "offset", "living", "gap"]),
+    default="fold",
+    show_default=True,
+    help="Thick material: two folds for one, rows of cuts, or panels apart; --hinge-width says how wide.",
+)
+@click.option("--hinge-width", type=float, metavar="MM", help="Of offset, living or gap.")
 @click.option("--note/--no-note", default=True, show_default=True, help="How it is put together, with a picture.")
 @FORCE
 def template(
@@ -36,6 +46,8 @@ def template(
     mode: str | None,
     kind: Any,
     page: str,
+    hinge_kind: Any,
+    hinge_width: float | None,
     note: bool,
     force: bool,
     **look: Any,
@@ -49,18 +61,20 @@ def template(
     each page; a .dxf is one drawing at full size.
 
     Panels that do not lie side by side are laid out in nets, none over another, with tabs: edges of one number are
-    glued.
+    glued, or put together with slots. In thick material folds are strips of a stated width.
 
     \b
     Examples:
       synth template data/patterns/bird-base.fold --size 150 -o bird-base.pdf
       synth template data/patterns/bird-base.fold --size 600 --page A3 -o bird-base.pdf
       synth template m1:a-b.ac-.b-d.cd- --size 200 -o four-bar.dxf
+      synth template data/patterns/bird-base.fold --size 300 --hinges living --hinge-width 8 -o bird-base.dxf
       synth template RR-R-RRR --mode D --size 180 -o ups.pdf
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
     from synth.templates.paper import paper_named
+    from synth.templates.pieces.hinges import Hinges
     from synth.templates.template import template_of
     from synth.templates.things import panels_of_thing
     from synth.templates.writing import check_template, write_template
@@ -69,12 +83,15 @@ def template(
         paper = paper_named(page)
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
+    if (hinge_kind == "fold") != (hinge_width is None):
+        raise click.UsageError("--hinges offset, living or gap and --hinge-width go together")
     check_template(output, force=force)
+    hinges = None if hinge_width is None else Hinges(hinge_kind, hinge_width)
     asked = given(file, row, mode)
     with about(asked.name):
         thing: Any = asked.thing
         sheet, done = panels_of_thing(thing, kind=kind, mode=asked.mode)
-        made = template_of(sheet, title=sheet.title or Path(asked.name).name, **look)
+        made = template_of(sheet, title=sheet.title or Path(asked.name).name, hinges=hinges, **look)
         made, unseen = _noted(made, sheet, note, output)
     for place in write_template(made, output, paper=paper, force=force):
         click.echo(f"written: {plain(str(place), 4096)}")

@@ -8,8 +8,9 @@ from textwrap import wrap
 
 from graphs.errors import numbered
 from synth.templates.lines import Kind, Piece, Text
+from synth.templates.pieces.hinges import Hinges
 
-__all__ = ["PRINTING", "TILES", "steps_of_folds", "steps_of_glue", "written_steps"]
+__all__ = ["PRINTING", "TILES", "steps_of_folds", "steps_of_hinges", "steps_of_joins", "written_steps"]
 
 PRINTING = "Print at 100 %, not fitted to the page, and measure the gauge: it is 100 mm long."
 TILES = "Lay the pages of a piece together, crosses of one name over each other, and tape them."
@@ -39,25 +40,52 @@ def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
     return [cut] + ([f"Fold {', '.join(folds)}. You see the printed side."] if folds else [])
 
 
-def steps_of_glue(edges: int, without: int) -> list[str]:
+def steps_of_joins(edges: int, without: int, *, slotted: bool = False) -> list[str]:
     """Return how edges that meet are joined.
 
     Parameters
     ----------
     edges, without : int
-        How many are glued, and how many of these have no tab.
+        How many meet another, and how many of these have no tab.
+    slotted : bool, optional
+        Whether tabs go through slots; else they are glued.
     """
     if not edges:
         return []
     steps = []
-    if edges > without:
+    if edges > without and slotted:
         steps.append(
-            f"Glue {numbered(edges - without, 'tab')}, behind the panel at whose edge the number of the tab "
-            "stands again: the fold of the tab comes to lie along that edge."
+            f"Put {numbered(edges - without, 'tab')} through slots: each into the panel at whose edge its number "
+            "stands again, from the side to which it is folded, until its fold lies along that edge."
+        )
+    elif edges > without:
+        steps.append(
+            f"Glue {numbered(edges - without, 'tab')}: each to the panel at whose edge its number stands again, "
+            "on the side to which it is folded, its fold along that edge."
         )
     if without:
         steps.append(f"Tape {numbered(without, 'pair')} of edges of one number that have no tab, edge to edge.")
     return steps
+
+
+def steps_of_hinges(hinges: Hinges | None) -> list[str]:
+    """Return what becomes of folds in thick material.
+
+    Examples
+    --------
+    >>> steps_of_hinges(None)
+    []
+    """
+    if hinges is None:
+        return []
+    wide = f"{hinges.width:g} mm"
+    told = {
+        "offset": f"Each fold is two, {wide} apart: bend each half way; thick panels then have room between.",
+        "living": f"Rows of cuts, {wide} wide, are the folds: bend them gently, M away from you, V towards you.",
+        "gap": f"Panels stay {wide} apart where they hinge: join them with tape or cloth as they lie on the page, "
+        "M to be folded away from you, V towards you.",
+    }
+    return [told[hinges.kind]]
 
 
 def written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
