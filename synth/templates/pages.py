@@ -128,7 +128,8 @@ def _page(template: Template, paper: Paper, content: _Laid | Tile, number: int, 
     else:
         (strokes, texts), where = _in_the_middle(content, paper), ""
     title = plain(template.title, _LONGEST_TITLE)
-    caption = f"{title + ', ' if title else ''}page {number} of {count}{where}, a unit is {template.scale:.6g} mm"
+    unit = "" if template.scale is None else f", a unit is {template.scale:.6g} mm"
+    caption = f"{title + ', ' if title else ''}page {number} of {count}{where}{unit}"
     foot, words = footer((stroke.kind for piece in template.pieces for stroke in piece.strokes), caption)
     return Page(paper, (*strokes, *foot), (*texts, *words))
 

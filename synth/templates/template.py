@@ -34,8 +34,8 @@ class Template:
     ----------
     pieces : tuple of Piece
         Each by itself, millimetres.
-    scale : float
-        Millimetres for a unit of the coordinates.
+    scale : float or None
+        Millimetres for a unit of the coordinates; None of what has none.
     title : str
     told : tuple of str
         What the lines do not show, by kind and number.
@@ -46,7 +46,7 @@ class Template:
     """
 
     pieces: tuple[Piece, ...]
-    scale: float
+    scale: float | None
     title: str = ""
     told: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()
