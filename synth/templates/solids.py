@@ -21,7 +21,7 @@ from synth.conformed.linkages import OnCone
 from synth.templates.developed.layered import Dimensions, layered
 from synth.templates.developed.solids import solids_on_surface
 from synth.templates.developed.surfaces import Surface
-from synth.templates.scale import millimetres
+from synth.templates.scale import millimetres, scale_of
 from synth.templates.thick import plates_in_space, plates_of
 
 __all__ = ["SOLIDS", "THICKNESS", "poses_of", "write_linkage_on_surface", "write_meshes", "write_solids"]
@@ -113,7 +113,7 @@ def write_solids(
     """
     suffix = _checked(Path(path), force=force)
     whole, poses, left_out = poses_of(sheet)
-    poses = poses * millimetres(poses[0], scale, size)
+    poses = poses * millimetres(poses[0], scale_of(sheet, scale, size), size)
     plates = plates_of(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if suffix == ".gltf":
         meshes: Sequence[Mesh] = plates.meshes

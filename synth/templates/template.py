@@ -18,7 +18,7 @@ from synth.templates.pieces.flat import is_laid_out, piece_of_flat_sheet
 from synth.templates.pieces.hinges import Hinges, with_hinges
 from synth.templates.pieces.nets import CutNets, pieces_of_panels
 from synth.templates.pieces.tabs import Joins
-from synth.templates.scale import millimetres
+from synth.templates.scale import millimetres, scale_of
 
 __all__ = ["TABS", "Template", "pictured", "template_of"]
 
@@ -70,7 +70,7 @@ def template_of(
     sheet : Sheet
         With coordinates and faces; of several frames the first that has coordinates.
     scale : float, optional
-        Millimetres for a unit of the coordinates; 1 without it.
+        Millimetres for a unit of the coordinates; without it that of the file's unit, and 1 where it names none.
     size : float, optional
         Millimetres of the longer side of the sheet as it lies, instead of a scale.
     tabs : float, optional
@@ -109,7 +109,7 @@ def template_of(
     whole = with_all_edges(placed)
     flat = flattened(whole)
     places = in_space(whole.coordinates or ()) if flat is None else flat.places
-    factor = millimetres(places, scale, size)
+    factor = millimetres(places, scale_of(sheet, scale, size), size)
     title = title or placed.title
     if flat is not None and is_laid_out(whole, flat.places):
         piece, told = piece_of_flat_sheet(whole, flat.places * factor)

@@ -33,6 +33,7 @@ _SOLIDS = (".stl", ".3mf", ".gltf")
     type=click.Choice(["planar", "spherical", "general"]),
     help="Change the centres: planar analogue, spherical analogue, or most general form.",
 )
+@click.option("--table", type=click.Choice(["axes", "vertices"]), help="What a .csv holds, in every frame.")
 @click.option("--thickness", type=float, metavar="MM", help="Of panels as solids.  [default: 1]")
 @click.option("--gap", type=float, metavar="MM", help="Of solids at a hinge.  [default: twice the thickness]")
 @click.option("--scale", type=float, help="Of solids: millimetres for a unit.  [default: 1]")
@@ -46,6 +47,7 @@ def convert(
     target: str,
     kind: str | None,
     form: str | None,
+    table: str | None,
     force: bool,
     lossy: bool,
     as_json: bool,
@@ -66,6 +68,7 @@ def convert(
       .csv                 bare link-joint graphs, a table of edges
 
     Written:
+      .csv                 with --table: joint axes and angles, or vertices, in each frame of a .fold file
       .stl .3mf .gltf      panels as thin solids, hinges left open; .obj too, where a thickness is given;
                            .gltf has the frames of a .fold file as a motion; a linkage on a cone in layers
 
@@ -76,6 +79,7 @@ def convert(
     Examples:
       synth convert crease-pattern.fold mechanism.json
       synth convert crease-pattern.fold model.json --to polyhedron
+      synth convert folded.fold motion.csv --table axes
       synth convert folded.fold folded.stl --size 120 --thickness 0.8
       synth convert watt.json planar-watt.json --form planar
     """
@@ -83,11 +87,15 @@ def convert(
     from graphs.files.formats import read, write
 
     check_output(target, force=force)
+    if (Path(target).suffix.lower() == ".csv") != (table is not None):
+        raise click.UsageError("--table says what a .csv holds: the one goes with the other")
     of_solids = _is_of_solids(target, solid)
     given = read(source)
     with about(source):
         mechanism = converted(given, kind, form=form)
-        if of_solids:
+        if table is not None:
+            lost = _write_table(mechanism, target, table, force=force)
+        elif of_solids:
             lost = _write_solids(mechanism, target, solid, force=force)
         else:
             made_of = given if kind == "sheet" and form is None else None  # a sheet holds less than others
@@ -97,6 +105,15 @@ def convert(
         return
     click.echo(f"{plain(target, 4096)}: from {type(mechanism).__name__}")
     tell_lost(lost)
+
+
+def _write_table(mechanism: Mechanism, target: str, table: str, *, force: bool) -> tuple[str, ...]:
+    from graphs.files.atomic import write_text
+    from synth.moving.tables import table_text
+
+    text, lost = table_text(mechanism, table)
+    write_text(Path(target), text, force=force)
+    return lost
 
 
 def _is_of_solids(target: str, solid: Mapping[str, float | None]) -> bool:

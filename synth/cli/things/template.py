@@ -26,7 +26,7 @@ __all__ = ["template"]
 @MODE
 @click.option("--as", "kind", type=click.Choice(["sheet", "space"]), help="Realise a type so.  [default: sheet]")
 @click.option("--page", "page", default="A4", show_default=True, help="A4, A3, Letter, or WIDTHxHEIGHT in mm.")
-@click.option("--scale", type=float, help="Millimetres for a unit of the coordinates.  [default: 1]")
+@click.option("--scale", type=float, help="Millimetres for a unit.  [default: the file's unit, or 1]")
 @click.option("--size", type=float, metavar="MM", help="Longer side of the thing; on a cone, of ruling lines.")
 @click.option("--tabs", type=float, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none.")
 @click.option("--slots", is_flag=True, help="Tabs go through slots, without glue.")
@@ -59,10 +59,10 @@ def template(
     """Print panels at true scale, to cut out and fold.
 
     FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of many, of which --row
-    names one. A type without coordinates is realised first. Coordinates are millimetres unless --scale or --size
-    says otherwise. What is larger than a page comes in tiles, never smaller: tiles overlap by 10 mm, and crosses
-    of one name lie over each other. Each page has a gauge of 100 mm: measure it. Of .svg a file is written for
-    each page; a .dxf is one drawing at full size.
+    names one. A type without coordinates is realised first. Coordinates are in the unit that a .fold file names,
+    or millimetres, unless --scale or --size says otherwise. What is larger than a page comes in tiles, never
+    smaller: tiles overlap by 10 mm, and crosses of one name lie over each other. Each page has a gauge of 100 mm:
+    measure it. Of .svg a file is written for each page; a .dxf is one drawing at full size.
 
     Panels that do not lie side by side are laid out in nets, none over another, with tabs: edges of one number are
     glued, or put together with slots. In thick material folds are strips of a stated width.
@@ -123,6 +123,7 @@ def _refuse(look: Mapping[str, Any], options: Mapping[str, Any], whose: str) -> 
 def _of_panels(asked: Given, kind: Any, look: Mapping[str, Any], *, note: bool) -> tuple[Template, list[str]]:
     """Return the template of panels, and what is to be told of it."""
     from synth.templates.pieces.hinges import Hinges
+    from synth.templates.scale import unit_of
     from synth.templates.template import pictured, template_of
     from synth.templates.things import panels_of_thing
 
@@ -134,6 +135,8 @@ def _of_panels(asked: Given, kind: Any, look: Mapping[str, Any], *, note: bool) 
     how = {name: look[name] for name in ("scale", "size", "tabs", "slots")}
     made = template_of(sheet, title=sheet.title or Path(asked.name).name, hinges=hinges, **how)
     told = [f"{done}, as `synth realise` does"] if done else []
+    if look["scale"] is None and look["size"] is None and unit_of(sheet) is None:
+        told.append("no unit is given: a unit of the coordinates is 1 mm")
     told += [f"not shown: {', '.join(made.told)}"] if made.told else []
     if note:
         made, why = pictured(made, sheet)
