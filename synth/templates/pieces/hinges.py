@@ -20,11 +20,12 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
 from synth.templates.pieces.cuts import common_spans, cut_once, spans_on, uncovered
+from synth.templates.pieces.overlaps import GRID, united
 
 __all__ = ["HingeKind", "Hinges", "with_hinges"]
 
 HingeKind = Literal["offset", "living", "gap"]
-_STRAIGHT = 1e-7
+_STRAIGHT = 5e-7
 """Corners this close to a straight line, in millimetres, are none."""
 _THIN = 1e-5
 """Millimetres: a fold so wide parts panels, and takes nothing off them."""
@@ -134,20 +135,21 @@ def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
     more = [line for strip in strips for line in (strip.sides() if hinges.kind == "offset" else _rows(strip))]
     words = [] if hinges.kind == "offset" else list(_letters(folds))
     marks = [stroke for stroke in piece.strokes if stroke.kind == "MARKS"]
-    covered = shapely.union_all([*panels, *(strip.polygon() for strip in strips)])
+    covered = united([*panels, *(strip.polygon() for strip in strips)])
     return Piece((*cut_once(cuts), *more, *marks), (*piece.texts, *words), covered)
 
 
 def _panels(piece: Piece, lines: Sequence[Stroke], width: float) -> list[Any]:
     """Return the panels without what lies beside their own hinges; each has to leave something, in one part."""
     every = [shapely.LineString([line.start, line.end]) for line in lines]
-    parted = shapely.union_all(shapely.buffer(every, _THIN, cap_style="square"))
+    parted = united(shapely.buffer(every, _THIN, cap_style="square"))
     panels = []
-    for part in _parts(shapely.difference(piece.covered, parted)):
-        panel = part.buffer(2 * _THIN, join_style="mitre").intersection(piece.covered)
+    for part in _parts(shapely.difference(piece.covered, parted, grid_size=GRID)):
+        wider = part.buffer(2 * _THIN, join_style="mitre")
+        panel = shapely.intersection(wider, piece.covered, grid_size=GRID)
         own = [line for line in every if line.intersection(panel).length > line.length / 10]
-        strips = shapely.union_all(shapely.buffer(own, width / 2, cap_style="square"))
-        left = _parts(panel.difference(strips).simplify(_STRAIGHT))
+        strips = united(shapely.buffer(own, width / 2, cap_style="square"))
+        left = _parts(shapely.difference(panel, strips, grid_size=GRID).simplify(_STRAIGHT))
         if len(left) != 1:
             raise UnsolvableError(f"a panel is narrower than its hinges of {width:g} mm leave room for")
         panels += left
@@ -163,7 +165,7 @@ def _all_strips(folds: Sequence[Stroke], panels: Sequence[Any], hinges: Hinges) 
     sides = np.array([ends for ring in rings for ends in pairwise(ring.coords)]).reshape(-1, 2, 2)
     strips = [strip for fold in folds for strip in _strips(fold, sides, hinges)]
     areas = [strip.polygon() for strip in strips]
-    together = float(shapely.union_all(areas).area)
+    together = float(united(areas).area)
     if sum(area.area for area in areas) - together > _SPECK:
         raise UnsolvableError(f"hinges of {hinges.width:g} mm lie over each other: expected a smaller width")
     return strips
@@ -193,7 +195,7 @@ def _cuts(piece: Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list
         for ring in (panel.exterior, *panel.interiors):
             for start, end in pairwise(ring.coords):
                 cuts += uncovered(Stroke("CUT", start, end), joined)
-    removed = shapely.difference(piece.covered, shapely.union_all(panels))
+    removed = shapely.difference(piece.covered, united(panels), grid_size=GRID)
     for stroke in piece.strokes:
         if stroke.kind == "CUT":
             rest = shapely.LineString([stroke.start, stroke.end]).difference(removed)

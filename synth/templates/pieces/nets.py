@@ -175,12 +175,12 @@ def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) ->
         laid, _ = across(panels, edge, here.face, net.corners[here.face], turned=net.turned[here.face])
         own = panels.planes[there.face].flat
         taken = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
-        free = shapely.difference(shapely.Polygon(laid), shapely.union_all(taken))
+        panel = shapely.Polygon(laid)
         material = [*net.polygons(), *here.work.tabs]
         joins = glue.joins
         shape = None
         if joins.depth:
-            shape = tab_at(here.start, here.end, joins.depth, material, free, slotted=joins.slotted)
+            shape = tab_at(here.start, here.end, joins.depth, material, panel, taken=taken, slotted=joins.slotted)
         if shape is None:
             continue
         glue.on_panel[there.face].append(_carried(shape, laid, own))
