@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import degrees
+from typing import TYPE_CHECKING
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism
@@ -14,7 +15,9 @@ from graphs.mechanism.sheet import Sheet
 from synth.conformed.linkages import OnCone, linkage_on_cones
 from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.moving.linkages import sheet_of
-from synth.realisation.realised import Kind, realise
+
+if TYPE_CHECKING:
+    from synth.realisation.realised import Kind
 
 __all__ = ["linkage_on_a_cone", "panels_of_thing"]
 
@@ -56,6 +59,8 @@ def panels_of_thing(
         return sheet, ""
     if not isinstance(thing, SCGraph | SCDGraph | ChainString):
         raise UnsolvableError(f"a template needs panels, and {thing!r} has none")
+    from synth.realisation.realised import realise  # it loads numba, which a thing with coordinates does without
+
     how = "a flat sheet" if kind != "space" else "a pose in space"
     return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {how}"
 
