@@ -14,12 +14,13 @@ from typing import Any, Literal
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Row, Unit
 from enumerate.strings.panel_strings import ChainString
-from graphs.errors import SynthedraError
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.native.documents import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.catalogue.entries import CatalogueEntry, catalogue_entries
+from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.realisation.realised import NotFoundError, Realised, realise
 
 __all__ = ["COLUMNS", "Outcome", "RealisationJob", "summary_of"]
@@ -143,6 +144,10 @@ def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
     outcome: Outcome
     try:
+        if isinstance(entry.mechanism, OrderOnCircle):
+            raise UnsolvableError(
+                "an order of joints round a cone, which has no panels: `synth template` takes it"
+            )
         found, outcome, reason = realise(entry.mechanism, mode=entry.mode, **options), "realised", ""
     except SynthedraError as error:
         found, outcome, reason = None, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
@@ -165,7 +170,7 @@ def _figures(found: Realised | None) -> dict[str, Any]:
 
 
 def _text_of(entry: CatalogueEntry) -> str:
-    """Return what an entry is, as text; of a string its name says it."""
-    if isinstance(entry.mechanism, ChainString):
-        return entry.name
+    """Return what an entry is, as text; of a string its name says it, of an order what is said of it."""
+    if isinstance(entry.mechanism, ChainString | OrderOnCircle):
+        return f"{entry.name} {entry.said}"
     return fold_text(entry.mechanism) if isinstance(entry.mechanism, Sheet) else dumps(entry.mechanism)

@@ -95,3 +95,14 @@ def test_rows_of_strings_are_realised_in_the_modes_that_they_name(tmp_path):
         (ChainString((2, 2)), "S"),
         (ChainString((2, 2)), "D"),
     ]
+
+
+def test_rows_of_conical_candidates_are_refused_one_by_one(tmp_path):
+    rows = tmp_path / "orders.jsonl"
+    row = {"chain": "k1:Cr", "order": ["0", "1", "3", "2"], "slots": [0, 1, 3, 2], "loops": [["0", "1", "3", "2"]]}
+    rows.write_text(json.dumps(row) + "\n")
+    job = RealisationJob(str(rows))
+    summary = summary_of(row_as_dict(COLUMNS, one) for unit in job.units() for one in job.work(unit.payload))
+    assert summary["refused"] == 1
+    assert "round a cone" in summary["types"][0]["reason"]
+    assert len(job.key["realise"]) == 64
