@@ -13,7 +13,9 @@ EXAMPLES = {"watt": 1, "chain-UPS": 6, "fortune-teller": 5, "miura-tube": 1}
 """Freedoms on the way."""
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=pytest.mark.slow) if one == "fortune-teller" else one for one in EXAMPLES]
+)
 def test_examples_print_with_a_picture_and_fold(name, data):
     path = data / "realised" / f"{name}.fold"
     sheet = read(path) if path.exists() else generate(name).mechanism

@@ -100,7 +100,7 @@ def rolled_area(piece, layer):
 
 @pytest.mark.parametrize("name", CHAINS)
 def test_pieces_of_candidates_rolled_up_lie_on_the_cone_in_their_layers_without_meeting(name):
-    made = [check_pieces(linkage) for linkage in candidates(name)[::14]]
+    made = [check_pieces(linkage) for linkage in candidates(name)[::34]]
     assert max(link.layer for one in made for link in one.links) >= 2
     assert any(link.slots for one in made for link in one.links)
 
