@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 
 __all__ = ["template"]
 
+_OF_PANELS = {"scale": None, "tabs": 8.0, "slots": False, "hinge_kind": "fold", "hinge_width": None}
+_OF_SURFACES = {"cone_angle": None, "cone": None, "radius": None, "thickness": None}
+"""Options of one kind of thing, and what they are where nothing was asked for."""
+_SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
+
 
 @click.command(short_help="Print a crease pattern at true scale, to cut out and fold.")
 @click.argument("file", metavar="FILE")
@@ -97,7 +102,7 @@ def template(
     told: list[str] = []
     with about(asked.name):
         if on_surface:
-            made = _of_surface(asked, look)
+            made = _of_surface(asked, kind, look)
         else:
             made, told = _of_panels(asked, kind, look, note=note and not _is_dxf(output))
     made, more = _with_note(made, output, note=note)
@@ -105,12 +110,6 @@ def template(
         click.echo(f"written: {plain(str(place), 4096)}")
     for line in (*told, *more):
         click.echo(line, err=True)
-
-
-_OF_PANELS = {"scale": None, "tabs": 8.0, "slots": False, "hinge_kind": "fold", "hinge_width": None}
-_OF_SURFACES = {"cone_angle": None, "cone": None, "radius": None, "thickness": None}
-"""Options of one kind of thing, and what they are where nothing was asked for."""
-_SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
 
 
 def _refuse(look: Mapping[str, Any], options: Mapping[str, Any], whose: str) -> None:
@@ -144,14 +143,14 @@ def _of_panels(asked: Given, kind: Any, look: Mapping[str, Any], *, note: bool) 
     return made, told
 
 
-def _of_surface(asked: Given, look: Mapping[str, Any]) -> Template:
+def _of_surface(asked: Given, kind: Any, look: Mapping[str, Any]) -> Template:
     """Return the template of a linkage on a cone or a cylinder."""
     from synth.templates.developed.layered import Dimensions
     from synth.templates.developed.template import surface_of, template_on_surface
     from synth.templates.things import linkage_on_a_cone
 
-    if asked.mode is not None:
-        raise click.UsageError("--mode: of R/- strings only")
+    if asked.mode is not None or kind is not None:
+        raise click.UsageError("--mode and --as: of types that are realised only")
     thing: Any = asked.thing
     angle = None if look["cone_angle"] is None else radians(look["cone_angle"])
     linkage = linkage_on_a_cone(thing, cone_angle=angle, number=look["cone"])
