@@ -50,6 +50,10 @@ class Frames(Protocol):
         """How many there are besides the key frame."""
 
     @property
+    def unit(self) -> str | None:
+        """The name that the file gives its unit of length; None where it gives none."""
+
+    @property
     def left_out(self) -> tuple[str, ...]:
         """What else the file says of the sheet, by the names that it has there: the sheet does not hold it."""
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from synth.moving.motion import Motion as Motion
     from synth.moving.motion import move as move
     from synth.moving.rods import linkage_of_rods as linkage_of_rods
+    from synth.moving.tables import table_text as table_text
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -30,5 +31,6 @@ else:
             "linkages": "linkage_of linkage_on_cone",
             "motion": "Motion move",
             "rods": "linkage_of_rods",
+            "tables": "table_text",
         },
     )

@@ -179,6 +179,7 @@ def realise(
     tries: int = _TRIES,
     flat_foldable: bool = False,
     symmetric: bool = False,
+    mode: str | None = None,
 ) -> Realised:
     """Give a type coordinates.
 
@@ -201,6 +202,9 @@ def realise(
     symmetric : bool, optional
         Of a sheet: the drawing has the largest group of symmetries of the type with which it folds, or else with
         which one was found. Each group is tried so many times.
+    mode : str, optional
+        Of an R/- string: which of `ChainString.modes`, or one that is its reverse; without it all points in which
+        creases meet lie on one side.
 
     Returns
     -------
@@ -228,7 +232,12 @@ def realise(
         raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
     if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
         raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
-    scd, notes = drawn_string(mechanism) if isinstance(mechanism, ChainString) else simplest_drawn(mechanism)
+    if mode and not isinstance(mechanism, ChainString):
+        raise InvariantError("mode", f"the mode {shown(mode)} of {mechanism!r}", "a mode of an R/- string only")
+    if isinstance(mechanism, ChainString):
+        scd, notes = drawn_string(mechanism, mode)
+    else:
+        scd, notes = simplest_drawn(mechanism)
     pattern = pattern_of(scd)
     raised: Raised = lifted
     if kind == "sheet":

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import prod
 
 from graphs.errors import UnsolvableError
 from graphs.plain_text import plain
 from synth.templates.lines import Piece, Stroke, Text
 from synth.templates.marks import footer
+from synth.templates.note.page import note_page
+from synth.templates.note.steps import PRINTING, TILES
+from synth.templates.page import Page
 from synth.templates.paper import FOOTER, MARGIN, Paper
 from synth.templates.template import Template
 from synth.templates.tiles import Tile, tiles_across, tiles_of
 
-__all__ = ["Page", "laid_out", "pages_of"]
+__all__ = ["laid_out", "pages_of"]
 
 _APART = 6.0
 """Millimetres between pieces on a page."""
@@ -22,22 +24,6 @@ _MOST = 500
 """Pages at most: more were not meant."""
 _LONGEST_TITLE = 40
 _Laid = list[tuple[Piece, float, float]]
-
-
-@dataclass(frozen=True)
-class Page:
-    """A page: strokes and texts in millimetres from its lower left corner.
-
-    Attributes
-    ----------
-    paper : Paper
-    strokes : tuple of Stroke
-    texts : tuple of Text
-    """
-
-    paper: Paper
-    strokes: tuple[Stroke, ...]
-    texts: tuple[Text, ...]
 
 
 def pages_of(template: Template, paper: Paper) -> list[Page]:
@@ -51,7 +37,8 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     Returns
     -------
     list of Page
-        First those of pieces that fit on a page, then tiles, row by row from the top left.
+        First those of pieces that fit on a page, then tiles, row by row from the top left; then, where the
+        template says how it is put together, the page of that.
 
     Raises
     ------
@@ -64,7 +51,7 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     >>> from synth.templates.template import template_of
     >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
     >>> [len(pages_of(template_of(square, size=size), Paper(210, 297))) for size in (100, 250)]
-    [1, 2]
+    [2, 3]
     """
     ways = (paper, paper.turned())
     most = [_pages_at_most(template, way) for way in ways]
@@ -72,7 +59,13 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
         raise UnsolvableError(f"{min(most)} pages: expected a size or a paper with at most {_MOST} of them")
     contents = [_contents(template, way) for way, pages in zip(ways, most, strict=True) if pages <= _MOST]
     way, sheets = min(contents, key=lambda one: len(one[1]))
-    return [_page(template, way, content, number, len(sheets)) for number, content in enumerate(sheets, start=1)]
+    pages = [_page(template, way, content, number, len(sheets)) for number, content in enumerate(sheets, start=1)]
+    if not template.steps:
+        return pages
+    tiled = any(isinstance(content, Tile) for content in sheets)
+    steps = [PRINTING, *([TILES] if tiled else []), *template.steps]
+    upright = min(paper, paper.turned(), key=lambda one: one.width)
+    return [*pages, note_page(upright, plain(template.title, _LONGEST_TITLE), steps, template.picture)]
 
 
 def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_Laid]:
@@ -135,7 +128,8 @@ def _page(template: Template, paper: Paper, content: _Laid | Tile, number: int, 
     else:
         (strokes, texts), where = _in_the_middle(content, paper), ""
     title = plain(template.title, _LONGEST_TITLE)
-    caption = f"{title + ', ' if title else ''}page {number} of {count}{where}, a unit is {template.scale:.6g} mm"
+    unit = "" if template.scale is None else f", a unit is {template.scale:.6g} mm"
+    caption = f"{title + ', ' if title else ''}page {number} of {count}{where}{unit}"
     foot, words = footer((stroke.kind for piece in template.pieces for stroke in piece.strokes), caption)
     return Page(paper, (*strokes, *foot), (*texts, *words))
 

@@ -7,12 +7,42 @@ from math import isfinite
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.mechanism.sheet import Sheet
 
-__all__ = ["millimetres"]
+__all__ = ["millimetres", "scale_of", "unit_of"]
+
+_UNITS = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "pt": 25.4 / 72}
+"""Units that FOLD names, in millimetres; its ``unit`` is none of a length."""
 
 _LEAST = 10.0
 """Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
+
+
+def unit_of(sheet: Sheet) -> float | None:
+    """Return the millimetres of the unit that the file of a sheet names; None where it names none.
+
+    Raises
+    ------
+    UnsolvableError
+        If it is a unit that FOLD does not know.
+
+    Examples
+    --------
+    >>> unit_of(Sheet(3, (), "", ((0, 1, 2),)))
+    """
+    name = None if sheet.frames is None else sheet.frames.unit
+    if name is None or name == "unit":
+        return None
+    if name not in _UNITS:
+        known = ", ".join(_UNITS)
+        raise UnsolvableError(f"the file's unit {shown(name)} is none of {known}: expected --scale or --size")
+    return _UNITS[name]
+
+
+def scale_of(sheet: Sheet, scale: float | None, size: float | None) -> float | None:
+    """Return the scale that is asked for, or else that of the unit that the file of a sheet names."""
+    return unit_of(sheet) if scale is None and size is None else scale
 
 
 def millimetres(places: Floats, scale: float | None = None, size: float | None = None) -> float:

@@ -17,10 +17,14 @@ from graphs.files.solids.stl import stl_bytes
 from graphs.files.solids.three_mf import three_mf_bytes
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.templates.scale import millimetres
+from synth.conformed.linkages import OnCone
+from synth.templates.developed.layered import Dimensions, layered
+from synth.templates.developed.solids import solids_on_surface
+from synth.templates.developed.surfaces import Surface
+from synth.templates.scale import millimetres, scale_of
 from synth.templates.thick import plates_in_space, plates_of
 
-__all__ = ["SOLIDS", "THICKNESS", "poses_of", "write_solids"]
+__all__ = ["SOLIDS", "THICKNESS", "poses_of", "write_linkage_on_surface", "write_meshes", "write_solids"]
 
 SOLIDS = (".stl", ".3mf", ".gltf", ".obj")
 """Extensions of files of solids."""
@@ -29,6 +33,7 @@ _WRITERS: dict[str, Callable[[Sequence[Mesh]], bytes]] = {
     ".3mf": three_mf_bytes,
     ".obj": lambda meshes: obj_of_meshes(meshes).encode(),
 }
+_HINGES = "hinges, but for the gaps"
 THICKNESS = 1.0
 """Of panels, millimetres, where none is given."""
 
@@ -106,24 +111,105 @@ def write_solids(
     UnsolvableError
         If there are no panels with coordinates, one is not plane, or narrower than the gap, or changes its shape.
     """
-    place = Path(path)
-    suffix = place.suffix.lower()
-    if suffix not in SOLIDS:
-        raise FileError(place, "", "the extension is not known", ", ".join(SOLIDS))
-    check_place(place, force=force)
+    suffix = _checked(Path(path), force=force)
     whole, poses, left_out = poses_of(sheet)
-    poses = poses * millimetres(poses[0], scale, size)
+    poses = poses * millimetres(poses[0], scale_of(sheet, scale, size), size)
     plates = plates_of(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if suffix == ".gltf":
-        data = gltf_text(plates.meshes, *plates.motions(whole, poses), title=whole.title).encode()
+        meshes: Sequence[Mesh] = plates.meshes
+        motion = plates.motions(whole, poses)
     else:
         left_out += len(poses) - 1
-        meshes = plates_in_space(plates)
+        meshes, motion = plates_in_space(plates), None
+    write_meshes(meshes, path, title=whole.title, motion=motion, force=force)
+    return (_HINGES, *((numbered(left_out, "other frame"),) if left_out else ()))
+
+
+def write_meshes(
+    meshes: Sequence[Mesh],
+    path: str | Path,
+    *,
+    title: str = "",
+    motion: tuple[Floats, Floats] | None = None,
+    force: bool = False,
+) -> None:
+    """Write closed meshes; equal meshes give equal files.
+
+    Parameters
+    ----------
+    meshes : sequence of Mesh
+    path : str or Path
+        ``.stl``, ``.3mf``, ``.obj`` or ``.gltf``.
+    title : str, optional
+        Of glTF.
+    motion : (float[poses, meshes, 3, 3], float[poses, meshes, 3]), optional
+        Of glTF: how meshes are turned and shifted. Without it they stay where they are.
+    force : bool, optional
+        Replace a file that is there.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or the file cannot be written or is there already.
+
+    Examples
+    --------
+    >>> write_meshes([], "a.doc")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: a.doc: the extension is not known; expected .stl, .3mf, .gltf, .obj
+    """
+    suffix = _checked(Path(path), force=force)
+    if suffix == ".gltf":
+        still = np.tile(np.eye(3), (1, len(meshes), 1, 1)), np.zeros((1, len(meshes), 3))
+        data = gltf_text(meshes, *(still if motion is None else motion), title=title).encode()
+    else:
         data = _WRITERS[suffix](meshes)
-    beside = Beside(place, force=force)
+    beside = Beside(Path(path), force=force)
     try:
         beside.write(data)
         beside.commit()
     finally:
         beside.discard()
-    return ("hinges, but for the gaps", *((numbered(left_out, "other frame"),) if left_out else ()))
+
+
+def write_linkage_on_surface(
+    linkage: OnCone, surface: Surface, path: str | Path, *, dimensions: Dimensions, gap: float, force: bool = False
+) -> tuple[str, ...]:
+    """Write a linkage on a cone or a cylinder as solids in layers, the surface among them.
+
+    Parameters
+    ----------
+    linkage : OnCone
+    surface : Cone or Cylinder
+    path : str or Path
+    dimensions : Dimensions
+    gap : float
+        At hinges, millimetres at the inner edge of links.
+    force : bool, optional
+        Replace a file that is there.
+
+    Returns
+    -------
+    tuple of str
+        What the file does not hold.
+
+    Raises
+    ------
+    FileError
+        If the extension is not known, or the file cannot be written or is there already.
+    UnsolvableError
+        If two joints are on one ruling line, or a link has one joint only, or is narrower than the gap.
+    """
+    _checked(Path(path), force=force)
+    write_meshes(solids_on_surface(layered(linkage, surface, dimensions), gap), path, force=force)
+    return (_HINGES,)
+
+
+def _checked(place: Path, *, force: bool) -> str:
+    """Return the extension of a place that can be written to."""
+    suffix = place.suffix.lower()
+    if suffix not in SOLIDS:
+        raise FileError(place, "", "the extension is not known", ", ".join(SOLIDS))
+    check_place(place, force=force)
+    return suffix

@@ -17,6 +17,7 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.solids.mesh import Mesh
 from graphs.mechanism.sheet import FLAT, Sheet
+from synth.templates.pieces.overlaps import GRID, united
 from synth.templates.pieces.planes import Plane
 from synth.templates.pieces.unfolding import Panels, panels_of
 
@@ -129,7 +130,8 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
         if panels.sheet.assignments[edge] not in FLAT
     ]
     if width and strips:
-        rest = rest.difference(shapely.union_all(strips)).simplify(_STRAIGHT)
+        taken = united(strips)
+        rest = shapely.difference(rest, taken, grid_size=GRID).simplify(_STRAIGHT)
     parts = [part for part in getattr(rest, "geoms", [rest]) if part.area > _STRAIGHT * whole]
     if not parts:
         raise UnsolvableError(f"panel {face} is narrower than the gap of {2 * width:g} mm at its hinges")

@@ -10,7 +10,8 @@ from graphs.plain_text import plain
 from synth.templates.formats.dxf import dxf_of_template
 from synth.templates.formats.pdf import check_reportlab, pdf_of_pages
 from synth.templates.formats.svg import svg_of_page
-from synth.templates.pages import Page, pages_of
+from synth.templates.page import Page
+from synth.templates.pages import pages_of
 from synth.templates.paper import Paper
 from synth.templates.template import Template
 
@@ -56,8 +57,8 @@ def write_template(
     ----------
     template : Template
     path : str or Path
-        ``.pdf``: a file with all pages. ``.svg``: a file, or one for each page, ``t-1.svg``, ``t-2.svg``, ...
-        ``.dxf``: one drawing at full size, which has no pages.
+        ``.pdf``: a file with all pages, that of assembly last. ``.svg``: a file, or one for each page,
+        ``t-1.svg``, ``t-2.svg``, ..., and ``t-note.svg``. ``.dxf``: one drawing at full size; no pages, no note.
     paper : Paper, optional
         A4 without it; it is turned where that saves pages.
     force : bool, optional
@@ -97,10 +98,11 @@ def write_template(
 
 
 def _svg_files(pages: list[Page], place: Path) -> dict[Path, bytes]:
-    """Return the name and content of each page."""
-    if len(pages) == 1:
-        return {place: svg_of_page(pages[0]).encode()}
-    return {
-        place.with_name(f"{place.stem}-{number}{place.suffix}"): svg_of_page(page).encode()
-        for number, page in enumerate(pages, start=1)
-    }
+    """Return the name and content of each page; that of assembly is a file of its own, of which nothing is cut."""
+    lines = [page for page in pages if not page.is_note]
+    names = [place]
+    if len(lines) > 1:
+        names = [place.with_name(f"{place.stem}-{number}{place.suffix}") for number in range(1, len(lines) + 1)]
+    files = dict(zip(names, lines, strict=True))
+    files |= {place.with_name(f"{place.stem}-note{place.suffix}"): page for page in pages if page.is_note}
+    return {name: svg_of_page(page).encode() for name, page in files.items()}

@@ -60,12 +60,15 @@ class FoldFrames:
         The parsed file; None where it has the key frame only.
     left_out : tuple of str
         Keys of the frame that was read that the sheet does not hold.
+    unit : str or None
+        ``frame_unit`` of that frame.
     """
 
     path: Path
     sheet: Sheet
     document: Mapping[str, Any] | None
     left_out: tuple[str, ...]
+    unit: str | None = None
 
     @property
     def others(self) -> int:
@@ -110,7 +113,10 @@ def read_fold(path: Path) -> Sheet:
     sheet = _sheet(frame, notes, check)
     more = document if document.get("file_frames") else None
     of_file = {key: value for key, value in document.items() if key.startswith("file_") and value is not None}
-    return sheet.with_frames(FoldFrames(path, sheet, more, _left_out(of_file | frame, sheet.title)))
+    unit = frame.get("frame_unit")
+    if unit is not None and not isinstance(unit, str):
+        check.fail("frame_unit", unit, "the name of a unit")
+    return sheet.with_frames(FoldFrames(path, sheet, more, _left_out(of_file | frame, sheet.title), unit))
 
 
 def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:

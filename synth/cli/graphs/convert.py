@@ -12,6 +12,7 @@ from synth.cli.output import FORCE, LOSSY, about, check_output, plain, print_jso
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
+    from graphs.mechanism.conical import ConicalLinkage
 
 __all__ = ["convert"]
 
@@ -32,10 +33,12 @@ _SOLIDS = (".stl", ".3mf", ".gltf")
     type=click.Choice(["planar", "spherical", "general"]),
     help="Change the centres: planar analogue, spherical analogue, or most general form.",
 )
+@click.option("--table", type=click.Choice(["axes", "vertices"]), help="What a .csv holds, in every frame.")
 @click.option("--thickness", type=float, metavar="MM", help="Of panels as solids.  [default: 1]")
 @click.option("--gap", type=float, metavar="MM", help="Of solids at a hinge.  [default: twice the thickness]")
 @click.option("--scale", type=float, help="Of solids: millimetres for a unit.  [default: 1]")
-@click.option("--size", type=float, metavar="MM", help="Of solids: longest side of all, instead of a scale.")
+@click.option("--size", type=float, metavar="MM", help="Of solids: longest side; of a cone, ruling lines.")
+@click.option("--cone", type=click.IntRange(min=1), metavar="K", help="Of a linkage on several cones: which.")
 @FORCE
 @LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print what was done as JSON.")
@@ -44,6 +47,7 @@ def convert(
     target: str,
     kind: str | None,
     form: str | None,
+    table: str | None,
     force: bool,
     lossy: bool,
     as_json: bool,
@@ -65,8 +69,9 @@ def convert(
       .csv                 bare link-joint graphs, a table of edges
 
     Written:
+      .csv                 with --table: joint axes and angles, or vertices, in each frame of a .fold file
       .stl .3mf .gltf      panels as thin solids, hinges left open; .obj too, where a thickness is given;
-                           .gltf has the frames of a .fold file as a motion
+                           .gltf has the frames of a .fold file as a motion; a linkage on a cone in layers
 
     What OUT cannot hold is told by kind and number. If its type would be another (links, joints or centres of what
     is read back do not correspond), nothing is written, unless with --lossy.
@@ -75,6 +80,7 @@ def convert(
     Examples:
       synth convert crease-pattern.fold mechanism.json
       synth convert crease-pattern.fold model.json --to polyhedron
+      synth convert folded.fold motion.csv --table axes
       synth convert folded.fold folded.stl --size 120 --thickness 0.8
       synth convert watt.json planar-watt.json --form planar
       synth convert stewart.json creases.json --to solids
@@ -84,11 +90,15 @@ def convert(
     from graphs.files.formats import read, write
 
     check_output(target, force=force)
+    if (Path(target).suffix.lower() == ".csv") != (table is not None):
+        raise click.UsageError("--table says what a .csv holds: the one goes with the other")
     of_solids = _is_of_solids(target, solid)
     given = read(source)
     with about(source):
         mechanism = converted(given, kind, form=form)
-        if of_solids:
+        if table is not None:
+            lost = _write_table(mechanism, target, table, force=force)
+        elif of_solids:
             lost = _write_solids(mechanism, target, solid, force=force)
         else:
             made_of = given if kind == "sheet" and form is None else None  # a sheet holds less than others
@@ -98,6 +108,15 @@ def convert(
         return
     click.echo(f"{plain(target, 4096)}: from {type(mechanism).__name__}")
     tell_lost(lost)
+
+
+def _write_table(mechanism: Mechanism, target: str, table: str, *, force: bool) -> tuple[str, ...]:
+    from graphs.files.atomic import write_text
+    from synth.moving.tables import table_text
+
+    text, lost = table_text(mechanism, table)
+    write_text(Path(target), text, force=force)
+    return lost
 
 
 def _is_of_solids(target: str, solid: Mapping[str, float | None]) -> bool:
@@ -113,13 +132,32 @@ def _write_solids(
     mechanism: Mechanism, target: str, solid: Mapping[str, float | None], *, force: bool
 ) -> tuple[str, ...]:
     from graphs.errors import UnsolvableError
+    from graphs.mechanism.conical import ConicalLinkage
     from synth.moving.linkages import sheet_of
     from synth.templates.solids import THICKNESS, write_solids
 
+    thickness = THICKNESS if solid["thickness"] is None else solid["thickness"]
+    if isinstance(mechanism, ConicalLinkage):
+        return _write_on_cone(mechanism, target, thickness, solid, force=force)
     sheet = sheet_of(mechanism)
     if sheet is None:
         raise UnsolvableError(f"solids need panels, and {mechanism!r} has none")
-    thickness = THICKNESS if solid["thickness"] is None else solid["thickness"]
     return write_solids(
         sheet, target, thickness=thickness, gap=solid["gap"], scale=solid["scale"], size=solid["size"], force=force
     )
+
+
+def _write_on_cone(
+    linkage: ConicalLinkage, target: str, thickness: float, solid: Mapping[str, float | None], *, force: bool
+) -> tuple[str, ...]:
+    from synth.templates.developed.layered import Dimensions
+    from synth.templates.developed.template import surface_of
+    from synth.templates.solids import write_linkage_on_surface
+    from synth.templates.things import linkage_on_a_cone
+
+    if solid["scale"] is not None:
+        raise click.UsageError("--scale is of panels: --size says how long the ruling lines of a cone are")
+    one = linkage_on_a_cone(linkage, number=None if solid["cone"] is None else int(solid["cone"]))
+    sizes = Dimensions(thickness=thickness, **({} if solid["size"] is None else {"size": solid["size"]}))
+    gap = 2 * thickness if solid["gap"] is None else solid["gap"]
+    return write_linkage_on_surface(one, surface_of(one), target, dimensions=sizes, gap=gap, force=force)

@@ -9,6 +9,7 @@ import click
 
 from synth.cli.output import FORCE, about, check_output, console, plain, print_json
 from synth.cli.runner import RunOptions
+from synth.cli.things.given import MODE, given
 from synth.cli.things.realise_many import realise_many
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ __all__ = ["realise"]
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
 @click.option("--flat-foldable", is_flag=True, help="Of a sheet: every other sector sums to 180 degrees.")
 @click.option("--symmetric", is_flag=True, help="Of a sheet: with symmetries of the type.")
+@MODE
 @click.option(
     "-o", "--output", metavar="OUT", help="Write it: .fold, .obj, .svg ...; .json on a cone; or a folder."
 )
@@ -45,6 +47,7 @@ def realise(
     tries: int,
     flat_foldable: bool,
     symmetric: bool,
+    mode: str | None,
     output: str | None,
     workers: int | None,
     resume: bool,
@@ -68,7 +71,7 @@ def realise(
     \b
     Examples:
       synth realise m1:a-b.ac-.b-d.cd- -o four-bar.fold
-      synth realise RR-R-RRR -o ups.fold
+      synth realise RR-R-RRR --mode D -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
       synth realise types.sqlite --as space -o things
@@ -83,6 +86,8 @@ def realise(
         raise click.UsageError("--lambda is for --as cone")
     if kind != "sheet" and (flat_foldable or symmetric):
         raise click.UsageError("--flat-foldable and --symmetric are for --as sheet")
+    if mode and (kind == "cone" or is_catalogue(file)):
+        raise click.UsageError("--mode is of one R/- string as panels; rows of a list of modes say their own")
     options = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
     options |= {"flat_foldable": True} if flat_foldable else {}
     options |= {"symmetric": True} if symmetric else {}
@@ -98,7 +103,9 @@ def realise(
     if kind == "cone" and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone in a file of another kind", "a name that ends in .json")
     with about(file):
-        found, made = _on_cone(file, cone_angle, seed, tries) if kind == "cone" else _as_panels(file, options)
+        found, made = (
+            _on_cone(file, cone_angle, seed, tries) if kind == "cone" else _as_panels(file, mode, options)
+        )
     if output is not None:
         write(made, output, force=force)
     if as_json:
@@ -110,27 +117,22 @@ def realise(
         click.echo(f"written: {plain(output, 4096)}")
 
 
-def _is_string(file: str) -> bool:
-    """Tell whether what is given is an R/- string; a file so named has no extension, and would not be read."""
-    return bool(file) and set(file) <= set("R-")
-
-
 def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:
+    from enumerate.strings.panel_strings import ChainString
     from graphs.errors import FileError
-    from graphs.files.formats import read
     from synth.realisation.forms.on_cone import CONE_ANGLE, realise_on_cone
 
-    if _is_string(file):
+    thing: Any = given(file).thing
+    if isinstance(thing, ChainString):
         raise FileError(file, "", "an R/- string, which has no loop", "a linkage whose axes meet in one centre")
     angle = CONE_ANGLE if cone_angle is None else radians(cone_angle)
-    found = realise_on_cone(read(file), cone_angle=angle, seed=seed, tries=tries)
+    found = realise_on_cone(thing, cone_angle=angle, seed=seed, tries=tries)
     return found, found.linkage
 
 
-def _as_panels(file: str, options: dict[str, Any]) -> tuple[OnOneCone | Realised, Mechanism]:
-    from enumerate.strings.panel_strings import ChainString
-    from graphs.files.formats import read
+def _as_panels(file: str, mode: str | None, options: dict[str, Any]) -> tuple[OnOneCone | Realised, Mechanism]:
     from synth.realisation.realised import realise as realised
 
-    found = realised(ChainString.parse(file) if _is_string(file) else read(file), **options)
+    thing: Any = given(file).thing
+    found = realised(thing, mode=mode, **options)
     return found, found.sheet

@@ -16,7 +16,7 @@ from graphs.mechanism.sc import SCGraph
 from synth.drawing.catalogue.rows import ROWS, Row, order_of_row, rows_of_file
 from synth.drawing.mechanisms.orders import OrderOnCircle
 
-__all__ = ["CatalogueEntry", "catalogue_entries", "is_catalogue"]
+__all__ = ["CatalogueEntry", "catalogue_entries", "entry_numbered", "is_catalogue"]
 
 _LISTS = (*ROWS, ".g6")
 _IDS = ("code", "mechanism", "chain")
@@ -36,12 +36,15 @@ class CatalogueEntry:
         Its id, or where it is from.
     said : str
         Freedoms, centres, symmetry: what is known of them.
+    mode : str or None
+        Of an R/- string that is listed by its modes, which one.
     """
 
     number: int
     mechanism: Any
     name: str
     said: str
+    mode: str | None = None
 
 
 def is_catalogue(path: str | Path) -> bool:
@@ -103,6 +106,29 @@ def catalogue_entries(
             failures.append(str(error))
 
 
+def entry_numbered(path: str | Path, number: int) -> CatalogueEntry:
+    """Return one mechanism of a store, of rows, of a graph6 file or of a folder, by its place among all, from 1.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read, or holds fewer.
+
+    Examples
+    --------
+    >>> entry_numbered("nowhere.jsonl", 1)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
+    """
+    found = None
+    for found in catalogue_entries(path):
+        if found.number == number:
+            return found
+    there = "none" if found is None else str(found.number)
+    raise FileError(path, "", f"there is no mechanism {number}", f"a number up to {there}")
+
+
 def _admits(row: Row, column: str, asked: Limits | str) -> bool:
     if column not in row:
         raise InvariantError("filter", f"there is no column {shown(column)}", ", ".join(map(str, row)))
@@ -115,7 +141,9 @@ def _admits(row: Row, column: str, asked: Limits | str) -> bool:
 
 def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
     if isinstance(row.get("string"), str):
-        return CatalogueEntry(number, ChainString.parse(row["string"]), row["string"], _said(row))
+        mode = row["mode"] if isinstance(row.get("mode"), str) else None
+        name = f"{row['string']} {mode}" if mode else row["string"]
+        return CatalogueEntry(number, ChainString.parse(row["string"]), name, _said(row), mode)
     for column in _IDS:
         code = row.get(column)
         if isinstance(code, str) and is_id(code):

@@ -12,7 +12,7 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from synth.drawing.scene.palette import colour_of
 from synth.drawing.scene.shapes import Disc, Label, Line, Polygon, Scene, Shape
 
-__all__ = ["pdf_bytes", "write_pdf"]
+__all__ = ["Painter", "pdf_bytes", "write_pdf"]
 
 _BASELINE = 0.35
 _HALO = 0.3
@@ -58,7 +58,7 @@ def write_pdf(scenes: Iterable[Scene], stream: IO[bytes], *, paper: str = "light
         canvas.setLineCap(1)
         canvas.setFillColor(colour_of("paper", paper))
         canvas.rect(0, 0, scene.width, scene.height, stroke=0, fill=1)
-        painter = _Painter(canvas, paper, scene.height)
+        painter = Painter(canvas, paper, scene.height)
         for shape in scene.shapes():
             painter.paint(shape)
         _finish_page(canvas)
@@ -78,14 +78,23 @@ def _finish_page(canvas: Any) -> None:
     page.stream = None
 
 
-class _Painter:
-    """Shapes on a page of reportlab, whose y goes upwards."""
+class Painter:
+    """Shapes on a page of reportlab, whose y goes upwards.
+
+    Parameters
+    ----------
+    canvas : reportlab canvas
+    paper : {"light", "dark"}
+    height : float
+        Of the scene, points.
+    """
 
     def __init__(self, canvas: Any, paper: str, height: float) -> None:
         self._canvas, self._paper, self._height = canvas, paper, height
 
     @singledispatchmethod
     def paint(self, shape: Shape) -> None:
+        """Draw a shape."""
         raise InvariantError("shape", f"{shown(shape)} is no shape", "Line, Polygon, Disc or Label")
 
     @paint.register
@@ -96,9 +105,7 @@ class _Painter:
 
     @paint.register
     def _(self, shape: Polygon) -> None:
-        self._canvas.setFillAlpha(shape.opacity)
-        self._draw(shape, closed=True, inside=shape.fill)
-        self._canvas.setFillAlpha(1)
+        self._draw(shape, closed=True, inside=shape.fill, opacity=shape.opacity)
 
     @paint.register
     def _(self, shape: Disc) -> None:
@@ -123,8 +130,8 @@ class _Painter:
         self._pens(None, 0, shape.colour)
         place(x, y, shape.text, mode=0)
 
-    def _draw(self, shape: Line | Polygon, *, closed: bool, inside: str | None) -> None:
-        self._pens(shape.colour, shape.width, inside)
+    def _draw(self, shape: Line | Polygon, *, closed: bool, inside: str | None, opacity: float = 1.0) -> None:
+        self._pens(shape.colour, shape.width, inside, opacity)
         path = self._canvas.beginPath()
         for number, (x, y) in enumerate(shape.points):
             (path.lineTo if number else path.moveTo)(x, self._height - y)
@@ -132,12 +139,13 @@ class _Painter:
             path.close()
         self._canvas.drawPath(path, stroke=int(shape.colour is not None), fill=int(inside is not None))
 
-    def _pens(self, colour: str | None, width: float, inside: str | None) -> None:
+    def _pens(self, colour: str | None, width: float, inside: str | None, opacity: float = 1.0) -> None:
         if colour is not None:
             self._canvas.setStrokeColor(colour_of(colour, self._paper))
             self._canvas.setLineWidth(width)
         if inside is not None:
-            self._canvas.setFillColor(colour_of(inside, self._paper))
+            # with the colour: reportlab makes each colour opaque that comes without
+            self._canvas.setFillColor(colour_of(inside, self._paper), alpha=opacity)
 
 
 def _font_of(label: Label) -> str:

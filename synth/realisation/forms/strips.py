@@ -31,8 +31,19 @@ _FOLDED = (float(np.radians(30.0)), float(np.radians(60.0)))
 bodies of RR-RR-RR have five freedoms, not six."""
 
 
-def drawn_string(chain: ChainString) -> tuple[SCDGraph, tuple[str, ...]]:
+def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph, tuple[str, ...]]:
     """Return the SCD graph of a string, its two bodies quadrilaterals, and what it is.
+
+    Parameters
+    ----------
+    chain : ChainString
+    mode : str, optional
+        One of its modes, as `enumerate.strings.graphs.chain_scd` takes it; all on one side without it.
+
+    Raises
+    ------
+    InvariantError
+        If the mode is none of the string.
 
     Examples
     --------
@@ -40,10 +51,14 @@ def drawn_string(chain: ChainString) -> tuple[SCDGraph, tuple[str, ...]]:
     >>> len(scd), notes[0]
     (7, 'RR-R-RRR: joints UPS, 6 freedoms between the first and the last panel in general position')
     """
-    scd = chain_scd(chain, ends=(4, 4))
+    scd = chain_scd(chain, mode, ends=(4, 4))
     between = f"{chain.dof} freedoms between the first and the last panel in general position"
     notes = [f"{chain.text}: joints {chain.mechanism}, {between}"]
-    if sum(k >= 2 for k in chain.clusters) > 1:
+    if mode:
+        notes.append(
+            f"mode {mode}: the next point in which creases meet lies on the same side (S) or the other (D)"
+        )
+    elif sum(k >= 2 for k in chain.clusters) > 1:
         notes.append("points in which creases meet were put on one side of the strip")
     return scd, tuple(notes)
 

@@ -13,12 +13,14 @@ from typing import Any, Literal
 
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Row, Unit
-from graphs.errors import SynthedraError
+from enumerate.strings.panel_strings import ChainString
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.native.documents import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.catalogue.entries import CatalogueEntry, catalogue_entries
+from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.realisation.realised import NotFoundError, Realised, realise
 
 __all__ = ["COLUMNS", "Outcome", "RealisationJob", "summary_of"]
@@ -91,7 +93,7 @@ class RealisationJob:
         """What the job is: a digest of the types, and the options."""
         digest = sha256()
         for entry in self._entries:
-            digest.update(f"{entry.number} {entry.name}\n{_text_of(entry.mechanism)}\n".encode())
+            digest.update(f"{entry.number} {entry.name}\n{_text_of(entry)}\n".encode())
         return {"realise": digest.hexdigest(), **dict(self.options)}
 
     @property
@@ -142,7 +144,11 @@ def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
     outcome: Outcome
     try:
-        found, outcome, reason = realise(entry.mechanism, **options), "realised", ""
+        if isinstance(entry.mechanism, OrderOnCircle):
+            raise UnsolvableError(
+                "an order of joints round a cone, which has no panels: `synth template` takes it"
+            )
+        found, outcome, reason = realise(entry.mechanism, mode=entry.mode, **options), "realised", ""
     except SynthedraError as error:
         found, outcome, reason = None, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
     told = {"number": entry.number, "name": entry.name, "outcome": outcome, "reason": reason, **_figures(found)}
@@ -163,5 +169,8 @@ def _figures(found: Realised | None) -> dict[str, Any]:
     }
 
 
-def _text_of(mechanism: Any) -> str:
-    return fold_text(mechanism) if isinstance(mechanism, Sheet) else dumps(mechanism)
+def _text_of(entry: CatalogueEntry) -> str:
+    """Return what an entry is, as text; of a string its name says it, of an order what is said of it."""
+    if isinstance(entry.mechanism, ChainString | OrderOnCircle):
+        return f"{entry.name} {entry.said}"
+    return fold_text(entry.mechanism) if isinstance(entry.mechanism, Sheet) else dumps(entry.mechanism)

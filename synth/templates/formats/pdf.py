@@ -7,8 +7,9 @@ from io import BytesIO
 from typing import Any
 
 from graphs.errors import UnsolvableError
+from synth.drawing.scene.pdf import Painter
 from synth.templates.lines import LOOKS, Text
-from synth.templates.pages import Page
+from synth.templates.page import Page, Picture
 
 __all__ = ["check_reportlab", "pdf_of_pages"]
 
@@ -62,9 +63,11 @@ def pdf_of_pages(pages: Sequence[Page], title: str = "") -> bytes:
                 if stroke.kind == kind:
                     ends = (*stroke.start, *stroke.end)
                     canvas.line(*(number * _POINTS for number in ends))
-        canvas.setFillColor(LOOKS["MARKS"].colour)
+        canvas.setFillColor(page.ink)
         for text in page.texts:
             _write(canvas, text)
+        if page.picture is not None:
+            _paint(canvas, page.picture)
         canvas.showPage()
     canvas.save()
     return stream.getvalue()
@@ -74,3 +77,16 @@ def _write(canvas: Any, text: Text) -> None:
     canvas.setFont("Helvetica", text.size * _POINTS)
     place = canvas.drawCentredString if text.middle else canvas.drawString
     place(text.at[0] * _POINTS, (text.at[1] - _BASELINE * text.size) * _POINTS, text.words)
+
+
+def _paint(canvas: Any, picture: Picture) -> None:
+    scene = picture.scene
+    canvas.saveState()
+    canvas.translate(*(side * _POINTS for side in picture.corner))
+    canvas.scale(picture.scale * _POINTS, picture.scale * _POINTS)
+    canvas.setLineJoin(1)
+    canvas.setDash([])
+    painter = Painter(canvas, "light", scene.height)
+    for shape in scene.shapes():
+        painter.paint(shape)
+    canvas.restoreState()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from xml.sax.saxutils import escape
 
+from synth.drawing.scene.svg import svg_group
 from synth.templates.lines import LOOKS, Stroke, Text
-from synth.templates.pages import Page
+from synth.templates.page import Page, Picture
 
 __all__ = ["svg_of_page"]
 
@@ -40,8 +41,10 @@ def svg_of_page(page: Page) -> str:
         rows.append("</g>")
     if page.texts:
         rows.append('<g id="TEXT" inkscape:groupmode="layer" inkscape:label="TEXT" font-family="sans-serif">')
-        rows += [_text(text, height) for text in page.texts]
+        rows += [_text(text, height, page.ink) for text in page.texts]
         rows.append("</g>")
+    if page.picture is not None:
+        rows.append(_picture(page.picture, height))
     return "\n".join([*rows, "</svg>"]) + "\n"
 
 
@@ -50,14 +53,24 @@ def _line(stroke: Stroke, height: float) -> str:
     return f'<line x1="{_put(x1)}" y1="{_put(height - y1)}" x2="{_put(x2)}" y2="{_put(height - y2)}"/>'
 
 
-def _text(text: Text, height: float) -> str:
+def _text(text: Text, height: float, ink: str) -> str:
     x, y = text.at
     anchor = ' text-anchor="middle"' if text.middle else ""
     low = height - y + _BASELINE * text.size
     return (
-        f'<text x="{_put(x)}" y="{_put(low)}" font-size="{text.size:g}" fill="{LOOKS["MARKS"].colour}"{anchor}>'
+        f'<text x="{_put(x)}" y="{_put(low)}" font-size="{text.size:g}" fill="{ink}"{anchor}>'
         f"{escape(text.words)}</text>"
     )
+
+
+def _picture(picture: Picture, height: float) -> str:
+    scene, (left, low) = picture.scene, picture.corner
+    wide, high = (picture.scale * side for side in (scene.width, scene.height))
+    head = (
+        f'<svg x="{_put(left)}" y="{_put(height - low - high)}" width="{_put(wide)}" height="{_put(high)}" '
+        f'viewBox="0 0 {_put(scene.width)} {_put(scene.height)}" stroke-linejoin="round" stroke-linecap="round">'
+    )
+    return "\n".join([head, svg_group(scene), "</svg>"])
 
 
 def _put(number: float) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.templates.lines import Stroke
+from synth.templates.lines import Point, Stroke
 
-__all__ = ["cut_once"]
+__all__ = ["common_spans", "cut_once", "spans_on", "uncovered"]
 
 _NEAR = 1e-6
 """Millimetres: borders this close are one line, and what is left of a line is longer."""
@@ -26,34 +26,70 @@ def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
     [Stroke(kind='CUT', start=(0, 0), end=(30, 0)), Stroke(kind='CUT', start=(50.0, 0.0), end=(30.0, 0.0))]
     """
     made: list[Stroke] = []
-    ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
+    ends: list[tuple[Point, Point]] = []
     for stroke in strokes:
-        if stroke.kind != "CUT":
-            made.append(stroke)
-            continue
-        start, end = np.array(stroke.start), np.array(stroke.end)
-        length = float(np.linalg.norm(end - start))
-        covered = _covered(start, (end - start) / length, np.array(ends).reshape(-1, 2, 2)) if length else []
-        free = _uncovered(length, covered)
-        if free == [(0.0, length)]:
-            kept = [stroke]
-        else:
-            along = (end - start) / length if length else end
-            kept = [Stroke("CUT", _at(start + a * along), _at(start + b * along)) for a, b in free]
+        kept = [stroke]
+        if stroke.kind == "CUT":
+            kept = uncovered(stroke, np.array(ends).reshape(-1, 2, 2))
+            ends += [(one.start, one.end) for one in kept]
         made += kept
-        ends += [(one.start, one.end) for one in kept]
     return made
 
 
-def _covered(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, float]]:
-    """Return from where to where lines lie over a line, in millimetres from its start, in order."""
+def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
+    """Return the parts of a stroke that no line covers, those of any length.
+
+    Parameters
+    ----------
+    stroke : Stroke
+    ends : float[lines, 2, 2]
+
+    Examples
+    --------
+    >>> uncovered(Stroke("CUT", (0, 0), (9, 0)), np.array([[[4, 0], [20, 0.0]]]))
+    [Stroke(kind='CUT', start=(0.0, 0.0), end=(4.0, 0.0))]
+    """
+    start, end = np.array(stroke.start), np.array(stroke.end)
+    length = float(np.linalg.norm(end - start))
+    if length == 0:
+        return []
+    along = (end - start) / length
+    free = _between(length, spans_on(start, along, ends))
+    if free == [(0.0, length)]:
+        return [stroke]
+    return [Stroke(stroke.kind, _at(start + a * along), _at(start + b * along)) for a, b in free]
+
+
+def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, float]]:
+    """Return from where to where lines lie on a line, in millimetres from its start, in order.
+
+    Parameters
+    ----------
+    start, along : float[2]
+        A place, and a unit vector.
+    ends : float[lines, 2, 2]
+    """
     arms = ends - start
     off = np.abs(arms @ np.array([-along[1], along[0]])).max(axis=1, initial=0.0)
     spans = np.sort((arms @ along)[off <= _NEAR], axis=1)
     return sorted((float(low), float(high)) for low, high in spans)
 
 
-def _uncovered(length: float, covered: list[tuple[float, float]]) -> list[tuple[float, float]]:
+def common_spans(
+    first: Sequence[tuple[float, float]], second: Sequence[tuple[float, float]]
+) -> list[tuple[float, float]]:
+    """Return where spans of both lists are, in order.
+
+    Examples
+    --------
+    >>> common_spans([(0, 5), (8, 12)], [(3, 10)])
+    [(3, 5), (8, 10)]
+    """
+    common = ((max(a, c), min(b, d)) for a, b in first for c, d in second)
+    return sorted((low, high) for low, high in common if high - low > _NEAR)
+
+
+def _between(length: float, covered: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Return the parts of a line that spans leave, those of any length."""
     free, reached = [], 0.0
     for low, high in covered:
@@ -65,5 +101,5 @@ def _uncovered(length: float, covered: list[tuple[float, float]]) -> list[tuple[
     return free
 
 
-def _at(place: Floats) -> tuple[float, float]:
+def _at(place: Floats) -> Point:
     return float(place[0]), float(place[1])

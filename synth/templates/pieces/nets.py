@@ -7,26 +7,27 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
 
 from graphs.arrays import Floats
-from graphs.errors import numbered
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
 from synth.templates.pieces.cuts import cut_once
 from synth.templates.pieces.flat import FOLDS, put_together
-from synth.templates.pieces.tabs import tab_at
+from synth.templates.pieces.tabs import Joins, slot_of, tab_at
 from synth.templates.pieces.unfolding import Net, Panels, across, nets_of, panels_of
 
-__all__ = ["pieces_of_panels"]
+__all__ = ["CutNets", "pieces_of_panels"]
 
 _SAME = 1e-6
 """Two laid edges are one if their ends are this close, in millimetres."""
 _FLAT_ANGLE = 1e-6
 """Radians below which panels are not folded."""
+_OFF_SLOT = 0.5
+"""Millimetres round a slot in which no other tab lies."""
 _IN = 3.0
 """Millimetres from a glued edge to its number on a panel."""
 
@@ -39,6 +40,7 @@ class _Work:
     strokes: list[Stroke] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)
     tabs: list[Any] = field(default_factory=list)
+    met: list[Stroke] = field(default_factory=list)
 
 
 @dataclass
@@ -47,15 +49,14 @@ class _Glue:
 
     Attributes
     ----------
-    depth : float
-        Of tabs, millimetres.
+    joins : Joins
     on_panel : dict of face to list of float[4, 2]
-        Tabs on a panel, in the panel's own plane.
+        Tabs on a panel, and what surrounds slots, in the panel's own plane.
     numbers, missing : int
         Edges that are glued, and those of them without a tab.
     """
 
-    depth: float
+    joins: Joins
     on_panel: dict[int, list[Floats]] = field(default_factory=lambda: defaultdict(list))
     numbers: int = 0
     missing: int = 0
@@ -75,15 +76,24 @@ class _Side:
     start: Floats
     end: Floats
 
-    def inside(self) -> Point:
-        """Return a place on the panel, beside the middle of the side."""
+    def inside(self, depth: float) -> Point:
+        """Return a place on the panel, so deep from the middle of the side."""
         along = (self.end - self.start) / np.linalg.norm(self.end - self.start)
-        place = (self.start + self.end) / 2 + _IN * np.array([-along[1], along[0]])
+        place = (self.start + self.end) / 2 + depth * np.array([-along[1], along[0]])
         return _point(place)
 
 
-def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> tuple[list[Piece], tuple[str, ...]]:
-    """Return the pieces of panels that stand in space, and what their strokes do not show.
+class CutNets(NamedTuple):
+    """Nets as pieces, with the edges of each that meet others; how many meet, and of these have no tab."""
+
+    pieces: tuple[Piece, ...]
+    met: tuple[tuple[Stroke, ...], ...]
+    numbers: int
+    without_tab: int
+
+
+def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
+    """Return the pieces of panels that stand in space, or lie over each other.
 
     Parameters
     ----------
@@ -91,8 +101,7 @@ def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> tuple[list[Pi
         With all edges listed.
     places : float[vertices, 3]
         Millimetres.
-    tabs : float
-        Depth of tabs, millimetres; 0 for none.
+    joins : Joins
 
     Raises
     ------
@@ -102,7 +111,7 @@ def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> tuple[list[Pi
     panels = panels_of(sheet, places)
     works = [_Work(net) for net in nets_of(panels)]
     of_face = {face: work for work in works for face in work.net.corners}
-    glue = _Glue(tabs)
+    glue = _Glue(joins)
     for edge in panels.joins:
         first, second = (_side(panels, of_face[face], face, edge) for face in panels.joins[edge])
         if _are_one(first, second):
@@ -111,8 +120,8 @@ def pieces_of_panels(sheet: Sheet, places: Floats, tabs: float) -> tuple[list[Pi
             continue
         _glue(panels, edge, (first, second), glue)
     _cut_borders(panels, of_face)
-    told = [f"tabs at {numbered(glue.missing, 'edge')} with no room for one"] if glue.missing and tabs else []
-    return [_piece(work) for work in works], tuple(told)
+    met = tuple(tuple(work.met) for work in works)
+    return CutNets(tuple(_piece(work) for work in works), met, glue.numbers, glue.missing)
 
 
 def _side(panels: Panels, work: _Work, face: int, edge: int) -> _Side:
@@ -166,14 +175,19 @@ def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) ->
         laid, _ = across(panels, edge, here.face, net.corners[here.face], turned=net.turned[here.face])
         own = panels.planes[there.face].flat
         taken = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
-        free = shapely.difference(shapely.Polygon(laid), shapely.union_all(taken))
+        panel = shapely.Polygon(laid)
         material = [*net.polygons(), *here.work.tabs]
-        shape = tab_at(here.start, here.end, glue.depth, material, free) if glue.depth else None
+        joins = glue.joins
+        shape = None
+        if joins.depth:
+            shape = tab_at(here.start, here.end, joins.depth, material, panel, taken=taken, slotted=joins.slotted)
         if shape is None:
             continue
         glue.on_panel[there.face].append(_carried(shape, laid, own))
         _add_tab(here, shape, _kind(panels, edge, here), number)
-        _cut(there, number)
+        if joins.slotted:
+            _add_slot(there, slot_of(shape), laid, own, glue)
+        _cut(there, number, beyond=joins.depth if joins.slotted else 0.0)
         return
     glue.missing += 1
     for side in sides:
@@ -198,10 +212,19 @@ def _add_tab(side: _Side, shape: Floats, kind: Kind | None, number: str) -> None
     work.texts.append(Text(_point(shape.mean(axis=0)), number))
 
 
-def _cut(side: _Side, number: str) -> None:
-    """Cut along a side that is glued to another, and put its number inside."""
-    side.work.strokes.append(Stroke("CUT", _point(side.start), _point(side.end)))
-    side.work.texts.append(Text(side.inside(), number))
+def _add_slot(side: _Side, slot: Floats, laid: Floats, own: Floats, glue: _Glue) -> None:
+    """Cut a slot, given where its panel lies across the edge and in its own plane, and keep other tabs off it."""
+    start, end = _carried(slot, laid, side.work.net.corners[side.face])
+    side.work.strokes.append(Stroke("CUT", _point(start), _point(end)))
+    round_it = shapely.LineString(slot).buffer(_OFF_SLOT, cap_style="square")
+    glue.on_panel[side.face].append(_carried(np.array(round_it.exterior.coords[:-1]), laid, own))
+
+
+def _cut(side: _Side, number: str, *, beyond: float = 0.0) -> None:
+    """Cut along a side that is joined to another, and put its number inside, beyond a tab's depth."""
+    side.work.met.append(Stroke("CUT", _point(side.start), _point(side.end)))
+    side.work.strokes.append(side.work.met[-1])
+    side.work.texts.append(Text(side.inside(_IN + beyond), number))
 
 
 def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:

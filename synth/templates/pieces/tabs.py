@@ -6,15 +6,19 @@ it must lie within it, off what is glued there already: then it passes no crease
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import numpy as np
 import shapely
 
 from graphs.arrays import Floats
+from graphs.errors import InvariantError
+from synth.templates.pieces.overlaps import lies_over, lies_within
 
-__all__ = ["tab_at", "tab_shapes"]
+__all__ = ["Joins", "slot_of", "tab_at", "tab_shapes"]
 
 _DEPTHS = (1.0, 0.7, 0.5, 0.35)
 _SLANTS = (0.6, 1.0, 2.0, 4.0)
@@ -23,7 +27,37 @@ _MOST_SLANT = 0.42
 """Part of the edge that each end may run in."""
 _LEAST = 2.0
 """Millimetres: what is less deep holds no glue."""
-_TINY = 1e-6
+_CLEAR, _FOOT = 0.3, 1.0
+"""Millimetres from a tab to all else, but for its foot: at the ends of its fold it has neighbours."""
+_PLAY = 0.5
+"""Millimetres by which a slot is longer than its tab, at each end."""
+_RIM = 1.5
+"""Millimetres of material round a slot, or it tears."""
+
+
+@dataclass(frozen=True)
+class Joins:
+    """How edges are joined.
+
+    Parameters
+    ----------
+    depth : float
+        Of tabs, millimetres; 0 for none.
+    slotted : bool
+        Whether tabs go through slots; else they are glued.
+
+    Raises
+    ------
+    InvariantError
+        If the depth is no number from 0 on.
+    """
+
+    depth: float
+    slotted: bool = False
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.depth) and self.depth >= 0):
+            raise InvariantError("tabs", f"tabs {self.depth!r}", "a number from 0 on")
 
 
 def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
@@ -59,7 +93,30 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
                 )
 
 
-def tab_at(start: Floats, end: Floats, depth: float, material: list[Any], across: Any) -> Floats | None:
+def slot_of(shape: Floats) -> Floats:
+    """Return the slot that a tab goes through half its depth from its fold, as the ends of a cut, float[2, 2].
+
+    Examples
+    --------
+    >>> slot_of(np.array([[0.0, 0.0], [0.0, 40.0], [8.0, 36.0], [8.0, 4.0]])).tolist()
+    [[4.0, 38.5], [4.0, 1.5]]
+    """
+    start, end, after, before = shape
+    first, last = (end + after) / 2, (start + before) / 2
+    along = (first - last) / np.linalg.norm(first - last)
+    return np.array([first + _PLAY * along, last - _PLAY * along])
+
+
+def tab_at(
+    start: Floats,
+    end: Floats,
+    depth: float,
+    material: Sequence[Any],
+    panel: Any,
+    *,
+    taken: Sequence[Any] = (),
+    slotted: bool = False,
+) -> Floats | None:
     """Return the tab at an edge of a net, None if there is no room.
 
     Parameters
@@ -68,16 +125,36 @@ def tab_at(start: Floats, end: Floats, depth: float, material: list[Any], across
         The panel lies to the left.
     depth : float
         That is asked for, millimetres.
-    material : list of shapely polygon
+    material : sequence of shapely polygon
         The net's panels and tabs.
-    across : shapely geometry
-        Where the panel across the edge would lie, without what is glued on it already.
+    panel : shapely polygon
+        Where the panel across the edge would lie.
+    taken : sequence of shapely polygon, optional
+        What is on that panel already.
+    slotted : bool, optional
+        Whether the tab goes through a slot of that panel.
     """
     for shape in tab_shapes(start, end, depth):
         polygon = shapely.Polygon(shape)
-        least = _TINY * polygon.area
-        if shapely.area(shapely.difference(polygon, across)) > least:
+        if not lies_within(polygon, panel) or lies_over(polygon, taken):
             continue
-        if float(np.max(shapely.area(shapely.intersection(polygon, material)))) <= least:
+        if slotted and not _has_rim(slot_of(shape), panel, taken):
+            continue
+        if not lies_over(polygon, material) and not lies_over(_surroundings(shape), material):
             return shape
     return None
+
+
+def _has_rim(slot: Floats, panel: Any, taken: Sequence[Any]) -> bool:
+    """Tell whether there is material round a slot: within its panel, and off what is there already."""
+    around = shapely.LineString(slot).buffer(_RIM)
+    return lies_within(around, panel) and not lies_over(around, taken)
+
+
+def _surroundings(shape: Floats) -> Any:
+    """Return a tab without its foot, and what lies so near that a knife would not part it."""
+    start, end, after, before = shape
+    (x, y), (left, up) = end - start, before - start
+    part = _FOOT * float(np.hypot(x, y)) / abs(x * up - y * left)  # of the depth
+    feet = [start + part * (before - start), end + part * (after - end)]
+    return shapely.Polygon([feet[0], feet[1], after, before]).buffer(_CLEAR)

@@ -18,12 +18,11 @@ import shapely
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
+from synth.templates.pieces.overlaps import lies_over
 from synth.templates.pieces.planes import Plane, plane_of_panel
 
 __all__ = ["Net", "Panels", "across", "nets_of", "panels_of"]
 
-_OVER = 1e-6
-"""A panel lies over another if they share more than this part of its area."""
 _CUT = "BC"
 
 
@@ -180,8 +179,7 @@ def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Seq
             continue
         laid, flipped = across(panels, edge, face, corners[face], turned=turned[face])
         polygon = shapely.Polygon(laid)
-        over = shapely.area(shapely.intersection(polygon, polygons))
-        if float(np.max(over)) > _OVER * polygon.area:
+        if lies_over(polygon, polygons):
             continue
         corners[other], turned[other] = laid, flipped
         polygons.append(polygon)

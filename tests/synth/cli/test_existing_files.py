@@ -27,7 +27,7 @@ COMMANDS = {
     "cylinders": ("cylinder map --lengths 4,3,5,1 -o", "a.svg"),
     "order": ("order --orientations {data}/orientations/tipparthi.json --axis=0,0,1 -o", "a.svg"),
     "dyads": ("dyads --orientations {data}/orientations/tipparthi.json -o", "a.svg"),
-    "template": ("template {data}/patterns/bird-base.fold --size 100 -o", "a.svg"),
+    "template": ("template {data}/patterns/bird-base.fold --size 100 --no-note -o", "a.svg"),
     "motion": ("fourbar --orientations {data}/orientations/crank-rocker.json --motion", "a.json"),
 }
 SLOW = ("cones", "dyads", "motion", "a linkage", "behaviour", "order")

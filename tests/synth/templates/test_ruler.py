@@ -53,7 +53,7 @@ def same_lines(first, second):
 
 def test_every_edge_and_the_gauge_are_true_in_every_format(bird, tmp_path):
     for suffix in ("svg", "pdf", "dxf"):
-        run("template", bird, "--size", 150, "-o", tmp_path / f"a.{suffix}")
+        run("template", bird, "--size", 150, "--no-note", "-o", tmp_path / f"a.{suffix}")
     asked = edges_of(bird, 75)
     svg, _, size = lines_of_svg(tmp_path / "a.svg")
     assert size == (210, 297)
@@ -86,7 +86,7 @@ def test_a_template_is_read_back_as_the_pattern_that_it_is_of(bird, tmp_path):
     ],
 )
 def test_tiles_meet_at_their_crosses_and_hold_every_line(words, pages, bird, tmp_path):
-    run("template", bird, "--size", 500, *words, "-o", tmp_path / "a.svg")
+    run("template", bird, "--size", 500, *words, "--no-note", "-o", tmp_path / "a.svg")
     tiles = [lines_of_svg(path) for path in sorted(tmp_path.glob("a-*.svg"))]
     assert len(tiles) == pages
     shifts = {0: np.zeros(2)}
@@ -175,4 +175,4 @@ def test_cuts_are_what_has_one_panel_and_flat_edges_are_told():
 
 def test_paper_is_turned_where_that_saves_pages():
     wide = template_of(generate("miura", rows=2, columns=6).mechanism, size=270)
-    assert [page.paper for page in pages_of(wide, paper_named("A4"))] == [Paper(297, 210)]
+    assert [page.paper for page in pages_of(wide, paper_named("A4"))] == [Paper(297, 210), Paper(210, 297)]

@@ -9,9 +9,12 @@ from enumerate.runner.columns import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.store import read_rows
 from enumerate.scd.graphs import scd_rows
+from enumerate.strings.graphs import string_of_chain
+from enumerate.strings.panel_strings import ChainString
 from graphs.convert.panels import scd_from_panels
+from graphs.convert.table import to_scd
 from graphs.errors import StoreError
-from graphs.files.formats import write
+from graphs.files.formats import read, write
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import mechanism_from_map_id
 from synth.realisation.many.folder import FolderOfThings, store_beside
@@ -81,3 +84,25 @@ def test_two_processes_give_what_one_gives(tmp_path):
         run(job, FolderOfThings(tmp_path / f"by-{workers}"), workers=workers)
     one, two = (list(read_rows(tmp_path / f"by-{workers}.sqlite")) for workers in (1, 2))
     assert one == two
+
+
+def test_rows_of_strings_are_realised_in_the_modes_that_they_name(tmp_path):
+    rows = tmp_path / "strings.jsonl"
+    rows.write_text("".join(f'{{"string": "RR-RR", "mode": "{mode}"}}\n' for mode in "SD"))
+    run(RealisationJob(str(rows)), FolderOfThings(tmp_path / "things"))
+    things = [read(tmp_path / "things" / f"{number:07d}.fold") for number in (1, 2)]
+    assert [string_of_chain(to_scd(thing)) for thing in things] == [
+        (ChainString((2, 2)), "S"),
+        (ChainString((2, 2)), "D"),
+    ]
+
+
+def test_rows_of_conical_candidates_are_refused_one_by_one(tmp_path):
+    rows = tmp_path / "orders.jsonl"
+    row = {"chain": "k1:Cr", "order": ["0", "1", "3", "2"], "slots": [0, 1, 3, 2], "loops": [["0", "1", "3", "2"]]}
+    rows.write_text(json.dumps(row) + "\n")
+    job = RealisationJob(str(rows))
+    summary = summary_of(row_as_dict(COLUMNS, one) for unit in job.units() for one in job.work(unit.payload))
+    assert summary["refused"] == 1
+    assert "round a cone" in summary["types"][0]["reason"]
+    assert len(job.key["realise"]) == 64

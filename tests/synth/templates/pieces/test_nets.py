@@ -7,13 +7,16 @@ import numpy as np
 import pytest
 import shapely
 from commands import run
+from cut_and_folded import check_cuts, check_tabs, folded_up
 from measured import lengths, lines_of_svg
 
 from graphs.errors import UnsolvableError
 from graphs.files.formats import read
+from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate
+from synth.realisation.realised import realise
 from synth.templates.pieces.flat import put_together
 from synth.templates.pieces.tabs import tab_at
 from synth.templates.pieces.unfolding import nets_of, panels_of
@@ -121,6 +124,7 @@ def test_corners_that_rounding_puts_apart_leave_no_slit():
         whole = put_together([shapely.Polygon(np.column_stack([one.real, one.imag])) for one in shifted])
         assert whole.geom_type == "Polygon"
         assert not whole.interiors
+        assert whole.area == pytest.approx(12 * 4.2)
 
 
 def test_a_closed_surface_has_one_net_of_mountains_seen_from_outside():
@@ -168,6 +172,23 @@ def test_a_tab_lies_in_the_panel_that_it_is_glued_on_and_off_all_else():
     assert tab_at(start, end, 8, [panel], shapely.box(0, 0, 1.9, 40)) is None
 
 
+def test_a_tab_that_juts_out_of_its_panel_is_seen_where_their_edges_coincide_but_for_rounding():
+    """The tab has its fold along a side of the panel; an overlay of the two found no part of it outside."""
+    sheet = realise(mechanism_from_map_id("m1:a---b.ac--.b-d-e.cf-g-.d-g--.e---f"), kind="space").sheet
+    whole = with_all_edges(sheet)
+    places = np.array(whole.coordinates)
+    panels = panels_of(whole, places * 200 / np.ptp(places, axis=0).max())
+    assert check_tabs(panels, template_of(sheet, size=200).pieces, []) > 0
+
+
+@pytest.mark.parametrize("code", ["m1:a---b.ac--.bd--e.ce--f.d-g-.f-g-", "m1:a---b.ac--d.b-e.ce-f-.d--g-.f-g-"])
+def test_pieces_are_one_area_and_tabs_stay_clear_of_what_is_near(code):
+    sheet = realise(mechanism_from_map_id(code), kind="space", tries=1).sheet
+    for piece in template_of(sheet, size=200).pieces:
+        check_cuts(piece)
+        assert not piece.covered.interiors
+
+
 def test_without_tabs_edges_are_numbered_all_the_same(tmp_path, data):
     path = data / "linkages" / "sarrus-panels.fold"
     run("template", path, "--size", 80, "--tabs", 0, "-o", tmp_path / "a.svg")
@@ -190,33 +211,6 @@ def test_without_tabs_edges_are_numbered_all_the_same(tmp_path, data):
 def test_what_no_sheet_can_be_cut_of_is_refused(faces, told):
     with pytest.raises(UnsolvableError, match=told):
         template_of(Sheet(8, (), "", faces, CORNERS), size=100)
-
-
-def folded_up(panels, net):
-    """Places of corners in space when a net is folded along its creases by their angles, from its first panel on."""
-    motions = {next(iter(net.corners)): (np.eye(3), np.zeros(3))}
-    waiting = list(motions)
-    while waiting:
-        face = waiting.pop()
-        turn, shift = motions[face]
-        for edge, pair in panels.joins.items():
-            other = sum(pair) - face
-            if face not in pair or other in motions:
-                continue
-            (a, b), (c, d) = panels.ends(face, edge), panels.ends(other, edge)
-            start, end = net.corners[face][[a, b]]
-            if np.abs(net.corners[other][[d, c]] - [start, end]).max() > 1e-6:
-                continue  # glued, not folded
-            along = np.append((end - start) / np.linalg.norm(end - start), 0)
-            across = np.cross([[1, 0, 0], [0, 1, 0], [0, 0, 1]], along)
-            angle = panels.fold_angle(edge)
-            # The other panel is on the right of the edge: a valley, which lifts it, turns it the negative way.
-            bent = np.eye(3) - np.sin(angle) * across + (1 - np.cos(angle)) * across @ across
-            hinge = np.append(start, 0)
-            motions[other] = (turn @ bent, turn @ (hinge - bent @ hinge) + shift)
-            waiting.append(other)
-    flat = {face: np.column_stack([corners, np.zeros(len(corners))]) for face, corners in net.corners.items()}
-    return {face: flat[face] @ turn.T + shift for face, (turn, shift) in motions.items()}
 
 
 @pytest.mark.parametrize("case", ["cube", "octahedron", "storey", "pop-up"])

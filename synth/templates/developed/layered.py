@@ -1,0 +1,269 @@
+"""Links of a conformed linkage in layers: which part of the surface each takes, where tabs and slots are.
+
+Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite, pi
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.plain_text import plain
+from synth.conformed.layers import links_in_layers
+from synth.conformed.linkages import OnCone
+from synth.conformed.rates import ConformedChain
+from synth.templates.developed.surfaces import Surface
+
+__all__ = ["Dimensions", "Joining", "LayeredLink", "LayeredLinkage", "layered"]
+
+_INNER = 0.35
+"""Where links begin, in units of the length of the ruling lines."""
+_TAB_OF_GAP, _SLOT_OF_GAP = 0.45, 0.2
+"""Tabs and half slots are no wider than these parts of the least step between two joints."""
+_RIM = 0.1
+"""What is left of ruling lines at both ends of tabs, in units of the length of links."""
+_SLOT_LONGER = 0.02
+"""By so much of the length of links a slot is longer than its tab, at each end."""
+_SLOT_WIDTH = 3.0
+"""Millimetres, at the inner edge of links."""
+_LEAST_STEP = 1e-6
+_LONGEST_NAME = 16
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """What a linkage on a surface is made of, millimetres.
+
+    Parameters
+    ----------
+    size : float
+        Length of the ruling lines, from the apex of a cone on.
+    tab : float
+        Width of tabs.
+    thickness : float
+        Of the material; layers are three of it apart, which leaves room for tabs between them.
+
+    Raises
+    ------
+    InvariantError
+        If one of them is no positive number.
+    """
+
+    size: float = 100.0
+    tab: float = 8.0
+    thickness: float = 0.3
+
+    def __post_init__(self) -> None:
+        for name in ("size", "tab", "thickness"):
+            value = getattr(self, name)
+            if not (isfinite(value) and value > 0):
+                raise InvariantError(name, f"{name} {value!r}", "a positive number")
+
+    @property
+    def apart(self) -> float:
+        """From layer to layer."""
+        return 3 * self.thickness
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Where links begin and end along ruling lines."""
+        return _INNER * self.size, self.size
+
+    @property
+    def tab_ends(self) -> tuple[float, float]:
+        """Where tabs begin and end along ruling lines."""
+        inner, outer = self.ends
+        return inner + _RIM * (outer - inner), outer - _RIM * (outer - inner)
+
+    @property
+    def slot_ends(self) -> tuple[float, float]:
+        """Where slots begin and end along ruling lines."""
+        inner, outer = self.tab_ends
+        more = _SLOT_LONGER * (self.ends[1] - self.ends[0])
+        return inner - more, outer + more
+
+
+@dataclass(frozen=True)
+class LayeredLink:
+    """A link as a part of a surface.
+
+    Attributes
+    ----------
+    name : str
+    layer : int
+        From 0 on, the innermost.
+    start, width : float
+        Azimuth where it begins, and how far it goes, radians.
+    joints : tuple of (name, float)
+        Of its joints, how far from its begin, from 0 to the width.
+    slots : tuple of (name, float)
+        Of joints of others that pass through it, the same.
+    """
+
+    name: str
+    layer: int
+    start: float
+    width: float
+    joints: tuple[tuple[str, float], ...]
+    slots: tuple[tuple[str, float], ...]
+
+    def at_end(self, joint: str) -> int:
+        """Return -1 for a joint at which it begins, 1 where it ends, 0 between."""
+        along = dict(self.joints)[joint]
+        return -1 if along <= _LEAST_STEP else 1 if along >= self.width - _LEAST_STEP else 0
+
+    def reaches(self, joint: str, side: int) -> bool:
+        """Tell whether it goes on from a joint to a side: -1 or 1."""
+        return self.at_end(joint) != side
+
+
+@dataclass(frozen=True)
+class Joining:
+    """How two links hold together at a joint.
+
+    Attributes
+    ----------
+    joint : str
+    tabbed, other : int
+        Places of the link that has a tab there, if one has, and of that on which it is glued.
+    side : int
+        To which side of the joint the tab lies unfolded: -1 or 1; 0 where neither link ends, and there is no tab.
+    folded : bool
+        Whether it is folded back, the other link lying over or under the first.
+    """
+
+    joint: str
+    tabbed: int
+    other: int
+    side: int
+    folded: bool
+
+
+@dataclass(frozen=True)
+class LayeredLinkage:
+    """Links of a linkage in layers on a surface.
+
+    Attributes
+    ----------
+    surface : Cone or Cylinder
+    dimensions : Dimensions
+    links : tuple of LayeredLink
+    joinings : tuple of Joining
+        One for each joint.
+    places : dict of name to float
+        Azimuths of the joints, radians.
+    tab, slot : float
+        Width of tabs, and half that of slots, radians of azimuth.
+    """
+
+    surface: Surface
+    dimensions: Dimensions
+    links: tuple[LayeredLink, ...]
+    joinings: tuple[Joining, ...]
+    places: dict[str, float]
+    tab: float
+    slot: float
+
+    def height(self, layer: float) -> float:
+        """Return how far the middle of a layer is outside the surface, millimetres."""
+        return layer * self.dimensions.apart
+
+
+def layered(linkage: OnCone, surface: Surface, dimensions: Dimensions) -> LayeredLinkage:
+    """Return the links of a linkage in the fewest layers.
+
+    Parameters
+    ----------
+    linkage : OnCone
+        Only its chain and its azimuths matter.
+    surface : Cone or Cylinder
+    dimensions : Dimensions
+
+    Raises
+    ------
+    UnsolvableError
+        If two joints are on one ruling line, or a link has one joint only.
+
+    Examples
+    --------
+    >>> from synth.conformed.linkages import loop_of_steps
+    >>> from synth.templates.developed.surfaces import Cone
+    >>> made = layered(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
+    >>> [(link.layer, round(np.degrees(link.width))) for link in made.links]
+    [(0, 40), (0, 50), (0, 50), (1, 140)]
+    """
+    chain = ConformedChain.of(linkage.chain)
+    places = np.remainder(np.asarray(linkage.places, dtype=float), 2 * pi)
+    least = _least_step(places, chain)
+    for link, own in zip(chain.links, chain.joints_of, strict=True):
+        if len(own) < 2:
+            raise UnsolvableError(f"link {shown(link)} has one joint: it takes no part of the surface")
+    laid = links_in_layers(chain, places)
+    names = [plain(str(joint), _LONGEST_NAME) for joint in chain.joints]
+    bare = [
+        LayeredLink(
+            plain(str(link), _LONGEST_NAME),
+            int(laid.layers[number]),
+            float(laid.arcs[number, 0]),
+            float(laid.arcs[number, 1]),
+            tuple((names[joint], _from(laid.arcs[number, 0], places[joint])) for joint in own),
+            (),
+        )
+        for number, (link, own) in enumerate(zip(chain.links, chain.joints_of, strict=True))
+    ]
+    joinings = tuple(_joining(name, bare) for name in names)
+    at = dict(zip(names, places.tolist(), strict=True))
+    links = tuple(_slotted(link, bare, at) for link in bare)
+    width = surface.width(sum(dimensions.ends) / 2)
+    tab = min(dimensions.tab / width, _TAB_OF_GAP * least)
+    slot = min(_SLOT_WIDTH / 2 / surface.width(dimensions.ends[0]), _SLOT_OF_GAP * least)
+    return LayeredLinkage(surface, dimensions, links, joinings, at, tab, slot)
+
+
+def _least_step(places: Floats, chain: ConformedChain) -> float:
+    """Return the least step between two joints, and refuse two on one ruling line."""
+    order = np.argsort(places)
+    steps = np.diff(places[order], append=places[order[0]] + 2 * pi)
+    least = int(steps.argmin())
+    if steps[least] < _LEAST_STEP:
+        pair = shown([str(chain.joints[order[least]]), str(chain.joints[order[(least + 1) % len(order)]])])
+        raise UnsolvableError(f"joints {pair} are on one ruling line: pieces have no room for both")
+    return float(steps[least])
+
+
+def _from(start: float, place: float) -> float:
+    """Return how far a place is from a start, once round at most; rounding before the start is the start."""
+    along = float(np.remainder(place - start, 2 * pi))
+    return 0.0 if along > 2 * pi - _LEAST_STEP else along
+
+
+def _joining(joint: str, links: Sequence[LayeredLink]) -> Joining:
+    """Return how the two links of a joint hold together: by a tab that lies flat if it can, on the inner link."""
+    first, second = (number for number, link in enumerate(links) if joint in dict(link.joints))
+    ways = []
+    for tabbed, other in ((first, second), (second, first)):
+        side = links[tabbed].at_end(joint)
+        if side:
+            folded = not links[other].reaches(joint, side)
+            ways.append((folded, links[tabbed].layer, tabbed, other, side))
+    if not ways:
+        return Joining(joint, first, second, 0, folded=False)
+    folded, _, tabbed, other, side = min(ways)
+    return Joining(joint, tabbed, other, side, folded=folded)
+
+
+def _slotted(link: LayeredLink, links: Sequence[LayeredLink], places: dict[str, float]) -> LayeredLink:
+    """Return a link with slots for the joints of links on both sides of it."""
+    slots = []
+    for joint, place in places.items():
+        layers = sorted(other.layer for other in links if joint in dict(other.joints))
+        along = _from(link.start, place)
+        within = _LEAST_STEP < along < link.width - _LEAST_STEP
+        if within and layers[0] < link.layer < layers[-1]:
+            slots.append((joint, along))
+    return LayeredLink(link.name, link.layer, link.start, link.width, link.joints, tuple(slots))

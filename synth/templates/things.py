@@ -1,0 +1,110 @@
+"""The panels of anything that a template can be asked of: as they lie, or of a type, realised."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import TYPE_CHECKING
+
+from enumerate.strings.panel_strings import ChainString
+from graphs.convert.table import Mechanism
+from graphs.errors import UnsolvableError, numbered
+from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import Sheet
+from synth.conformed.linkages import OnCone, linkage_on_cones
+from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.moving.linkages import sheet_of
+
+if TYPE_CHECKING:
+    from synth.realisation.realised import Kind
+
+__all__ = ["linkage_on_a_cone", "panels_of_thing"]
+
+
+def panels_of_thing(
+    thing: Mechanism | ChainString, *, kind: Kind | None = None, mode: str | None = None
+) -> tuple[Sheet, str]:
+    """Return the panels of a thing with coordinates, and what was done to have them.
+
+    Parameters
+    ----------
+    thing : Mechanism or ChainString
+        A sheet, or a model of panels; or a type, which is realised.
+    kind : {"sheet", "space"}, optional
+        How a type is realised; a flat sheet without it.
+    mode : str, optional
+        Of an R/- string.
+
+    Returns
+    -------
+    sheet : Sheet
+    told : str
+        Empty for what has coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no panels, or cannot be realised; or if it has coordinates, and a kind or a mode is asked for.
+
+    Examples
+    --------
+    >>> panels_of_thing(ChainString((2, 1)))
+    (<Sheet: 4 faces, 3 creases, 9 vertices, flat>, 'no coordinates: realised as a flat sheet')
+    """
+    sheet = sheet_of(thing) if not isinstance(thing, ChainString) else None
+    if sheet is not None:
+        if kind is not None or mode is not None:
+            raise UnsolvableError("the thing has coordinates: only a type is realised, as a sheet or in space")
+        return sheet, ""
+    if not isinstance(thing, SCGraph | SCDGraph | ChainString):
+        raise UnsolvableError(f"a template needs panels, and {thing!r} has none")
+    from synth.realisation.realised import realise  # it loads numba, which a thing with coordinates does without
+
+    how = "a flat sheet" if kind != "space" else "a pose in space"
+    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {how}"
+
+
+def linkage_on_a_cone(
+    thing: ConicalLinkage | OrderOnCircle, *, cone_angle: float | None = None, number: int | None = None
+) -> OnCone:
+    """Return a linkage on the one of its cones that is asked for.
+
+    Parameters
+    ----------
+    thing : ConicalLinkage or OrderOnCircle
+        A row of conical candidates is an order.
+    cone_angle : float, optional
+        lambda, radians, of what is given by its azimuths.
+    number : int, optional
+        Which of its cones, from 1, of what is given by its link angles; needed where there are several.
+
+    Raises
+    ------
+    UnsolvableError
+        If it lies on no cone, or on several of which none is asked for, or there is no such one.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> from graphs.loops.loop import Loop
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> angles = {(3, 0): radians(120), (0, 1): radians(95), (1, 2): radians(45), (2, 3): radians(85)}
+    >>> linkage_on_a_cone(ConicalLinkage(ring, angles=angles))
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: the linkage lies on 2 cones, of 13.9984, 29.0445 degrees: expected --cone
+    """
+    if isinstance(thing, OrderOnCircle):
+        return OnCone(thing.chain, list(thing.azimuths), cone_angle)
+    cones = linkage_on_cones(thing, cone_angle)
+    if not cones:
+        raise UnsolvableError("the linkage lies on no cone")
+    if number is None and len(cones) > 1:
+        told = ", ".join(f"{degrees(one.cone_angle or 0.0):.6g}" for one in cones)
+        raise UnsolvableError(f"the linkage lies on {len(cones)} cones, of {told} degrees: expected --cone")
+    if number is not None and number > len(cones):
+        raise UnsolvableError(
+            f"the linkage lies on {numbered(len(cones), 'cone')}: there is none of number {number}"
+        )
+    return cones[(number or 1) - 1]
