@@ -35,7 +35,7 @@ _COMMANDS = {
     "advise": "synth.cli.things.advise:advise",
     "draw": "synth.cli.things.draw:draw",
     "view": "synth.cli.things.view:view",
-    "atlas": "synth.cli.things.atlas:atlas_group",
+    "atlas": "synth.cli.enumerate.atlas:atlas_group",
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -161,7 +161,8 @@ def _thing(sheet: Sheet, code: str) -> str:
 def _template(sheet: Sheet) -> str | None:
     """Return a template on one page of A4; None where the panels do not go on one."""
     try:
-        pages = pages_of(template_of(sheet, size=_PRINTED), paper_named("A4"))
+        template = replace(template_of(sheet, size=_PRINTED), steps=())  # on one page, with no other beside it
+        pages = pages_of(template, paper_named("A4"))
     except SynthedraError:
         return None
     return svg_of_page(pages[0]) if len(pages) == 1 else None

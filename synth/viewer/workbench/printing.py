@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -60,6 +61,8 @@ def printed(name: str, content: bytes, size: float, kind: str, edits: Sequence[s
     if sheet is None or sheet.coordinates is None:
         raise UnsolvableError("a template needs panels with coordinates; a type gets them by `synth realise`")
     template = template_of(sheet, size=size, title=sheet.title or name)
+    if kind == "svg":
+        template = replace(template, steps=())  # a page of assembly would be a second file
     with TemporaryDirectory() as folder:
         places = write_template(template, Path(folder) / f"template.{kind}")
         if len(places) == 1:
