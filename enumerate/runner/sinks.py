@@ -23,7 +23,7 @@ from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["SINKS", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
+__all__ = ["SINKS", "FolderSink", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
 
 
 class _MemorySink:

@@ -13,8 +13,8 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, NamedTuple
 
-from enumerate.runner.store_units import COMPLAINTS
-from graphs.errors import InvariantError, StoreError, UnsolvableError
+from enumerate.runner.store_units import COMPLAINTS, reading
+from graphs.errors import InvariantError, UnsolvableError
 
 __all__ = ["Rows", "open_guarded", "selected"]
 
@@ -56,11 +56,7 @@ def open_guarded(path: Path) -> Iterator[sqlite3.Connection]:
     StoreError
         If there is no such file, or it cannot be read as a database.
     """
-    if not path.is_file():
-        raise StoreError(f"{path}: no such file")
-    connection = None
-    try:
-        connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None)
+    with reading(path) as connection:
         connection.execute("PRAGMA temp_store=MEMORY")
         connection.execute("PRAGMA trusted_schema=OFF")
         connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LONGEST_VALUE)
@@ -70,11 +66,6 @@ def open_guarded(path: Path) -> Iterator[sqlite3.Connection]:
         connection.execute("SELECT 1 FROM json_each('[]')")  # made when it is first used, which none may do later
         connection.set_authorizer(_authorized)
         yield connection
-    except sqlite3.DatabaseError as error:
-        raise StoreError(f"{path}: cannot be read as an atlas: {_said(error)}") from None
-    finally:
-        if connection is not None:
-            connection.close()
 
 
 def _authorized(action: int, first: str | None, second: str | None, *_: str | None) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,9 +10,8 @@ from typing import Any
 from enumerate.runner.columns import Column
 from enumerate.runner.job import Job, Progress, Row, Unit
 from enumerate.runner.running import run
+from enumerate.runner.sinks import FolderSink
 from graphs.errors import FileError, UnsolvableError
-from graphs.files.atomic import FolderBeside
-from graphs.files.unfinished import remove_left
 from synth.atlas.asked.guarded import open_guarded
 from synth.atlas.asked.opened import Atlas
 from synth.atlas.asked.type_report import report_of
@@ -92,7 +91,7 @@ class Site:
             yield f"types/{file}-template.svg", made.template
 
 
-class SiteSink:
+class SiteSink(FolderSink):
     """A sink that writes the files of a site into a new folder.
 
     Parameters
@@ -102,42 +101,29 @@ class SiteSink:
         Files beside those of the types.
     """
 
-    def __init__(self, path: str | Path, first: dict[str, str]) -> None:
-        self._path, self._first = Path(path), first
-        self._folder: FolderBeside | None = None
+    def __init__(self, path: str | Path, first: Mapping[str, str]) -> None:
+        super().__init__(Path(path))
+        self._first = first
 
     def start(self, job: Job) -> Collection[int]:
-        """Make a folder beside the place of this one.
+        """Make a folder beside the place of this one, with the files that are no types'.
 
         Raises
         ------
         FileError
             If there is something at its place, or it cannot be made.
         """
-        remove_left(self._path)
-        self._folder = FolderBeside(self._path)
+        there = super().start(job)
+        assert self._folder is not None
         for name in ("types", "pictures"):
             (self._folder.path / name).mkdir()
-        self._write(self._first.items())
-        return ()
+        self.take(0, list(self._first.items()), 0.0)
+        return there
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Write the files of a unit."""
-        self._write(rows)
-
-    def finish(self) -> None:
-        """Move the folder to its place."""
+        """Write the files of a unit: a row is a name and a text."""
         assert self._folder is not None
-        self._folder.commit()
-
-    def abort(self) -> None:
-        """Remove what was written."""
-        if self._folder is not None:
-            self._folder.discard()
-
-    def _write(self, files: Iterable[tuple[Any, ...]]) -> None:
-        assert self._folder is not None
-        for name, text in files:
+        for name, text in rows:
             try:
                 (self._folder.path / name).write_text(text, encoding="utf-8")
             except OSError as error:
