@@ -30,6 +30,18 @@ _LONGEST_PLACE = 120
 def numbered(number: int, word: str, more: str = "") -> str:
     """Return a number and what it counts, in words for one or for several.
 
+    Parameters
+    ----------
+    number : int
+    word : str
+        What is counted, for one.
+    more : str, optional
+        For several; by default the word with an s.
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> numbered(1, "link"), numbered(2, "link"), numbered(0, "vertex", "vertices")

@@ -80,6 +80,10 @@ def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:
     joint : int
         Its id, the number of an edge.
 
+    Returns
+    -------
+    SheetEdit
+
     Raises
     ------
     InvariantError
@@ -113,6 +117,10 @@ def crease_sheet(
     letter : {"U", "M", "V"}, optional
         Assignment of the crease. Flat edges along the line become creases, creases stay.
 
+    Returns
+    -------
+    SheetEdit
+
     Raises
     ------
     InvariantError
@@ -135,6 +143,16 @@ def crease_sheet(
 
 def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
     """Remove a crease with all its pieces: the faces beside it become one. Edges after it move up.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    joint : int
+        Its id, the number of an edge.
+
+    Returns
+    -------
+    SheetEdit
 
     Raises
     ------

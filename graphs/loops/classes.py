@@ -87,6 +87,15 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
 def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
     """Return the index of the class of each loop that has one.
 
+    Parameters
+    ----------
+    classes : sequence of CentreClass
+
+    Returns
+    -------
+    dict of int to int
+        Index of a loop to that of its class, in the order of the classes; loops without a centre are left out.
+
     Examples
     --------
     >>> class_of_loop(centre_classes([Loop((0, 1, 2), "none"), Loop((2, 3, 4))]))

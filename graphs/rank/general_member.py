@@ -107,19 +107,45 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     ----------
     mechanism : SCGraph or SCDGraph
     field : Field
+        Where its random numbers come from: the same seed gives the same member.
     forced : bool, optional
         As for `incidence_of`.
+
+    Returns
+    -------
+    Realisation
 
     Raises
     ------
     UnsolvableError
         If centres that must lie in line could not be placed: the type is not realised.
+
+    Examples
+    --------
+    Watt's chain: two centres, and a joint whose axis passes through both.
+
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.rank.fields import PrimeField
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> member = realise(watt, PrimeField(101))
+    >>> len(member.points), member.axes[3] == join(*member.points, PrimeField(101))
+    (2, True)
     """
     return realise_points(incidence_of(mechanism, forced=forced), field)
 
 
 def realise_points(incidence: Incidence, field: Field) -> Realisation:
     """Place points and axes.
+
+    Parameters
+    ----------
+    incidence : Incidence
+    field : Field
+
+    Returns
+    -------
+    Realisation
 
     Raises
     ------

@@ -205,12 +205,25 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     model : PolyhedronModel
         With coordinates.
 
+    Returns
+    -------
+    PoseMobility
+
     Raises
     ------
     UnsolvableError
         If it has no coordinates, or the bars of a scissors element do not cross there.
     InvariantError
         If a rod has no length.
+
+    Examples
+    --------
+    A square of four rods shears in its plane, and folds along a diagonal:
+
+    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}
+    >>> square = PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)
+    >>> pose_mobility_of_model(square).dof
+    2
     """
     if not model.coordinates:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the model has none")

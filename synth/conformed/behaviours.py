@@ -121,12 +121,30 @@ def behaviour_of_motion(
     ----------
     chain : ConformedChain
     places : float[..., J]
+        Azimuths of the joints, radians.
     motion : FirstOrder
+        Of these places.
     arcs : float[..., N, 2]
+        Where each link lies: start and length of its arc, radians.
+
+    Returns
+    -------
+    Behaviour
 
     Examples
     --------
-    See `behaviour`.
+    What a link does depends on where its material lies: the longest of this open four-bar moves outward over its
+    joints, and both ways if it goes all round the cone.
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)}))
+    >>> places = np.radians([40, 90, 140, 0])
+    >>> motion, arcs = first_order(chain, places), link_arcs(chain, places)
+    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
+    'OUTWARD'
+    >>> arcs[3] = 0, 2 * np.pi
+    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
+    'BOTH'
     """
     t = np.asarray(places, dtype=float)
     ranges = _outward_ranges(motion.motions, np.asarray(arcs, dtype=float))

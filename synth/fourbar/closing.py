@@ -304,6 +304,17 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
 def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:
     """Return link lengths; refuse what no closed loop has.
 
+    Parameters
+    ----------
+    lengths : float[n]
+        Any unit.
+    links : int, optional
+        How many there must be.
+
+    Returns
+    -------
+    float[n]
+
     Raises
     ------
     InvariantError

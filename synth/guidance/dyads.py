@@ -119,6 +119,18 @@ def dyad_of(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayL
 def dyads_of_three(orientations: Orientations, fixed_axes: Iterable[npt.ArrayLike]) -> tuple[Dyad, ...]:
     """Return the dyads of three orientations whose fixed axes are chosen; there is one for each.
 
+    Parameters
+    ----------
+    orientations : Orientations
+        Three of them.
+    fixed_axes : iterable of float[3]
+        Of any length but zero.
+
+    Returns
+    -------
+    tuple of Dyad
+        In the order of the axes.
+
     Raises
     ------
     InvariantError

@@ -97,6 +97,15 @@ def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 def wrapped(angles: npt.ArrayLike) -> Floats:
     """Return angles in (-pi, pi].
 
+    Parameters
+    ----------
+    angles : float[...]
+        Radians.
+
+    Returns
+    -------
+    float[...]
+
     Examples
     --------
     >>> np.degrees(wrapped(np.radians([190, -180, 540, 30]))).round(9).tolist()
