@@ -34,6 +34,16 @@ class TableBlock:
     rows : tuple of tuple of str
     numbers : collection of str
         The columns that are set flush right.
+
+    Examples
+    --------
+    >>> print(text_of(["one freedom", TableBlock(("links", "chains"), [("6", "2"), ("8", "16")], ["chains"])]))
+    one freedom
+    <BLANKLINE>
+     links   chains
+     ──────────────
+     6            2
+     8           16
     """
 
     columns: tuple[str, ...]

@@ -40,6 +40,15 @@ class VertexStep:
 def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
     """Walk round each face and yield its vertices: one for each run of links between open edges.
 
+    Parameters
+    ----------
+    scd : SCDGraph
+
+    Yields
+    ------
+    VertexStep
+        In the order of the numbers of the vertices.
+
     Examples
     --------
     >>> from graphs.convert.panels import scd_from_panels

@@ -49,6 +49,12 @@ class EquationResult:
         Whether the equation holds for mechanisms of this class.
     why : str
         Why, or why not.
+
+    Examples
+    --------
+    >>> result = mobility_report(SCGraph(3, [(0, 1), (1, 2), (2, 0)])).equations["spherical_system"]
+    >>> result.applies, result.why
+    (False, '1 of 1 loop(s) are spatial')
     """
 
     value: int | None
@@ -75,6 +81,12 @@ class MobilityReport:
     counts : mapping of str to int
         Further counts: V, C, E_ext, E_int, spatial loops, parts, ... as far as the input tells.
     repairs, warnings : tuple of str
+
+    Examples
+    --------
+    >>> report = mobility_report(SCGraph(4, [(0, 1), (1, 2), (2, 3)]))
+    >>> report.mechanism_class, report.mobility, report.equations["loop_form"].value
+    ('spatial', 3, 3)
     """
 
     mechanism_class: str

@@ -54,6 +54,12 @@ class Entry:
     label : str
         The file, and the line where it holds several.
     mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph or Sheet
+
+    Examples
+    --------
+    >>> [entry] = read_all("k1:Cr")
+    >>> entry.label, entry.mechanism.number_of_nodes()
+    ('k1:Cr', 4)
     """
 
     label: str

@@ -31,6 +31,11 @@ class CentreClass:
         Every joint whose axis passes through the centre.
     centre : Centre
         ``FINITE`` or ``INFINITE``.
+
+    Examples
+    --------
+    >>> centre_classes([Loop((0, 1, 2)), Loop((1, 2, 3))])[0].loops
+    (0, 1)
     """
 
     loops: tuple[int, ...]

@@ -36,6 +36,15 @@ class RemoteCentre:
     rods : tuple of (vertex, vertex), optional
         The rods whose lines pass through the centre.
     name : str, optional
+
+    Examples
+    --------
+    A centre that the links do not reach raises the count by k (Wampler 2007, Eq. 8):
+
+    >>> from graphs.count.equations import mobility_of_model
+    >>> bars = [(0, 1), (2, 3)]
+    >>> [mobility_of_model(PolyhedronModel(4, bars, centres=some)) for some in ((), (RemoteCentre(3),))]
+    [4, 7]
     """
 
     k: int

@@ -56,7 +56,27 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A face of the drawing, walked round with the face on the left (a bounded face counter-clockwise)."""
+    """A face of the drawing, walked round with the face on the left (a bounded face counter-clockwise).
+
+    Attributes
+    ----------
+    index : int
+        Its place in the list of faces.
+    corners : tuple of Corner
+        In the order of the walk.
+    open_edges : int
+        Of all its corners.
+
+    Examples
+    --------
+    The two faces of a ring of three links with an open edge each:
+
+    >>> ring = {0: ("a", "b"), 1: ("b", "c"), 2: ("c", "a")}
+    >>> joints = {"a": (2, 0), "b": (0, 1), "c": (1, 2)}
+    >>> faces, _ = trace_faces(joints, {link: (*sides, None) for link, sides in ring.items()})
+    >>> [(len(face.joints), face.open_edges) for face in faces]
+    [(3, 3), (3, 0)]
+    """
 
     index: int
     corners: tuple[Corner, ...]

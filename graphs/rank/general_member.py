@@ -42,6 +42,14 @@ class Incidence:
         All joints.
     points : tuple of (frozenset of joint ids, bool)
         The joints through each point, and whether it lies at infinity.
+
+    Examples
+    --------
+    Two spherical loops with a joint in common: its axis passes through both centres.
+
+    >>> incidence = Incidence((0, 1, 2), ((frozenset((0, 1)), False), (frozenset((1, 2)), False)))
+    >>> sum(1 in joints for joints, _ in incidence.points)
+    2
     """
 
     joints: tuple[JointId, ...]

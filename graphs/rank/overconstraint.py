@@ -152,6 +152,12 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
     ----------
     mechanism : SCGraph or SCDGraph
     joint : joint id
+    forced, seed
+        As for `graphs.rank.generic.exact_mobility`.
+
+    Returns
+    -------
+    int
 
     Examples
     --------

@@ -37,16 +37,32 @@ _NO_TURN = 1e-13
 
 
 class Way(IntEnum):
-    """Which way a link moves, for one sense of the linkage's motion."""
+    """Which way a link moves, for one sense of the linkage's motion.
+
+    Attributes
+    ----------
+    INWARD, OUTWARD
+        All of it that moves moves towards the axis, or away from it.
+    STILL
+        Not at all to first order: the ground link, or one that turns about the axis.
+    BOTH
+        Some of it in, some out: transmobile.
+    UNKNOWN
+        The linkage has no freedom, or more than one.
+
+    Examples
+    --------
+    The other sense of the motion:
+
+    >>> Way(-Way.OUTWARD).name
+    'INWARD'
+    """
 
     INWARD = -1
     STILL = 0
-    """Not at all to first order: the ground link, or one that turns about the axis."""
     OUTWARD = 1
     BOTH = 2
-    """Some of it in, some out: transmobile."""
     UNKNOWN = 3
-    """The linkage has no freedom, or more than one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,7 +33,21 @@ _FAR = 1e12
 
 @dataclass(frozen=True, slots=True)
 class OnCone:
-    """A linkage at its conformed position; without a cone angle, on any cone."""
+    """A linkage at its conformed position; without a cone angle, on any cone.
+
+    Attributes
+    ----------
+    chain : SCGraph
+    places : float[J]
+        Azimuths of the joints, radians, in the order of the chain's joints.
+    cone_angle : float or None
+        lambda, radians; None: any.
+
+    Examples
+    --------
+    >>> loop_of_steps(np.radians([40, 50, 50])).behaviour().way_of(2)
+    'outward'
+    """
 
     chain: SCGraph
     places: Sequence[float]
@@ -214,7 +228,7 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> On
     Parameters
     ----------
     steps : float[n]
-        Signed, radians, within (-pi, pi], none 0.
+        Signed, radians, in [-pi, pi], none 0.
     cone_angle : float, optional
         lambda, radians; any cone without it.
 

@@ -36,6 +36,12 @@ class Circuits:
         it is open.
     residual : float[...]
         Sum of the steps less 2 pi k, radians.
+
+    Examples
+    --------
+    >>> found = circuits(np.radians([90, 90, 90, 90]))
+    >>> bool(found.open), int(found.turns)
+    (True, 1)
     """
 
     open: npt.NDArray[np.bool_]
