@@ -306,7 +306,7 @@ def count_job(query: ChainQuery, method: str) -> CountJob | _RowCountJob | _Conn
 
     Examples
     --------
-    Both methods, which share no code:
+    Both ways to count:
 
     >>> from enumerate.runner.running import total_of
     >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]

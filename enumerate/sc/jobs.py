@@ -234,7 +234,7 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
 
     Examples
     --------
-    Both methods, which share no code:
+    Both ways to count:
 
     >>> from enumerate.runner.running import total_of
     >>> [total_of(sc_count_job(SCQuery(6, 1), method)) for method in ("orbits", "burnside")]

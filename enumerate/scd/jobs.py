@@ -340,7 +340,7 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
 
     Examples
     --------
-    Both methods, which share no code:
+    Both ways to count:
 
     >>> from enumerate.runner.running import total_of
     >>> four = AllMechanisms(SCDQuery(4, 1, PlacementQuery(4)))

@@ -32,6 +32,12 @@ class SheetEdit:
         The pattern before and after.
     equation : str
         The equation that predicts the change of mobility.
+
+    Examples
+    --------
+    >>> edit = lock_crease(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3))), 0)
+    >>> edit.what, edit.predicted
+    ('lock crease 0', -1)
     """
 
     what: str

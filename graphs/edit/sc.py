@@ -35,6 +35,12 @@ class Edit:
         The change of mobility that the relative equation gives for the parts added and taken away.
     equation : str
         That equation.
+
+    Examples
+    --------
+    >>> edit = lock_joint(SCGraph(3, [(0, 1), (1, 2)]), 0)
+    >>> edit.what, edit.predicted, edit.counted, edit.equation
+    ('lock joint 0', -1, -1, 'Eq. 6')
     """
 
     what: str

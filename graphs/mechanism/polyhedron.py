@@ -61,6 +61,15 @@ class PointConstraint:
     vertex : vertex id
     of : tuple of vertex ids, or "ground"
         The vertices that span the line or plane.
+
+    Examples
+    --------
+    A point on a line gives up two freedoms:
+
+    >>> from graphs.count.equations import mobility_of_model
+    >>> bars = [(0, 1), (2, 3)]
+    >>> [mobility_of_model(PolyhedronModel(4, bars, on_line=on)) for on in ((), (PointConstraint(0, (2, 3)),))]
+    [4, 2]
     """
 
     vertex: VertexId

@@ -44,6 +44,12 @@ class Corner:
         Number of open edges between them.
     first_side, last_side : int
         Indices in the rotation of the entering and the leaving joint (of the first open edge, without joints).
+
+    Examples
+    --------
+    >>> faces, _ = trace_faces({"a": (0, 1), "b": (0, 1)}, {0: ("a", "b", None), 1: ("b", "a")})
+    >>> [(corner.link, corner.arriving, corner.leaving) for corner in faces[0].corners]
+    [(1, 'a', 'b'), (0, 'b', 'a')]
     """
 
     link: LinkId

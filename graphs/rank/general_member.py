@@ -66,6 +66,16 @@ class Realisation:
         In the order of the incidence.
     axes : mapping of joint id to (u, m)
         Direction u and moment p x u.
+
+    Examples
+    --------
+    Direction and moment of a line are perpendicular, modulo a prime too:
+
+    >>> from graphs.rank.fields import PrimeField
+    >>> member = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
+    >>> u, m = member.axes[0]
+    >>> sum(a * b for a, b in zip(u, m, strict=True)) % 101
+    0
     """
 
     points: tuple[Point, ...]

@@ -75,6 +75,15 @@ class PoseMobility:
         Of the coordinates: what singular values are judged by.
     flat_loops : int
         Loops with a centre whose axes lie in one plane, which gives them a freedom more than when folded.
+
+    Examples
+    --------
+    Flat, a vertex of four creases has a freedom more than when it is folded:
+
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> flat.dof, flat.self_stresses, flat.flat
+    (2, 1, True)
     """
 
     dof: int | None

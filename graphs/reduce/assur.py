@@ -67,6 +67,14 @@ class AssurReduction:
         All groups, each after those it hangs on.
     removed : tuple of AssurGroup
         In the order in which they were taken off.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> reduction = reduce_assur(ring, 0, [0])
+    >>> len(reduction.groups), len(reduction.graph)
+    (2, 2)
     """
 
     before: SCGraph

@@ -71,6 +71,14 @@ class Reduction:
         In the order in which they were taken.
     removals : tuple of Removal
         The same, with what is needed to undo them.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> squares = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10)]
+    >>> reduction = reduce(scd_from_panels(squares))
+    >>> len(reduction.original), len(reduction.graph)
+    (6, 4)
     """
 
     original: SCGraph

@@ -57,6 +57,12 @@ class FourBarKind:
         How far the rounding of the links may take a difference: no more than that is zero.
     caution : str
         Which differences are taken for zero though they are not quite; empty if none is.
+
+    Examples
+    --------
+    >>> kind = kind_of_planar([4, 1, 4, 3])
+    >>> kind.grashof, kind.input, kind.output
+    ('Grashof', 'crank', 'rocker')
     """
 
     differences: tuple[float, ...]

@@ -49,6 +49,13 @@ class Dyad:
         From orientation 1, counter-clockwise about G, radians in [0, 2 pi).
     direction : "ccw", "cw" or None
         The direction of a crank that takes the orientations in their order, if there is one.
+
+    Examples
+    --------
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> [dyad] = dyads_of_three(orientations, [(3, 1, 2)])
+    >>> round(float(np.degrees(dyad.link_angle)), 2), dyad.direction
+    (21.81, 'ccw')
     """
 
     fixed: Floats
