@@ -30,6 +30,18 @@ _LONGEST_PLACE = 120
 def numbered(number: int, word: str, more: str = "") -> str:
     """Return a number and what it counts, in words for one or for several.
 
+    Parameters
+    ----------
+    number : int
+    word : str
+        What is counted, for one.
+    more : str, optional
+        For several; by default the word with an s.
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> numbered(1, "link"), numbered(2, "link"), numbered(0, "vertex", "vertices")
@@ -39,7 +51,18 @@ def numbered(number: int, word: str, more: str = "") -> str:
 
 
 class SynthedraError(Exception):
-    """Root of every error raised on purpose; its text is one printable line, whatever names it tells."""
+    r"""Root of every error raised on purpose; its text is one printable line, whatever names it tells.
+
+    Parameters
+    ----------
+    *args : object
+        The first is the message.
+
+    Examples
+    --------
+    >>> print(SynthedraError("a name of\ttwo words"))
+    a name of\ttwo words
+    """
 
     def __str__(self) -> str:
         return plain(super().__str__(), _LONGEST_MESSAGE)
@@ -78,6 +101,11 @@ class FileError(SynthedraError, ValueError):
 
 class OpenError(FileError, OSError):
     """A file could not be opened, or the system refused to read or write it.
+
+    Parameters
+    ----------
+    file, place, found, expected
+        As of `FileError`.
 
     Examples
     --------
@@ -119,12 +147,46 @@ class InvariantError(SynthedraError, ValueError):
 
 
 class UnsolvableError(SynthedraError):
-    """The question is well posed and has no answer, for example a conversion that loses what it needs."""
+    """The question is well posed and has no answer, for example a conversion that loses what it needs.
+
+    Parameters
+    ----------
+    message : str
+
+    Examples
+    --------
+    >>> from graphs.convert.table import to_scd
+    >>> from graphs.files.formats import mechanism_of_id
+    >>> to_scd(mechanism_of_id("k1:Cr"))
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: the order of the sides of the links is not known: write an SCD graph or a sheet
+    """
 
 
 class NumericalError(SynthedraError):
-    """A numerical method cannot tell, or did not converge."""
+    """A numerical method cannot tell, or did not converge.
+
+    Parameters
+    ----------
+    message : str
+
+    Examples
+    --------
+    >>> issubclass(NumericalError, SynthedraError)
+    True
+    """
 
 
 class StoreError(SynthedraError):
-    """A store of results cannot be used as asked."""
+    """A store of results cannot be used as asked.
+
+    Parameters
+    ----------
+    message : str
+
+    Examples
+    --------
+    >>> print(StoreError("six.sqlite: is damaged at unit 3"))
+    six.sqlite: is damaged at unit 3
+    """

@@ -26,6 +26,10 @@ def plain(value: object, widest: int = _WIDEST) -> str:
     widest : int, optional
         Most letters; of longer text the head is left, and three dots.
 
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> plain("\x1b[31mred")
@@ -45,6 +49,15 @@ def plain(value: object, widest: int = _WIDEST) -> str:
 def plain_lines(text: str) -> str:
     r"""Return text of several lines whose letters are all printable.
 
+    Parameters
+    ----------
+    text : str
+
+    Returns
+    -------
+    str
+        Line feeds stay; other letters that do not print are written as escapes.
+
     Examples
     --------
     >>> plain_lines("one\r\ntwo\x07")
@@ -56,6 +69,17 @@ def plain_lines(text: str) -> str:
 def plain_label(value: object, widest: int = _WIDEST) -> str:
     r"""Return text for a picture: as `plain` makes it, with dollar signs that begin no formula.
 
+    Parameters
+    ----------
+    value : object
+        None becomes a dash.
+    widest : int, optional
+        Most letters, before the dollar signs are marked.
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> print(plain_label("$a$"))
@@ -66,6 +90,16 @@ def plain_label(value: object, widest: int = _WIDEST) -> str:
 
 def shown(thing: object) -> str:
     r"""Return a short, one-line, printable form of anything in quotes, for use in messages.
+
+    Parameters
+    ----------
+    thing : object
+        Told by its ``repr``; of a long one the middle is left out.
+
+    Returns
+    -------
+    str
+        At most 60 letters.
 
     Examples
     --------

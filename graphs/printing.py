@@ -34,6 +34,16 @@ class TableBlock:
     rows : tuple of tuple of str
     numbers : collection of str
         The columns that are set flush right.
+
+    Examples
+    --------
+    >>> print(text_of(["one freedom", TableBlock(("links", "chains"), [("6", "2"), ("8", "16")], ["chains"])]))
+    one freedom
+    <BLANKLINE>
+     links   chains
+     ──────────────
+     6            2
+     8           16
     """
 
     columns: tuple[str, ...]
@@ -52,7 +62,28 @@ Block = str | TableBlock
 
 
 def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) -> Table:
-    """Return an empty table; columns named in ``numbers`` are set flush right."""
+    """Return an empty table; columns named in ``numbers`` are set flush right.
+
+    Parameters
+    ----------
+    *columns : str
+        Heads of the columns.
+    numbers : iterable of str, optional
+        Heads of the columns that are set flush right.
+    title : str, optional
+        Set above the table; brackets are no markup.
+
+    Returns
+    -------
+    rich.table.Table
+        Without rows.
+
+    Examples
+    --------
+    >>> table = rich_table("n", "name", numbers=["n"])
+    >>> [column.justify for column in table.columns]
+    ['right', 'left']
+    """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text
@@ -84,6 +115,15 @@ def console_for(stream: Any, width: int | None) -> Console:
 def text_of(blocks: Iterable[Block]) -> str:
     """Return blocks as text, a line of the table a line.
 
+    Parameters
+    ----------
+    blocks : iterable of str or TableBlock
+
+    Returns
+    -------
+    str
+        Without spaces at the ends of lines; lines are not wrapped.
+
     Examples
     --------
     >>> print(text_of(["two rows", TableBlock(("n", "name"), [("1", "one"), ("2", "two")], ["n"])]))
@@ -103,6 +143,15 @@ def text_of(blocks: Iterable[Block]) -> str:
 
 def html_of(blocks: Iterable[Block]) -> str:
     """Return blocks as HTML; names are escaped.
+
+    Parameters
+    ----------
+    blocks : iterable of str or TableBlock
+
+    Returns
+    -------
+    str
+        A paragraph for a line, a ``table`` for a table.
 
     Examples
     --------

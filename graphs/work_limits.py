@@ -47,6 +47,10 @@ def most(name: str) -> int:
     name : str
         A key of `LIMITS`.
 
+    Returns
+    -------
+    int
+
     Raises
     ------
     FileError
@@ -68,6 +72,22 @@ def most(name: str) -> int:
 
 def how_to_raise(name: str, needed: int | None = None) -> str:
     """Return what to expect of something, and how to allow more of it.
+
+    Parameters
+    ----------
+    name : str
+        A key of `LIMITS`.
+    needed : int, optional
+        How much is called for; what is proposed is that, and at least twice the limit.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    FileError
+        As of `most`.
 
     Examples
     --------

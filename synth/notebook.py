@@ -26,7 +26,14 @@ _SHOWN = {
 
 
 def show_in_this_notebook() -> None:
-    """Let mechanisms show themselves, if this is IPython."""
+    """Let mechanisms show themselves, if this is IPython.
+
+    Examples
+    --------
+    Elsewhere it does nothing:
+
+    >>> show_in_this_notebook()
+    """
     shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
     if shell is not None:
         load_ipython_extension(shell)
@@ -48,6 +55,15 @@ def load_ipython_extension(shell: Any) -> None:
 
 def picture_of(thing: Any) -> str | None:
     """Return the picture of a mechanism as SVG; None, for its description, where it cannot be drawn.
+
+    Parameters
+    ----------
+    thing : object
+        A mechanism of a class that the notebook shows.
+
+    Returns
+    -------
+    str or None
 
     Examples
     --------

@@ -43,6 +43,15 @@ Series = dict[tuple[int, int], Fraction]
 def count_connected(links: int, dof: int) -> int:
     """Return the number of chains of N links and M freedoms without rigid sub-chains, fractionated ones included.
 
+    Parameters
+    ----------
+    links, dof : int
+        N, and M from 1 on.
+
+    Returns
+    -------
+    int
+
     Examples
     --------
     >>> [count_connected(links, 2) for links in (5, 7, 9)]

@@ -350,10 +350,23 @@ def count_job(
     kept : mapping, optional
         The key of a job that is to be gone on with: the units are as large as it says, where there is a choice.
 
+    Returns
+    -------
+    Counting
+        A job whose rows are numbers to be added.
+
     Raises
     ------
     UnsolvableError
         If Burnside's lemma is asked for what it does not count here.
+
+    Examples
+    --------
+    Both ways to count:
+
+    >>> from enumerate.runner.running import total_of
+    >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]
+    [16, 16]
     """
     plain = query.symmetry == ONE_OR_MORE and not query.inputs
     streamed = query.loops >= _STREAMED and "graphs_of_a_unit" not in (kept or {})

@@ -21,6 +21,16 @@ def _named() -> dict[str, str]:
 def name_of(chain: str) -> str:
     """Return the name of a chain given by its id, or nothing.
 
+    Parameters
+    ----------
+    chain : str
+        ``k1:...``
+
+    Returns
+    -------
+    str
+        Empty if the chain has no name.
+
     Examples
     --------
     >>> name_of("k1:Cr")
@@ -42,6 +52,16 @@ def chain_names() -> tuple[str, ...]:
 
 def chain_named(name: str) -> str:
     """Return the id of a chain given by its name.
+
+    Parameters
+    ----------
+    name : str
+        In any case of letters.
+
+    Returns
+    -------
+    str
+        ``k1:...``
 
     Raises
     ------

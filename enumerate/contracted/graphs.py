@@ -74,6 +74,15 @@ def cubic_graphs(loops: int) -> Bytes:
     Each comes from one with two links less by subdividing two joints, or one joint twice, and joining the new
     links: the last ear of an ear decomposition of a cubic graph is a single joint.
 
+    Parameters
+    ----------
+    loops : int
+        L, from 2 on.
+
+    Returns
+    -------
+    uint8[graphs, length]
+
     Raises
     ------
     InvariantError

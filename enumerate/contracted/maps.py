@@ -58,6 +58,15 @@ def contracted_maps(loops: int) -> Iterator[tuple[int, Bytes]]:
 def cubic_maps(loops: int) -> Bytes:
     """Return the codes of all 2-connected cubic maps with L + 1 faces, one row each.
 
+    Parameters
+    ----------
+    loops : int
+        L, from 2 on.
+
+    Returns
+    -------
+    uint8[maps, length]
+
     Raises
     ------
     InvariantError

@@ -34,7 +34,28 @@ class Unit:
 
 
 class Job(Protocol):
-    """What an enumerator hands to the runner. A job is pickled to the workers: keep it small."""
+    """What an enumerator hands to the runner. A job is pickled to the workers: keep it small.
+
+    Attributes
+    ----------
+    columns : mapping of str to type or column
+    key : dict of str to object
+
+    Examples
+    --------
+    Numbers from 0 to 5, in units of two:
+
+    >>> class Numbers:
+    ...     columns = {"number": int}
+    ...     key = {"enumerate": "numbers"}
+    ...     def units(self):
+    ...         return [Unit(first) for first in (0, 2, 4)]
+    ...     def work(self, payload):
+    ...         return [(payload,), (payload + 1,)]
+    >>> from enumerate.runner.running import rows_of
+    >>> [row["number"] for row in rows_of(Numbers())]
+    [0, 1, 2, 3, 4, 5]
+    """
 
     @property
     def columns(self) -> Mapping[str, Column]:
@@ -52,7 +73,24 @@ class Job(Protocol):
 
 
 class Counting:
-    """What jobs that count have in common: the first value of each row is a number to be added."""
+    """What jobs that count have in common: the first value of each row is a number to be added.
+
+    Attributes
+    ----------
+    columns : dict of str to type
+
+    Examples
+    --------
+    >>> class Squares(Counting):
+    ...     key = {"count": "squares"}
+    ...     def units(self):
+    ...         return [Unit(1), Unit(2)]
+    ...     def work(self, payload):
+    ...         return [(payload**2,)]
+    >>> from enumerate.runner.running import total_of
+    >>> total_of(Squares())
+    5
+    """
 
     @property
     def columns(self) -> dict[str, type]:
@@ -61,7 +99,28 @@ class Counting:
 
 
 class Sink(Protocol):
-    """Where rows go."""
+    """Where rows go.
+
+    Examples
+    --------
+    `run` starts a sink, hands it units, and finishes or aborts it:
+
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.running import run
+    >>> class Lengths:
+    ...     def start(self, job):
+    ...         return ()
+    ...     def take(self, number, rows, seconds):
+    ...         print("unit", number, "rows", len(rows))
+    ...     def finish(self):
+    ...         print("done")
+    ...     def abort(self):
+    ...         print("stopped")
+    >>> _ = run(ChainJob(ChainQuery(6, 1), bare=True), Lengths())
+    unit 0 rows 2
+    done
+    """
 
     def start(self, job: Job) -> Collection[int]:
         """Prepare for a job; return the numbers of its units that are there already."""
@@ -78,7 +137,27 @@ class Sink(Protocol):
 
 @dataclass(slots=True)
 class Progress:
-    """How far a run has come."""
+    """How far a run has come.
+
+    Attributes
+    ----------
+    units, done : int
+        Units in all, and those that are there.
+    weight, total_weight : int
+        Weight of the units done, and of all.
+    rows : int
+        Made in this run.
+    seconds : float
+        Since the run began.
+    skipped_weight : int
+        Weight of the units that were there when it began.
+
+    Examples
+    --------
+    >>> half = Progress(units=4, done=2, weight=50, total_weight=100, rows=900, seconds=3.0)
+    >>> half.rate, half.seconds_left
+    (300.0, 3.0)
+    """
 
     units: int
     done: int = 0

@@ -60,12 +60,27 @@ def run(
     report : callable, optional
         Called with the progress after each unit.
 
+    Returns
+    -------
+    Progress
+        At the end; units that the sink held already are not among its rows.
+
     Raises
     ------
     Interrupted
         If the user pressed Ctrl-C, or the process was asked to end. What was handed to a store stays there.
     StoreError
         If the sink cannot take the rows, workers die again and again, or the cluster is not reached, or lost.
+
+    Examples
+    --------
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.sinks import RowSink
+    >>> done = run(ChainJob(ChainQuery(6, 1), bare=True), RowSink(lambda columns, rows: print(columns, rows)))
+    ('code',) [('k1:E`hW',), ('k1:E@zO',)]
+    >>> done.rows
+    2
     """
     with interruptible() as check, _hired(scheduler) as cluster:
         try:
@@ -151,10 +166,22 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
     workers : int
         Local processes; 1 works in this one. They end with the last row, or when the generator is closed.
 
+    Yields
+    ------
+    dict of str to object
+        Column to value.
+
     Raises
     ------
     StoreError
         If workers die again and again.
+
+    Examples
+    --------
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> list(rows_of(ChainJob(ChainQuery(6, 1), bare=True)))
+    [{'code': 'k1:E`hW'}, {'code': 'k1:E@zO'}]
     """
     columns = job.columns
     for row in tuples_of(job, workers=workers):
@@ -162,7 +189,32 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
 
 
 def total_of(job: Job, *, workers: int = 1) -> int:
-    """Return the sum of the first values of all rows: what a `Counting` job counts. Arguments: `rows_of`."""
+    """Return the sum of the first values of all rows: what a `Counting` job counts.
+
+    Parameters
+    ----------
+    job : Job
+    workers : int
+        Local processes; 1 works in this one.
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    StoreError
+        If workers die again and again.
+
+    Examples
+    --------
+    Chains of eight links and one freedom, as Burnside's lemma counts them:
+
+    >>> from enumerate.chains.jobs import count_job
+    >>> from enumerate.chains.query import ChainQuery
+    >>> total_of(count_job(ChainQuery(8, 1), "burnside"))
+    16
+    """
     return sum(row[0] for row in tuples_of(job, workers=workers))
 
 

@@ -41,7 +41,23 @@ class _MemorySink:
 
 
 class RowSink(_MemorySink):
-    """A sink that calls a function with the columns and the rows of each unit."""
+    """A sink that calls a function with the columns and the rows of each unit.
+
+    Parameters
+    ----------
+    function : callable
+        Takes the names of the columns, and the list of rows of a unit.
+
+    Examples
+    --------
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.running import run
+    >>> codes = []
+    >>> _ = run(ChainJob(ChainQuery(6, 1), bare=True), RowSink(lambda columns, rows: codes.extend(rows)))
+    >>> codes
+    [('k1:E`hW',), ('k1:E@zO',)]
+    """
 
     def __init__(self, function: Callable[[tuple[str, ...], list[Row]], None]) -> None:
         self._function = function
@@ -340,12 +356,19 @@ def sink_for(
     Parameters
     ----------
     path : str or Path
+        Ending in ``.sqlite`` or a key of `SINKS`, or a folder.
     resume : bool
         Go on with a store.
+    force : bool
+        Replace a file that is there.
     tell : callable, optional
         Takes a line on the state of a store that the user should know (`SqliteSink`).
     looking : callable, optional
         Takes the part of a store to be resumed that has been looked through.
+
+    Returns
+    -------
+    Sink
 
     Raises
     ------
@@ -353,6 +376,18 @@ def sink_for(
         If the extension is not known.
     StoreError
         If what it names cannot be resumed.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.running import run
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), sink_for(Path(folder, "six.jsonl")))
+    ...     print(Path(folder, "six.jsonl").read_text().rstrip())
+    {"code": "k1:E`hW"}
+    {"code": "k1:E@zO"}
     """
     path = Path(path)
     suffix = path.suffix.lower()

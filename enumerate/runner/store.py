@@ -209,10 +209,32 @@ class SqliteSink:
 def read_meta(path: str | Path) -> dict[str, Any]:
     """Return what a store says of itself: ``job``, ``columns``, ``lists``, ``complete``, versions.
 
+    Parameters
+    ----------
+    path : str or Path
+        A ``.sqlite`` store; it may still be growing.
+
+    Returns
+    -------
+    dict of str to object
+
     Raises
     ------
     StoreError
         If the file is not a store that this version reads.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.running import run
+    >>> with TemporaryDirectory() as folder:
+    ...     store = Path(folder, "six.sqlite")
+    ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), SqliteSink(store))
+    ...     told = read_meta(store)
+    >>> told["columns"], told["complete"]
+    (['code'], True)
     """
     with reading(Path(path)) as connection:
         return meta_in(connection, Path(path))
@@ -236,10 +258,32 @@ def job_in(path: str | Path) -> dict[str, Any] | None:
 def read_rows(path: str | Path) -> Iterator[Row]:
     """Yield the rows of a store, in order, as its columns say; a list is a tuple, as in the rows of a job.
 
+    Parameters
+    ----------
+    path : str or Path
+        A ``.sqlite`` store; of one that is growing, the units that are there.
+
+    Yields
+    ------
+    tuple
+        A row.
+
     Raises
     ------
     StoreError
         If the file is not a store, or a unit is not as it was written: rows before it have been yielded.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from enumerate.chains.jobs import ChainJob
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.running import run
+    >>> with TemporaryDirectory() as folder:
+    ...     store = Path(folder, "six.sqlite")
+    ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), SqliteSink(store))
+    ...     print(*read_rows(store))
+    ('k1:E`hW',) ('k1:E@zO',)
     """
     path = Path(path)
     with reading(path) as connection:

@@ -27,6 +27,16 @@ class CountSink:
         The sum of all; of a run with a store, once it is finished.
     parts : mapping
         The sums by the other values of the rows, in the order in which these first came.
+
+    Examples
+    --------
+    >>> from enumerate.chains.jobs import count_job
+    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.runner.running import run
+    >>> sink = CountSink()
+    >>> _ = run(count_job(ChainQuery(8, 1), "burnside"), sink)
+    >>> sink.total
+    16
     """
 
     def __init__(self, store: SqliteSink | None = None) -> None:

@@ -215,10 +215,30 @@ class _ListedCountJob(Counting):
 def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | _ListedCountJob:
     """Return the job that counts what a query asks for.
 
+    Parameters
+    ----------
+    query : SCQuery
+    method : {"orbits", "burnside"}, optional
+    outside : bool, optional
+        Whether an outer face is chosen; else embeddings in the sphere are counted.
+
+    Returns
+    -------
+    Counting
+        A job whose rows are numbers to be added.
+
     Raises
     ------
     UnsolvableError
         If it can only be counted by listing, and Burnside's lemma or embeddings without outer face are asked for.
+
+    Examples
+    --------
+    Both ways to count:
+
+    >>> from enumerate.runner.running import total_of
+    >>> [total_of(sc_count_job(SCQuery(6, 1), method)) for method in ("orbits", "burnside")]
+    [4, 4]
     """
     if query.unfiltered and query.loops > 1:
         return SCCountJob(query, method, outside)

@@ -64,6 +64,23 @@ def scd_graphs(links: int, dof: int, max_degree: int, *, workers: int = 1, **opt
 def scd_graphs_of(mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
     """Yield all SCD graphs of an SC graph; see `mechanism_of`.
 
+    Parameters
+    ----------
+    mechanism, max_degree, **options
+        As for `mechanism_of`.
+    workers : int
+        Processes.
+
+    Yields
+    ------
+    SCDGraph
+        Graph attributes hold the row of `scd_rows`.
+
+    Raises
+    ------
+    UnsolvableError, InvariantError
+        As of `mechanism_of`.
+
     Examples
     --------
     >>> from graphs.loops.loop import Loop
@@ -97,6 +114,15 @@ def scd_rows(
     ----------
     links, dof, max_degree, workers, **options
         As for `scd_graphs`.
+
+    Yields
+    ------
+    dict of str to object
+
+    Examples
+    --------
+    >>> [(row["sides"], row["open_edges"], row["symmetry"]) for row in scd_rows(4, 1, 3)]
+    [([4], 4, 8)]
     """
     yield from rows_of(SCDJob(all_mechanisms(links, dof, max_degree, **options)), workers=workers)
 
@@ -133,7 +159,29 @@ def count_scd_graphs(
 def all_mechanisms(
     links: int, dof: int, max_degree: int, *, spatial: int = 0, infinite: bool = False, **options: Any
 ) -> AllMechanisms:
-    """Return the mechanisms of a size as a source of `SCDJob`; arguments as for `scd_graphs`."""
+    """Return the mechanisms of a size as a source of `SCDJob`.
+
+    Parameters
+    ----------
+    links, dof, max_degree, spatial, infinite, **options
+        As for `scd_graphs`.
+
+    Returns
+    -------
+    AllMechanisms
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    Of the seven with four links and one freedom all but one are sheets:
+
+    >>> [len(list(rows_of(SCDJob(all_mechanisms(4, 1, 4, sheets=only))))) for only in (False, True)]
+    [7, 6]
+    """
     query = SCDQuery(links, dof, PlacementQuery(max_degree, **options), spatial, infinite)
     return AllMechanisms(query)
 

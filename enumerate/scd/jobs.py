@@ -323,10 +323,29 @@ class SCDCountJob(Counting):
 def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCountJob:
     """Return the job that counts placements, by Burnside's lemma where it can.
 
+    Parameters
+    ----------
+    mechanisms : AllMechanisms or OneMechanism
+    method : {"burnside", "orbits"}, optional
+        ``orbits`` makes the placements, ``burnside`` none.
+
+    Returns
+    -------
+    SCDCountJob
+
     Raises
     ------
     UnsolvableError
         If Burnside's lemma is asked for what it does not count here.
+
+    Examples
+    --------
+    Both ways to count:
+
+    >>> from enumerate.runner.running import total_of
+    >>> four = AllMechanisms(SCDQuery(4, 1, PlacementQuery(4)))
+    >>> [total_of(scd_count_job(four, method)) for method in ("orbits", "burnside")]
+    [7, 7]
     """
     counted = mechanisms.placements.counted
     if method == "burnside" and not counted:

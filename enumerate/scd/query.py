@@ -34,6 +34,11 @@ class PlacementQuery:
     ------
     InvariantError
         If a number is out of its range.
+
+    Examples
+    --------
+    >>> PlacementQuery(4, vertices=(8, None)).vertices
+    Limits(least=8, most=None)
     """
 
     max_degree: int

@@ -20,6 +20,15 @@ __all__ = ["chain_sc", "chain_scd", "string_of_chain"]
 def chain_sc(chain: ChainString) -> SCGraph:
     """Return the SC graph of a chain between two bodies: links 0 and n, and n - 1 panels between them.
 
+    Parameters
+    ----------
+    chain : ChainString
+
+    Returns
+    -------
+    SCGraph
+        An open chain, without loops.
+
     Examples
     --------
     >>> len(chain_sc(ChainString.parse("RR-R-RRR")))

@@ -263,6 +263,22 @@ def count_strings(
     Compositions of n into m parts of at most c have the generating function (x + ... + x^c)^m; up to reversal
     there are half as many as compositions and palindromes together.
 
+    Parameters
+    ----------
+    creases : int
+        Number of R, 1 or more.
+    max_panels, max_cluster : int or None, optional
+        At most so many panels, and creases in a cluster; None for no limit. The defaults are those of Table 8.
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    InvariantError
+        If a number is too small.
+
     Examples
     --------
     >>> [count_strings(n) for n in range(1, 7)], count_strings(300, max_panels=None) > 10**70

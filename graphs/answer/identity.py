@@ -35,6 +35,12 @@ class Identity:
         its links; mirror images have one id.
     notes : tuple of str
         Why there is none.
+
+    Examples
+    --------
+    >>> from graphs.files.formats import mechanism_of_id
+    >>> identify(mechanism_of_id("m1:ab.ac.bd.cd")).chain
+    'k1:Cr'
     """
 
     chain: str | None

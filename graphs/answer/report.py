@@ -35,6 +35,14 @@ class MobilityAnswer(MobilityReport):
     Notes
     -----
     The other attributes are those of :class:`graphs.count.report.MobilityReport`, the answer by count.
+
+    Examples
+    --------
+    >>> from graphs.answer.mechanisms import mobility
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> answer = mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))))
+    >>> answer.mobility, answer.exact.mobility, answer.pose
+    (1, 1, None)
     """
 
     exact: ExactMobility | None = None

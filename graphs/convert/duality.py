@@ -49,6 +49,14 @@ class SheetMechanism:
     repairs, warnings : tuple of str
     pieces : mapping of joint id to tuple of (vertex, vertex)
         All the edges that make up each joint: more than one of a split hinge.
+
+    Examples
+    --------
+    Four triangles round vertex 0:
+
+    >>> mechanism = mechanism_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))))
+    >>> mechanism.interior_vertices, mechanism.loop_vertices, len(mechanism.hinges)
+    (1, (0,), 4)
     """
 
     sc: SCGraph

@@ -94,6 +94,16 @@ def scd_from_panels(
 def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
     """Turn panels over so that each shared side is passed in opposite directions by its two panels.
 
+    Parameters
+    ----------
+    panels : mapping of link id to sequence of vertices
+        The vertices round each panel, one way or the other.
+
+    Returns
+    -------
+    dict of link id to sequence of vertices
+        The first panel of each piece stays as it is.
+
     Raises
     ------
     InvariantError

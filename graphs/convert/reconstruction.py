@@ -29,6 +29,13 @@ class VertexStep:
         What lies in that face; the vertex *is* the centre where it is explicit.
     links : tuple of link ids
         The links that meet in the vertex, in the order of the walk round the face.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> steps = vertex_steps(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
+    >>> [sorted(step.links) for step in steps if step.kind is FaceKind.EXPLICIT]
+    [[0, 1, 2]]
     """
 
     vertex: int
@@ -39,6 +46,15 @@ class VertexStep:
 
 def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
     """Walk round each face and yield its vertices: one for each run of links between open edges.
+
+    Parameters
+    ----------
+    scd : SCDGraph
+
+    Yields
+    ------
+    VertexStep
+        In the order of the numbers of the vertices.
 
     Examples
     --------

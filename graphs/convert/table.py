@@ -50,9 +50,20 @@ Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage
 def to_sc(thing: Mechanism) -> SCGraph:
     """Return the SC graph of anything that has one.
 
+    Parameters
+    ----------
+    thing : Mechanism
+        Whatever a file may hold.
+
+    Returns
+    -------
+    SCGraph
+        Of a linkage on a cone, or of hinged solids, the chain.
+
     Raises
     ------
     UnsolvableError
+        As of `to_scd`, for a polyhedron model.
 
     Examples
     --------
@@ -99,9 +110,24 @@ def graph_of(thing: Mechanism | nx.Graph) -> SCGraph:
 def to_scd(thing: Mechanism) -> SCDGraph:
     """Return the SCD graph of an SCD graph, a sheet of plain panels, or a model that knows its links.
 
+    Parameters
+    ----------
+    thing : Mechanism
+        Whatever a file may hold.
+
+    Returns
+    -------
+    SCDGraph
+
     Raises
     ------
     UnsolvableError
+        If it does not tell the sides of its links, or a model has more than panels.
+
+    Examples
+    --------
+    >>> to_scd(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)))).rotation[0]
+    (None, None, 0)
     """
     if isinstance(thing, SCDGraph):
         return thing
@@ -119,9 +145,19 @@ def to_scd(thing: Mechanism) -> SCDGraph:
 def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
     """Return the polyhedron model; a sheet's coordinates go with it.
 
+    Parameters
+    ----------
+    thing : Mechanism
+        Whatever a file may hold.
+
+    Returns
+    -------
+    PolyhedronModel
+
     Raises
     ------
     UnsolvableError
+        As of `to_scd`.
 
     Examples
     --------
@@ -149,9 +185,25 @@ def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
 def to_sheet(thing: Mechanism) -> Sheet:
     """Return the sheet of a sheet, an SCD graph or a model that knows its links.
 
+    Parameters
+    ----------
+    thing : Mechanism
+        Whatever a file may hold.
+
+    Returns
+    -------
+    Sheet
+
     Raises
     ------
     UnsolvableError
+        As of `to_scd`; also if a model does not know its links.
+
+    Examples
+    --------
+    >>> two = PolyhedronModel(4, [(0, 1), (1, 2), (2, 0), (1, 3), (3, 2)], links={0: (0, 1, 2), 1: (1, 3, 2)})
+    >>> to_sheet(two).faces
+    ((0, 1, 2), (1, 3, 2))
     """
     if isinstance(thing, Sheet):
         return thing
@@ -164,9 +216,27 @@ def to_sheet(thing: Mechanism) -> Sheet:
 def to_vertex_edge(thing: Mechanism) -> VertexEdgeGraph:
     """Return the vertex-edge graph.
 
+    Parameters
+    ----------
+    thing : Mechanism
+        Whatever a file may hold.
+
+    Returns
+    -------
+    VertexEdgeGraph
+
     Raises
     ------
     UnsolvableError
+        If it has no SC graph, or not that of a sheet of finite centres.
+
+    Examples
+    --------
+    Four triangles round a vertex: one centre with four creases.
+
+    >>> fan = Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)))
+    >>> len(to_vertex_edge(fan).vertices), len(to_vertex_edge(fan).creases)
+    (1, 4)
     """
     return thing if isinstance(thing, VertexEdgeGraph) else vertex_edge_from_sc(to_sc(thing))
 

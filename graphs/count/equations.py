@@ -67,6 +67,17 @@ def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
     The constraint space is that of every loop, 3 for a loop with a centre, whether or not the loops share
     it: so the equation holds for spherical systems, where Eq. 1 presumes one centre.
 
+    Parameters
+    ----------
+    links, joints : int
+        N, the fixed link included, and J, all revolute.
+    constraint_space : int
+        lambda of every loop: 3 with a centre, 6 without.
+
+    Returns
+    -------
+    int
+
     Notes
     -----
     Wiener 2016, Eq. 2.
@@ -84,6 +95,15 @@ def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
 def spherical_system(links: int, joints: int) -> int:
     """Spherical systems: M = 3 (N - 1) - 2 J.
 
+    Parameters
+    ----------
+    links, joints : int
+        N, the fixed link included, and J. Every loop has a centre.
+
+    Returns
+    -------
+    int
+
     Notes
     -----
     Wiener 2016, Eq. 3; Wampler 2007, Eq. 2.
@@ -98,6 +118,19 @@ def spherical_system(links: int, joints: int) -> int:
 
 def polyhedron_equation(vertices: int, implicit_centres: int, edges: int) -> int:
     """Polyhedron model: M = 3 (V + C) - E - 6, with E = E_ext + E_int.
+
+    Parameters
+    ----------
+    vertices : int
+        V, vertices of the links; one that several links share counts once.
+    implicit_centres : int
+        C, loops whose centre the links do not reach.
+    edges : int
+        E_ext, the joints and open edges, and E_int, 2 n - 6 of each link of n sides.
+
+    Returns
+    -------
+    int
 
     Notes
     -----
@@ -115,6 +148,17 @@ def polyhedron_equation(vertices: int, implicit_centres: int, edges: int) -> int
 
 def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
     """Loop form: M = sum f - 3 L_sph - 6 L_spat, over independent loops.
+
+    Parameters
+    ----------
+    freedoms : int
+        Sum of the freedoms of all joints: J, if all are revolute.
+    centred_loops, spatial_loops : int
+        Independent loops with a centre and without.
+
+    Returns
+    -------
+    int
 
     Notes
     -----
@@ -143,6 +187,10 @@ def closed_surface(joints: int, faces: int, spatial_loops: int, centres: Iterabl
         Distinct centres of each closed surface. Six conditions too many are counted if three or more centres
         are not in line, 5 if there are two, 3 if there is one.
 
+    Returns
+    -------
+    int
+
     Notes
     -----
     By duality the joint axes are the bars of a framework whose joints are the centres:
@@ -162,6 +210,15 @@ def closed_surface(joints: int, faces: int, spatial_loops: int, centres: Iterabl
 def wampler_rods(vertices: int, rods: int) -> int:
     """Vertices and rods: M = 3 V - E - 6 (Wampler 2007, Eq. 5).
 
+    Parameters
+    ----------
+    vertices, rods : int
+        V and E, those of the fixed link too.
+
+    Returns
+    -------
+    int
+
     Examples
     --------
     Wampler's Fig. 9, a spherical four-bar:
@@ -174,6 +231,17 @@ def wampler_rods(vertices: int, rods: int) -> int:
 
 def wampler_points(vertices: int, rods: int, on_plane: int, on_line: int) -> int:
     """Add points on planes and lines: M = 3 V - E - P - 2 L - 6 (Wampler 2007, Eq. 6).
+
+    Parameters
+    ----------
+    vertices, rods : int
+        As of `wampler_rods`.
+    on_plane, on_line : int
+        P and L: points that stay on a plane of a link, on a line of one.
+
+    Returns
+    -------
+    int
 
     Examples
     --------
@@ -191,8 +259,13 @@ def wampler_remote(vertices: int, rods: int, on_plane: int, on_line: int, remote
     Parameters
     ----------
     vertices, rods, on_plane, on_line : int
+        As of `wampler_points`.
     remote : iterable of int
         k of each remote centre; Eq. 7 is the case that all are 3.
+
+    Returns
+    -------
+    int
 
     Examples
     --------
@@ -208,6 +281,19 @@ def wampler_scissors(
     vertices: int, rods: int, on_plane: int, on_line: int, remote: Iterable[int], scissors: int
 ) -> int:
     """Add scissors: M = 3 V + sum k S_{+k} - E - P - 2 L - 5 X - 6 (Wampler 2007, Eq. 9).
+
+    Parameters
+    ----------
+    vertices, rods, on_plane, on_line : int
+        As of `wampler_points`.
+    remote : iterable of int
+        k of each remote centre.
+    scissors : int
+        X: pairs of bars hinged where they cross; their rods are not counted.
+
+    Returns
+    -------
+    int
 
     Examples
     --------
@@ -226,6 +312,17 @@ def wampler_ground_free(
 
     V and E leave out the vertices of the ground link and the rods between them.
 
+    Parameters
+    ----------
+    vertices, rods : int
+        V and E without the vertices of the ground link and the rods between them.
+    on_plane, on_line, remote, scissors
+        As of `wampler_scissors`.
+
+    Returns
+    -------
+    int
+
     Examples
     --------
     Wampler's Fig. 16, a platform on three C-R-S legs:
@@ -238,6 +335,14 @@ def wampler_ground_free(
 
 def mobility_of_model(model: PolyhedronModel) -> int:
     """Return the mobility of a polyhedron model: Eq. 10 where it has a ground link, else Eq. 9.
+
+    Parameters
+    ----------
+    model : PolyhedronModel
+
+    Returns
+    -------
+    int
 
     Examples
     --------
@@ -258,6 +363,17 @@ def mobility_of_model(model: PolyhedronModel) -> int:
 
 def overconstraint(actual: int, generic: int) -> int:
     """Overconstraint: h = M_actual - M (Wiener 2016, Eq. 8).
+
+    Parameters
+    ----------
+    actual : int
+        Freedoms of the mechanism as it is, at its pose.
+    generic : int
+        Mobility of a general member of its type.
+
+    Returns
+    -------
+    int
 
     Examples
     --------

@@ -11,6 +11,17 @@ __all__ = ["relative_cgk", "relative_polyhedron", "relative_spherical_system"]
 def relative_cgk(links: int, joints: int, constraint_space: int) -> int:
     """Modified C-G-K: dM = lambda (dN - dJ) + dJ (Wiener 2016, Eq. 5).
 
+    Parameters
+    ----------
+    links, joints : int
+        dN and dJ: links and joints added, negative if taken away.
+    constraint_space : int
+        lambda of the loops closed: 3 with a centre, 6 without.
+
+    Returns
+    -------
+    int
+
     Examples
     --------
     A spatial chain of three links and four joints between two links:
@@ -24,6 +35,15 @@ def relative_cgk(links: int, joints: int, constraint_space: int) -> int:
 def relative_spherical_system(links: int, joints: int) -> int:
     """Spherical systems: dM = 3 dN - 2 dJ (Wiener 2016, Eq. 6).
 
+    Parameters
+    ----------
+    links, joints : int
+        dN and dJ: links and joints added, negative if taken away. The loops closed have centres.
+
+    Returns
+    -------
+    int
+
     Examples
     --------
     A ride-along addendum (4.2.4), and locking a joint (6.3.2):
@@ -36,6 +56,15 @@ def relative_spherical_system(links: int, joints: int) -> int:
 
 def relative_polyhedron(vertices: int, implicit_centres: int, edges: int) -> int:
     """Polyhedron model: dM = 3 (dV + dC) - dE (Wiener 2016, Eq. 7).
+
+    Parameters
+    ----------
+    vertices, implicit_centres, edges : int
+        dV, dC and dE: what is added of each, negative if taken away.
+
+    Returns
+    -------
+    int
 
     Notes
     -----

@@ -49,6 +49,12 @@ class EquationResult:
         Whether the equation holds for mechanisms of this class.
     why : str
         Why, or why not.
+
+    Examples
+    --------
+    >>> result = mobility_report(SCGraph(3, [(0, 1), (1, 2), (2, 0)])).equations["spherical_system"]
+    >>> result.applies, result.why
+    (False, '1 of 1 loop(s) are spatial')
     """
 
     value: int | None
@@ -75,6 +81,12 @@ class MobilityReport:
     counts : mapping of str to int
         Further counts: V, C, E_ext, E_int, spatial loops, parts, ... as far as the input tells.
     repairs, warnings : tuple of str
+
+    Examples
+    --------
+    >>> report = mobility_report(SCGraph(4, [(0, 1), (1, 2), (2, 3)]))
+    >>> report.mechanism_class, report.mobility, report.equations["loop_form"].value
+    ('spatial', 3, 3)
     """
 
     mechanism_class: str
@@ -152,10 +164,25 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
 def mechanism_class(sc: SCGraph) -> str:
     """Return the class of a mechanism (Wiener 2016, Fig. 37).
 
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+
+    Returns
+    -------
+    {"spherical", "planar", "spherical system", "hybrid", "spatial", "exceptional"}
+        ``exceptional``: some loop that depends on others has a centre too.
+
     Examples
     --------
+    An open chain has no loop with a centre, Watt's chain two different centres:
+
+    >>> from graphs.loops.loop import Loop
     >>> mechanism_class(SCGraph(3, [(0, 1), (1, 2)]))
     'spatial'
+    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> mechanism_class(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
+    'spherical system'
     """
     if sc.is_closed:
         return "exceptional"

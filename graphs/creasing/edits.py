@@ -32,6 +32,12 @@ class SheetEdit:
         The pattern before and after.
     equation : str
         The equation that predicts the change of mobility.
+
+    Examples
+    --------
+    >>> edit = lock_crease(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3))), 0)
+    >>> edit.what, edit.predicted
+    ('lock crease 0', -1)
     """
 
     what: str
@@ -80,6 +86,10 @@ def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:
     joint : int
         Its id, the number of an edge.
 
+    Returns
+    -------
+    SheetEdit
+
     Raises
     ------
     InvariantError
@@ -113,6 +123,10 @@ def crease_sheet(
     letter : {"U", "M", "V"}, optional
         Assignment of the crease. Flat edges along the line become creases, creases stay.
 
+    Returns
+    -------
+    SheetEdit
+
     Raises
     ------
     InvariantError
@@ -135,6 +149,16 @@ def crease_sheet(
 
 def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
     """Remove a crease with all its pieces: the faces beside it become one. Edges after it move up.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    joint : int
+        Its id, the number of an edge.
+
+    Returns
+    -------
+    SheetEdit
 
     Raises
     ------

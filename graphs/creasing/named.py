@@ -14,6 +14,17 @@ __all__ = ["joint_of_sheet_named"]
 def joint_of_sheet_named(sheet: Sheet, name: str) -> int:
     """Return the joint of a sheet: by the number of any of its edges, or as the one between two panels.
 
+    Parameters
+    ----------
+    sheet : Sheet
+    name : str
+        The number of an edge, such as ``"3"``, or two panels, such as ``"0,1"``.
+
+    Returns
+    -------
+    int
+        Id of the joint: the number of its first edge.
+
     Raises
     ------
     InvariantError

@@ -20,6 +20,15 @@ G = TypeVar("G", bound=SCGraph)
 def planar_analogue(sc: G) -> G:
     """Make all axes parallel: every loop planar, one centre at infinity.
 
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+
+    Returns
+    -------
+    SCGraph or SCDGraph
+        Of the kind given.
+
     Raises
     ------
     UnsolvableError
@@ -40,6 +49,15 @@ def planar_analogue(sc: G) -> G:
 def spherical_analogue(sc: G) -> G:
     """Let all axes meet in one point: every loop spherical, one finite centre.
 
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+
+    Returns
+    -------
+    SCGraph or SCDGraph
+        Of the kind given.
+
     Raises
     ------
     UnsolvableError
@@ -57,6 +75,16 @@ def spherical_analogue(sc: G) -> G:
 
 def generalised_form(sc: G) -> G:
     """Let the centres be as different as the joints allow: every loop with a centre has a finite one of its own.
+
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+        Loops without a centre stay as they are.
+
+    Returns
+    -------
+    SCGraph or SCDGraph
+        Of the kind given.
 
     Examples
     --------

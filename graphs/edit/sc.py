@@ -35,6 +35,12 @@ class Edit:
         The change of mobility that the relative equation gives for the parts added and taken away.
     equation : str
         That equation.
+
+    Examples
+    --------
+    >>> edit = lock_joint(SCGraph(3, [(0, 1), (1, 2)]), 0)
+    >>> edit.what, edit.predicted, edit.counted, edit.equation
+    ('lock joint 0', -1, -1, 'Eq. 6')
     """
 
     what: str
@@ -153,6 +159,16 @@ def add_loop(
 def add_ride_along(sc: SCGraph, a: LinkId, b: LinkId) -> Edit:
     """Append a ride-along to two adjacent links: two links, three joints, one finite centre, dM = 0.
 
+    Parameters
+    ----------
+    sc : SCGraph
+    a, b : link ids
+        Links with one joint between them.
+
+    Returns
+    -------
+    Edit
+
     Raises
     ------
     InvariantError, UnsolvableError
@@ -228,6 +244,15 @@ def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
 
 def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
     """Lock a joint: its two links become one, the first. dM = -1 (thesis 6.3.2).
+
+    Parameters
+    ----------
+    sc : SCGraph
+    joint : joint id
+
+    Returns
+    -------
+    Edit
 
     Raises
     ------

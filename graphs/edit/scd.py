@@ -225,6 +225,11 @@ def ride_along(scd: SCDGraph, joint: JointId, sides: tuple[int, int] = (3, 3)) -
 def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     """Lock a joint: its two links become one polygon, that of the first. dM = -1 (thesis 6.3.2).
 
+    Parameters
+    ----------
+    scd : SCDGraph
+    joint : joint id
+
     Returns
     -------
     Edit

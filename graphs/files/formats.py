@@ -57,6 +57,12 @@ class Entry:
     label : str
         The file, and the line where it holds several.
     mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph or Sheet
+
+    Examples
+    --------
+    >>> [entry] = read_all("k1:Cr")
+    >>> entry.label, entry.mechanism.number_of_nodes()
+    ('k1:Cr', 4)
     """
 
     label: str
@@ -66,10 +72,34 @@ class Entry:
 def read_all(path: str | Path) -> Iterator[Entry]:
     """Yield every mechanism of a file; most files hold one, graph6 files one a line, an id is one.
 
+    Parameters
+    ----------
+    path : str or Path
+        A file of any extension of `READERS`, or an id (``k1:...``, ``m1:...``).
+
+    Yields
+    ------
+    Entry
+
     Raises
     ------
     FileError
         If the file cannot be read.
+    InvariantError
+        If an id is none.
+
+    Examples
+    --------
+    Two chains in a file of graph6, with the lines they are on:
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "chains.g6")
+    ...     _ = path.write_text(chr(10).join(("Cr", "Bw")))
+    ...     for entry in read_all(path):
+    ...         print(entry.label.removeprefix(folder)[1:], len(entry.mechanism))
+    chains.g6:1 4
+    chains.g6:2 3
     """
     if is_id(path):
         yield Entry(str(path), mechanism_of_id(str(path)))
@@ -202,6 +232,16 @@ def write(
         If the extension is not known, the file cannot be written, or is there already.
     UnsolvableError
         If the format cannot hold the mechanism, or not without another type.
+
+    Examples
+    --------
+    A bare graph has no place for centres, so it is another type; ``lossy`` writes it all the same:
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     four_bar = mechanism_of_id("m1:ab.ac.bd.cd")
+    ...     write(four_bar, Path(folder, "four-bar.json")), write(four_bar, Path(folder, "bare.g6"), lossy=True)
+    ((), ('1 loop and its centre',))
     """
     path = Path(path)
     suffix = path.suffix.lower()

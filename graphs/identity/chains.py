@@ -47,6 +47,13 @@ def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
 def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[int], list[list[int]], int]:
     """Return canonical numbers of the links of a simple graph, and its automorphisms.
 
+    Parameters
+    ----------
+    links : int
+        Links are 0 to ``links - 1``.
+    joints : iterable of (int, int)
+        Pairs of links; no pair twice.
+
     Returns
     -------
     order : list of int
@@ -132,6 +139,16 @@ def chain_id(graph: nx.Graph) -> str:
 
 def chain_from_id(code: str) -> nx.Graph:
     """Return the link-joint graph of an id; its links are 0 to N - 1.
+
+    Parameters
+    ----------
+    code : str
+        ``k1:``, and a graph6 or sparse6.
+
+    Returns
+    -------
+    networkx.Graph
+        A multigraph, if links share several joints.
 
     Raises
     ------

@@ -44,6 +44,16 @@ def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
 def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
     """Return permutations of the links that generate the symmetries of a mechanism.
 
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+        Of an SCD graph the sides of the links do not count.
+
+    Returns
+    -------
+    list of dict of link id to link id
+        Each with the image of every link; empty if there is no symmetry but the identity.
+
     Examples
     --------
     >>> from graphs.loops.loop import Loop

@@ -64,10 +64,27 @@ def map_code(mechanism: SCGraph) -> tuple[list[int], str]:
 
     The labels are empty where all centres are finite.
 
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+        As for `map_id`.
+
+    Returns
+    -------
+    symbols : list of int
+        The least of all readings.
+    labels : str
+        A letter for each bounded face; empty where all centres are finite.
+
     Raises
     ------
     UnsolvableError
         As `map_id`.
+
+    Examples
+    --------
+    >>> map_code(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3), "infinite")]))
+    ([2, 3, 1, 2, 4, 1, 3, 5, 1, 4, 5, 1], 'i')
     """
     _check_drawn(mechanism)
     rotation, outer = drawing_of(mechanism)
@@ -188,6 +205,15 @@ def mechanism_from_map_id(code: str) -> SCGraph:
 
     Links and joints are numbered as the id reads them.
 
+    Parameters
+    ----------
+    code : str
+        ``m1:...``, least or not.
+
+    Returns
+    -------
+    SCGraph or SCDGraph
+
     Raises
     ------
     InvariantError
@@ -278,6 +304,13 @@ def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
     ------
     UnsolvableError
         If the loops are not faces.
+
+    Examples
+    --------
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> rotation, outer = drawing_of(four_bar)
+    >>> rotation[0], outer
+    ((0, 3), (1, 1))
     """
     if isinstance(mechanism, SCDGraph):
         corner = mechanism.faces[mechanism.drawing.outer_face].corners[0]

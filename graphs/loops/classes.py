@@ -31,6 +31,11 @@ class CentreClass:
         Every joint whose axis passes through the centre.
     centre : Centre
         ``FINITE`` or ``INFINITE``.
+
+    Examples
+    --------
+    >>> centre_classes([Loop((0, 1, 2)), Loop((1, 2, 3))])[0].loops
+    (0, 1)
     """
 
     loops: tuple[int, ...]
@@ -86,6 +91,15 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
 
 def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
     """Return the index of the class of each loop that has one.
+
+    Parameters
+    ----------
+    classes : sequence of CentreClass
+
+    Returns
+    -------
+    dict of int to int
+        Index of a loop to that of its class, in the order of the classes; loops without a centre are left out.
 
     Examples
     --------

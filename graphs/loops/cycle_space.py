@@ -27,6 +27,10 @@ __all__ = [
 def check_independent(loops: Sequence[Loop]) -> None:
     """Refuse loops that are not independent over GF(2).
 
+    Parameters
+    ----------
+    loops : sequence of Loop
+
     Raises
     ------
     InvariantError
@@ -58,6 +62,14 @@ def check_independent(loops: Sequence[Loop]) -> None:
 def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
     """Return the index of a cycle that is a GF(2) sum of others, or None if they are independent.
 
+    Parameters
+    ----------
+    cycles : sequence of sequences of joint ids
+
+    Returns
+    -------
+    int or None
+
     Examples
     --------
     >>> dependent_loop([(0, 1, 2), (2, 3, 4), (0, 1, 3, 4)])
@@ -83,6 +95,15 @@ def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], lis
 
     Round the vertices of a closed surface the last cycle is the sum of the others.
 
+    Parameters
+    ----------
+    cycles : sequence of sequences of joint ids
+
+    Returns
+    -------
+    kept, dependent : list of int
+        Ascending. The cycles kept are as many as the rank of all.
+
     Examples
     --------
     Three cycles that close, and one by itself:
@@ -100,6 +121,16 @@ def added_independent(
     given: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]
 ) -> list[int]:
     """Return the indices of the candidates that are no GF(2) sum of given cycles and earlier candidates.
+
+    Parameters
+    ----------
+    given, candidates : sequence of collections of joint ids
+        Cycles; the given ones may depend on each other.
+
+    Returns
+    -------
+    list of int
+        Ascending.
 
     Examples
     --------
@@ -119,6 +150,17 @@ def added_independent(
 
 def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:
     """Return the indices of cycles that sum to a given one over GF(2), or None if it is no such sum.
+
+    Parameters
+    ----------
+    cycle : collection of joint ids
+    cycles : sequence of collections of joint ids
+        May depend on each other: then the sum is one of several.
+
+    Returns
+    -------
+    tuple of int, or None
+        Ascending.
 
     Examples
     --------
@@ -193,6 +235,18 @@ def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[Joi
 
 def signed_cycle(cycle: Sequence[JointId], joints: Joints) -> Iterator[tuple[JointId, int]]:
     """Yield the joints of a cycle with 1 where it passes from a joint's first link to the second, else -1.
+
+    Parameters
+    ----------
+    cycle : sequence of joint ids
+        In cyclic order, as an SC graph stores its loops.
+    joints : mapping of joint id to (link, link)
+
+    Yields
+    ------
+    joint : joint id
+    sign : int
+        1 or -1.
 
     Examples
     --------

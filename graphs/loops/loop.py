@@ -23,14 +23,26 @@ __all__ = [
 
 
 class Centre(Enum):
-    """Where the joint axes of a loop meet."""
+    """Where the joint axes of a loop meet.
+
+    Attributes
+    ----------
+    FINITE
+        In one point: a spherical loop.
+    INFINITE
+        At infinity: parallel axes, a planar loop.
+    NONE
+        Nowhere: a spatial loop.
+
+    Examples
+    --------
+    >>> Loop((0, 1, 2), "infinite").centre is Centre.INFINITE
+    True
+    """
 
     FINITE = "finite"
-    """In one point: a spherical loop."""
     INFINITE = "infinite"
-    """At infinity: parallel axes, a planar loop."""
     NONE = "none"
-    """Nowhere: a spatial loop."""
 
 
 @dataclass(frozen=True, slots=True)

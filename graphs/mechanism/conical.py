@@ -32,6 +32,12 @@ class ConicalLinkage:
         Signed projected angles, radians; they lead to every joint.
     cone_angle : float or None
         lambda, radians, where the file gives one.
+
+    Examples
+    --------
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> ConicalLinkage(chain, steps={(0, 1): 1.0, (1, 2): 0.5, (0, 3): -1.0}).places()
+    [0.0, 1.0, 1.5, -1.0]
     """
 
     chain: SCGraph

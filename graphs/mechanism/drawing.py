@@ -29,16 +29,31 @@ __all__ = ["Drawing", "FaceKind"]
 
 
 class FaceKind(Enum):
-    """What lies in a face of a drawing."""
+    """What lies in a face of a drawing.
+
+    Attributes
+    ----------
+    EXPLICIT
+        A centre that is a vertex of the links themselves.
+    IMPLICIT
+        A remote centre: the axes meet there, the links do not reach it.
+    SPATIAL
+        No centre.
+    OUTER
+        The rest of the sphere; without a centre.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1)])
+    >>> sorted(fan.drawing.kind_of_face(face.index).name for face in fan.faces)
+    ['EXPLICIT', 'OUTER']
+    """
 
     EXPLICIT = "explicit"
-    """A centre that is a vertex of the links themselves."""
     IMPLICIT = "implicit"
-    """A remote centre: the axes meet there, the links do not reach it."""
     SPATIAL = "spatial"
-    """No centre."""
     OUTER = "outer"
-    """The rest of the sphere; without a centre."""
 
 
 class Drawing:

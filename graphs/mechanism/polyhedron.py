@@ -36,6 +36,15 @@ class RemoteCentre:
     rods : tuple of (vertex, vertex), optional
         The rods whose lines pass through the centre.
     name : str, optional
+
+    Examples
+    --------
+    A centre that the links do not reach raises the count by k (Wampler 2007, Eq. 8):
+
+    >>> from graphs.count.equations import mobility_of_model
+    >>> bars = [(0, 1), (2, 3)]
+    >>> [mobility_of_model(PolyhedronModel(4, bars, centres=some)) for some in ((), (RemoteCentre(3),))]
+    [4, 7]
     """
 
     k: int
@@ -52,6 +61,15 @@ class PointConstraint:
     vertex : vertex id
     of : tuple of vertex ids, or "ground"
         The vertices that span the line or plane.
+
+    Examples
+    --------
+    A point on a line gives up two freedoms:
+
+    >>> from graphs.count.equations import mobility_of_model
+    >>> bars = [(0, 1), (2, 3)]
+    >>> [mobility_of_model(PolyhedronModel(4, bars, on_line=on)) for on in ((), (PointConstraint(0, (2, 3)),))]
+    [4, 2]
     """
 
     vertex: VertexId

@@ -44,6 +44,12 @@ class Corner:
         Number of open edges between them.
     first_side, last_side : int
         Indices in the rotation of the entering and the leaving joint (of the first open edge, without joints).
+
+    Examples
+    --------
+    >>> faces, _ = trace_faces({"a": (0, 1), "b": (0, 1)}, {0: ("a", "b", None), 1: ("b", "a")})
+    >>> [(corner.link, corner.arriving, corner.leaving) for corner in faces[0].corners]
+    [(1, 'a', 'b'), (0, 'b', 'a')]
     """
 
     link: LinkId
@@ -56,7 +62,27 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A face of the drawing, walked round with the face on the left (a bounded face counter-clockwise)."""
+    """A face of the drawing, walked round with the face on the left (a bounded face counter-clockwise).
+
+    Attributes
+    ----------
+    index : int
+        Its place in the list of faces.
+    corners : tuple of Corner
+        In the order of the walk.
+    open_edges : int
+        Of all its corners.
+
+    Examples
+    --------
+    The two faces of a ring of three links with an open edge each:
+
+    >>> ring = {0: ("a", "b"), 1: ("b", "c"), 2: ("c", "a")}
+    >>> joints = {"a": (2, 0), "b": (0, 1), "c": (1, 2)}
+    >>> faces, _ = trace_faces(joints, {link: (*sides, None) for link, sides in ring.items()})
+    >>> [(len(face.joints), face.open_edges) for face in faces]
+    [(3, 3), (3, 0)]
+    """
 
     index: int
     corners: tuple[Corner, ...]

@@ -55,6 +55,21 @@ def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
     ------
     InvariantError
         ``rule`` is the first column of the table.
+
+    Examples
+    --------
+    Four triangles round a vertex obey the rules. That vertex cannot be a centre at infinity:
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> check_rules(fan.drawing, fan.centre_classes())
+    >>> loops = [Loop(loop.joints, "infinite") for loop in fan.loops]
+    >>> planar = Drawing(fan.joints, fan.rotation, fan.outer, loops)
+    >>> try:
+    ...     check_rules(planar, fan.centre_classes())
+    ... except InvariantError as error:
+    ...     print(error.rule)
+    explicit centre
     """
     for face in drawing.faces:
         _check_face(drawing, face)
@@ -66,13 +81,69 @@ def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
 
 
 def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[JointId, frozenset[int]]:
-    """Return the points on the axis of each joint: its two ends and the centres it passes through."""
+    """Return the points on the axis of each joint: its two ends and the centres it passes through.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        With its loops placed.
+    classes : sequence of CentreClass
+        Of these loops.
+
+    Returns
+    -------
+    dict of joint id to frozenset of int
+        Below ``drawing.vertex_count`` the vertices, from there on the centres that are no vertices.
+
+    Raises
+    ------
+    InvariantError
+        If a class has two explicit centres.
+
+    Examples
+    --------
+    The axes of four triangles round a vertex have it in common:
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> points = points_of_joints(fan.drawing, fan.centre_classes())
+    >>> len(frozenset.intersection(*points.values())), [len(here) for here in points.values()]
+    (1, [2, 2, 2, 2])
+    """
     ends = {joint: drawing.ends_of_joint(joint) for joint in drawing.joints}
     return _with_centres(ends, classes, _centre_points(drawing, classes))
 
 
 def points_of_links(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[LinkId, frozenset[int]]:
-    """Return the points of each link: its vertices and the centres on the axes of its joints."""
+    """Return the points of each link: its vertices and the centres on the axes of its joints.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        With its loops placed.
+    classes : sequence of CentreClass
+        Of these loops.
+
+    Returns
+    -------
+    dict of link id to frozenset of int
+        Numbers as of `points_of_joints`.
+
+    Raises
+    ------
+    InvariantError
+        If a class has two explicit centres.
+
+    Examples
+    --------
+    Four triangles round a vertex have it in common, and no point besides their own corners:
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> points = points_of_links(fan.drawing, fan.centre_classes())
+    >>> len(frozenset.intersection(*points.values())), [len(here) for here in points.values()]
+    (1, [3, 3, 3, 3])
+    """
     points = {link: set(here) for link, here in drawing.vertices.items()}
     for one, point in zip(classes, _centre_points(drawing, classes), strict=True):
         for joint in one.joints:

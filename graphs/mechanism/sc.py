@@ -44,6 +44,11 @@ class SCGraph(nx.MultiGraph):
     ground : link id, optional
         The fixed link; without it the graph is a kinematic chain.
 
+    Attributes
+    ----------
+    centres_assumed : bool
+        Whether nobody gave the centres, and each face of an embedding was taken for a loop with one.
+
     Raises
     ------
     InvariantError
@@ -71,7 +76,6 @@ class SCGraph(nx.MultiGraph):
     closing: tuple[Loop, ...]
     ground: LinkId | None
     centres_assumed: bool = False
-    """Whether nobody gave the centres, and each face of an embedding was taken for a loop with one."""
 
     def __init__(
         self,

@@ -38,6 +38,13 @@ class FeatureCounts:
     internal_edges : int
         E_int, the sum of 2n - 6 over the links of n >= 4 sides.
     open_edges, faces : int
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> counts = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1)]).counts
+    >>> counts.vertices, counts.external_edges, counts.internal_edges
+    (4, 6, 0)
     """
 
     vertices: int
@@ -65,6 +72,11 @@ class SCDGraph(SCGraph):
     outer : (joint, "left" or "right"), optional
         The outer face: the one on that side of the joint, looking from its first link to its second. May be
         left out where there is one face only (trees).
+
+    Attributes
+    ----------
+    drawing : Drawing
+        Its faces and vertices.
 
     Raises
     ------

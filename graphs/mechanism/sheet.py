@@ -146,6 +146,15 @@ class Sheet:
 def sheet_from_model(model: PolyhedronModel) -> Sheet:
     """Return the sheet whose faces are the links of a polyhedron model.
 
+    Parameters
+    ----------
+    model : PolyhedronModel
+
+    Returns
+    -------
+    Sheet
+        Rods between two links are unassigned creases; coordinates go with it.
+
     Raises
     ------
     InvariantError
@@ -173,6 +182,14 @@ def with_all_edges(sheet: Sheet) -> Sheet:
 
     Sides between two faces that were not listed are unassigned creases, in the order of the faces, and come first:
     their places in the list are the ids of their joints. Other sides are borders.
+
+    Parameters
+    ----------
+    sheet : Sheet
+
+    Returns
+    -------
+    Sheet
 
     Examples
     --------

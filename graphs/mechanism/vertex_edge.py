@@ -97,6 +97,15 @@ class VertexEdgeGraph:
 def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
     """Return the SC graph: one link a sector of the sheet, one joint a crease, one finite centre a vertex.
 
+    Parameters
+    ----------
+    graph : VertexEdgeGraph
+
+    Returns
+    -------
+    SCGraph
+        Joints have the names of the creases, loops those of the vertices.
+
     Raises
     ------
     InvariantError
@@ -142,6 +151,15 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
 
 def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
     """Return the vertex-edge graph of an SC graph: a vertex for each loop, the joints round it in order.
+
+    Parameters
+    ----------
+    sc : SCGraph
+
+    Returns
+    -------
+    VertexEdgeGraph
+        Vertices have the names of the loops, or their numbers; numbers only where two names are equal.
 
     Raises
     ------

@@ -50,6 +50,15 @@ class Closure:
 def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
     """Return the loops of a mechanism, with cycles that complete them to a basis; these have no centre.
 
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+
+    Returns
+    -------
+    tuple of Loop
+        Those of the mechanism first.
+
     Examples
     --------
     >>> [loop.centre.value for loop in independent_cycles(SCGraph(3, [(0, 1), (1, 2), (2, 0)]))]
@@ -90,6 +99,24 @@ def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, 
     centres : mapping of loop index to (x, y, z, w)
         The centre of each loop that has one.
     field : Field
+
+    Returns
+    -------
+    Closure
+        Rows of 3 equations for a loop with a centre, 6 for one without.
+
+    Examples
+    --------
+    A general spherical four-bar, modulo a prime: three equations of four rates.
+
+    >>> from graphs.rank.fields import PrimeField
+    >>> from graphs.rank.general_member import realise
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> field = PrimeField(101)
+    >>> member = realise(four_bar, field)
+    >>> closure = closure_of(four_bar, member.axes, {0: member.points[0]}, field)
+    >>> len(closure.rows), closure.joints
+    (3, (0, 1, 2, 3))
     """
     joints = sc.joints
     column = {joint: i for i, joint in enumerate(joints)}

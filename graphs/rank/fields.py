@@ -18,7 +18,16 @@ PRIMES = (2**61 - 1, 2**61 - 31)
 
 
 class Field(Protocol):
-    """Numbers that are added, multiplied, drawn at random, inverted, and told from zero."""
+    """Numbers that are added, multiplied, drawn at random, inverted, and told from zero.
+
+    Examples
+    --------
+    A member of a type is placed with any of them; the rank modulo a prime is exact:
+
+    >>> fields: list[Field] = [PrimeField(7), Reals()]
+    >>> [field.is_zero(field.reduce(field.inverse(2) * 2 - 1)) for field in fields]
+    [True, True]
+    """
 
     def random(self) -> Any:
         """Return a random number."""
@@ -72,6 +81,11 @@ class PrimeField:
 
 class Reals:
     """Floating-point numbers; random ones are normally distributed.
+
+    Parameters
+    ----------
+    seed : int, optional
+        Of the random numbers; the same seed gives the same member.
 
     Examples
     --------

@@ -42,6 +42,14 @@ class Incidence:
         All joints.
     points : tuple of (frozenset of joint ids, bool)
         The joints through each point, and whether it lies at infinity.
+
+    Examples
+    --------
+    Two spherical loops with a joint in common: its axis passes through both centres.
+
+    >>> incidence = Incidence((0, 1, 2), ((frozenset((0, 1)), False), (frozenset((1, 2)), False)))
+    >>> sum(1 in joints for joints, _ in incidence.points)
+    2
     """
 
     joints: tuple[JointId, ...]
@@ -58,6 +66,16 @@ class Realisation:
         In the order of the incidence.
     axes : mapping of joint id to (u, m)
         Direction u and moment p x u.
+
+    Examples
+    --------
+    Direction and moment of a line are perpendicular, modulo a prime too:
+
+    >>> from graphs.rank.fields import PrimeField
+    >>> member = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
+    >>> u, m = member.axes[0]
+    >>> sum(a * b for a, b in zip(u, m, strict=True)) % 101
+    0
     """
 
     points: tuple[Point, ...]
@@ -107,19 +125,45 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     ----------
     mechanism : SCGraph or SCDGraph
     field : Field
+        Where its random numbers come from: the same seed gives the same member.
     forced : bool, optional
         As for `incidence_of`.
+
+    Returns
+    -------
+    Realisation
 
     Raises
     ------
     UnsolvableError
         If centres that must lie in line could not be placed: the type is not realised.
+
+    Examples
+    --------
+    Watt's chain: two centres, and a joint whose axis passes through both.
+
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.rank.fields import PrimeField
+    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
+    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> member = realise(watt, PrimeField(101))
+    >>> len(member.points), member.axes[3] == join(*member.points, PrimeField(101))
+    (2, True)
     """
     return realise_points(incidence_of(mechanism, forced=forced), field)
 
 
 def realise_points(incidence: Incidence, field: Field) -> Realisation:
     """Place points and axes.
+
+    Parameters
+    ----------
+    incidence : Incidence
+    field : Field
+
+    Returns
+    -------
+    Realisation
 
     Raises
     ------

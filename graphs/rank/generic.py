@@ -38,6 +38,13 @@ class ExactMobility:
         The primes modulo which the rank was found, each time at another random member.
     forced : bool
         Whether the vertices of an SCD graph were placed too.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> found = exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> found.mobility, found.unknowns, found.rank
+    (1, 4, 3)
     """
 
     mobility: int

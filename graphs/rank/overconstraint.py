@@ -40,6 +40,15 @@ class Diagnosis:
         Joints that no motion turns.
     clusters : tuple of tuple of link ids
         Links that move as one, two or more together.
+
+    Examples
+    --------
+    Three links round a centre do not move:
+
+    >>> from graphs.loops.loop import Loop
+    >>> found = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))
+    >>> found.mobility, found.idle, found.immobile
+    (0, 0, (0, 1, 2))
     """
 
     mobility: int
@@ -152,6 +161,12 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
     ----------
     mechanism : SCGraph or SCDGraph
     joint : joint id
+    forced, seed
+        As for `graphs.rank.generic.exact_mobility`.
+
+    Returns
+    -------
+    int
 
     Examples
     --------

@@ -75,6 +75,15 @@ class PoseMobility:
         Of the coordinates: what singular values are judged by.
     flat_loops : int
         Loops with a centre whose axes lie in one plane, which gives them a freedom more than when folded.
+
+    Examples
+    --------
+    Flat, a vertex of four creases has a freedom more than when it is folded:
+
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> flat.dof, flat.self_stresses, flat.flat
+    (2, 1, True)
     """
 
     dof: int | None
@@ -205,12 +214,25 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     model : PolyhedronModel
         With coordinates.
 
+    Returns
+    -------
+    PoseMobility
+
     Raises
     ------
     UnsolvableError
         If it has no coordinates, or the bars of a scissors element do not cross there.
     InvariantError
         If a rod has no length.
+
+    Examples
+    --------
+    A square of four rods shears in its plane, and folds along a diagonal:
+
+    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}
+    >>> square = PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)
+    >>> pose_mobility_of_model(square).dof
+    2
     """
     if not model.coordinates:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the model has none")

@@ -40,6 +40,15 @@ class AssurGroup:
         Joints between them, and to the ground link or earlier groups.
     inputs : tuple of joint ids
         Those of the joints that are inputs.
+
+    Examples
+    --------
+    A four-bar driven at its crank: the crank is placed by itself, coupler and follower together.
+
+    >>> from graphs.loops.loop import Loop
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> [sorted(group.links) for group in assur_groups(ring, 0, [0])]
+    [[1], [2, 3]]
     """
 
     links: tuple[LinkId, ...]
@@ -58,6 +67,14 @@ class AssurReduction:
         All groups, each after those it hangs on.
     removed : tuple of AssurGroup
         In the order in which they were taken off.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> reduction = reduce_assur(ring, 0, [0])
+    >>> len(reduction.groups), len(reduction.graph)
+    (2, 2)
     """
 
     before: SCGraph

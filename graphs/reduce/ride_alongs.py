@@ -41,6 +41,14 @@ class ReductionStep:
         The joint a-b that takes their place; None for a dyad.
     sits_on : int or None
         The step that takes off a or b later on: this addendum sits on that one.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> squares = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10)]
+    >>> [step] = reduce(scd_from_panels(squares)).steps
+    >>> step.removed, step.onto, step.sits_on
+    ((0, 1), (2, 3), None)
     """
 
     removed: tuple[LinkId, LinkId]
@@ -63,6 +71,14 @@ class Reduction:
         In the order in which they were taken.
     removals : tuple of Removal
         The same, with what is needed to undo them.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> squares = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10)]
+    >>> reduction = reduce(scd_from_panels(squares))
+    >>> len(reduction.original), len(reduction.graph)
+    (6, 4)
     """
 
     original: SCGraph

@@ -49,6 +49,11 @@ class Filter:
     value : object
         What the column must hold; None: see the limits.
     least, most : int or None
+
+    Examples
+    --------
+    >>> Filter("layers", most=2).admits(3)
+    False
     """
 
     column: str
@@ -260,7 +265,20 @@ class CandidateJob:
 
 @dataclass(frozen=True)
 class CandidateCountJob(Counting):
-    """The number of rows of a job, where they have to be made to be counted."""
+    """The number of rows of a job, where they have to be made to be counted.
+
+    Attributes
+    ----------
+    rows : CandidateJob
+
+    Examples
+    --------
+    >>> from enumerate.runner.running import total_of
+    >>> from graphs.loops.loop import Loop
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> total_of(CandidateCountJob(CandidateJob(chain, (0,))))
+    3
+    """
 
     rows: CandidateJob
 

@@ -35,6 +35,19 @@ def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Scene:
     job : CandidateJob
     row : dict
         Column to value. An order is drawn with joints, and opposites, evenly spaced.
+
+    Returns
+    -------
+    Scene
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
+    >>> job = CandidateJob(chain, (0,))
+    >>> [picture_of_row(job, row).title.split("   ")[:2] for row in job.rows()]
+    [['O A B C', 'open'], ['O A C B', 'crossed'], ['O B A C', 'crossed']]
     """
     linkage = job.linkage(row)
     chain = ConformedChain.of(linkage.chain, linkage.chain.ground)

@@ -45,16 +45,24 @@ _BY_CHORDS = 16
 
 
 class Allowed(IntEnum):
-    """What an order allows a link, or the whole linkage."""
+    """What an order allows a link, or the whole linkage.
+
+    Attributes
+    ----------
+    BOTH
+        Both ways, whatever the angles: exclusively transmobile.
+    ONE
+        One way, whatever the angles: intra- or extramobile, by the sense of the motion.
+    ANGLES
+        Either, by the angles; there are examples of both.
+    UNKNOWN
+        One of these; nothing else was met in samples, and nothing proves it.
+    """
 
     BOTH = 0
-    """Both ways, whatever the angles: exclusively transmobile."""
     ONE = 1
-    """One way, whatever the angles: intra- or extramobile, by the sense of the motion."""
     ANGLES = 2
-    """Either, by the angles; there are examples of both."""
     UNKNOWN = 3
-    """One of these; nothing else was met in samples, and nothing proves it."""
 
 
 @dataclass(frozen=True, slots=True)

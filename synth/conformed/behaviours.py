@@ -37,16 +37,32 @@ _NO_TURN = 1e-13
 
 
 class Way(IntEnum):
-    """Which way a link moves, for one sense of the linkage's motion."""
+    """Which way a link moves, for one sense of the linkage's motion.
+
+    Attributes
+    ----------
+    INWARD, OUTWARD
+        All of it that moves moves towards the axis, or away from it.
+    STILL
+        Not at all to first order: the ground link, or one that turns about the axis.
+    BOTH
+        Some of it in, some out: transmobile.
+    UNKNOWN
+        The linkage has no freedom, or more than one.
+
+    Examples
+    --------
+    The other sense of the motion:
+
+    >>> Way(-Way.OUTWARD).name
+    'INWARD'
+    """
 
     INWARD = -1
     STILL = 0
-    """Not at all to first order: the ground link, or one that turns about the axis."""
     OUTWARD = 1
     BOTH = 2
-    """Some of it in, some out: transmobile."""
     UNKNOWN = 3
-    """The linkage has no freedom, or more than one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,12 +137,30 @@ def behaviour_of_motion(
     ----------
     chain : ConformedChain
     places : float[..., J]
+        Azimuths of the joints, radians.
     motion : FirstOrder
+        Of these places.
     arcs : float[..., N, 2]
+        Where each link lies: start and length of its arc, radians.
+
+    Returns
+    -------
+    Behaviour
 
     Examples
     --------
-    See `behaviour`.
+    What a link does depends on where its material lies: the longest of this open four-bar moves outward over its
+    joints, and both ways if it goes all round the cone.
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)}))
+    >>> places = np.radians([40, 90, 140, 0])
+    >>> motion, arcs = first_order(chain, places), link_arcs(chain, places)
+    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
+    'OUTWARD'
+    >>> arcs[3] = 0, 2 * np.pi
+    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
+    'BOTH'
     """
     t = np.asarray(places, dtype=float)
     ranges = _outward_ranges(motion.motions, np.asarray(arcs, dtype=float))

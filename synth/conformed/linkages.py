@@ -33,7 +33,21 @@ _FAR = 1e12
 
 @dataclass(frozen=True, slots=True)
 class OnCone:
-    """A linkage at its conformed position; without a cone angle, on any cone."""
+    """A linkage at its conformed position; without a cone angle, on any cone.
+
+    Attributes
+    ----------
+    chain : SCGraph
+    places : float[J]
+        Azimuths of the joints, radians, in the order of the chain's joints.
+    cone_angle : float or None
+        lambda, radians; None: any.
+
+    Examples
+    --------
+    >>> loop_of_steps(np.radians([40, 50, 50])).behaviour().way_of(2)
+    'outward'
+    """
 
     chain: SCGraph
     places: Sequence[float]
@@ -146,10 +160,35 @@ def _centre(motion: Floats) -> list[float] | None:
 def linkage_on_cones(linkage: ConicalLinkage, cone_angle: float | None = None) -> list[OnCone]:
     """Return a linkage on each of its cones, from link angles or from steps.
 
+    Parameters
+    ----------
+    linkage : ConicalLinkage
+    cone_angle : float, optional
+        lambda, radians, for steps; by default that of the linkage, or any.
+
+    Returns
+    -------
+    list of OnCone
+        One, if the linkage is given by steps.
+
     Raises
     ------
     UnsolvableError
         If a cone angle is named for link angles, which tell it themselves.
+
+    Examples
+    --------
+    Steps close on any cone; link angles tell on which:
+
+    >>> from graphs.loops.loop import Loop
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    >>> [one] = linkage_on_cones(ConicalLinkage(chain, steps=dict.fromkeys(pairs[:3], np.pi / 2)))
+    >>> np.degrees(one.places).round(9).tolist(), one.cone_angle
+    ([0.0, 90.0, 180.0, 270.0], None)
+    >>> angles = dict(zip(pairs, np.radians([120, 95, 45, 85])))
+    >>> [round(degrees(one.cone_angle), 3) for one in linkage_on_cones(ConicalLinkage(chain, angles=angles))]
+    [13.998, 29.044]
     """
     if linkage.steps is not None:
         return [OnCone(linkage.chain, linkage.places(), cone_angle or linkage.cone_angle)]
@@ -164,6 +203,15 @@ def linkage_on_cones(linkage: ConicalLinkage, cone_angle: float | None = None) -
 def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
     """Return a loop of link angles (radians) on each of its cones.
 
+    Parameters
+    ----------
+    angles : float[n]
+        Link angles, radians.
+
+    Returns
+    -------
+    list of OnCone
+
     Examples
     --------
     >>> [loop.behaviour().way_of(2) for loop in loop_on_cones(np.radians([120, 95, 45, 85]))]
@@ -177,10 +225,27 @@ def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
 def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> OnCone:
     """Return a loop from its steps round the cone (radians); the last is added if the rest do not close.
 
+    Parameters
+    ----------
+    steps : float[n]
+        Signed, radians, in [-pi, pi], none 0.
+    cone_angle : float, optional
+        lambda, radians; any cone without it.
+
+    Returns
+    -------
+    OnCone
+
     Raises
     ------
     InvariantError
         If a step is none, or there are too few.
+
+    Examples
+    --------
+    >>> loop = loop_of_steps(np.radians([120, 95, 45]))
+    >>> np.degrees(loop.places).round(9).tolist()
+    [0.0, 120.0, 215.0, 260.0]
     """
     given = list(steps)
     for place, step in enumerate(given):

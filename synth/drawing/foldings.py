@@ -67,6 +67,21 @@ def write_folding(folding: Folding, path: str | Path, *, force: bool = False) ->
         If the extension is not known, or a file cannot be written or is there already.
     UnsolvableError
         If it is of pixels (.gif, .png), and matplotlib is not installed.
+
+    Examples
+    --------
+    A vertex of four creases, its poses as frames of one file:
+
+    >>> from tempfile import TemporaryDirectory
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.motion import fold
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> folding = fold(Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", faces, corners), frames=3)
+    >>> with TemporaryDirectory() as folder:
+    ...     [path] = write_folding(folding, Path(folder, "vertex.fold"))
+    ...     print(path.name, path.read_text().count("foldedForm"))
+    vertex.fold 4
     """
     path = Path(path)
     check_output(path, force=force)

@@ -100,6 +100,16 @@ class Branch:
         By how much loops do not close there.
     followed : float
         How far the joint that moves most has moved there, radians.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.folding.prepared import prepared
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> branches = prepared(Sheet(5, (), "", faces, corners)).branches.branches
+    >>> [(one.freedoms, one.certainty) for one in branches]
+    [(1, 'proved'), (1, 'proved')]
     """
 
     freedoms: int | None

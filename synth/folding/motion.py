@@ -67,6 +67,14 @@ class Folding:
         Of the vertices in each frame, in the unit of the coordinates.
     repairs : tuple of Mended
         What was done to rounded coordinates before they were moved.
+
+    Examples
+    --------
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> folding = fold(Sheet(5, (), "", faces, corners), frames=3)
+    >>> folding.places.shape, folding.apart < 1e-12
+    ((4, 5, 3), True)
     """
 
     sheet: Sheet

@@ -57,6 +57,12 @@ class FourBarKind:
         How far the rounding of the links may take a difference: no more than that is zero.
     caution : str
         Which differences are taken for zero though they are not quite; empty if none is.
+
+    Examples
+    --------
+    >>> kind = kind_of_planar([4, 1, 4, 3])
+    >>> kind.grashof, kind.input, kind.output
+    ('Grashof', 'crank', 'rocker')
     """
 
     differences: tuple[float, ...]
@@ -304,6 +310,17 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
 
 def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:
     """Return link lengths; refuse what no closed loop has.
+
+    Parameters
+    ----------
+    lengths : float[n]
+        Any unit.
+    links : int, optional
+        How many there must be.
+
+    Returns
+    -------
+    float[n]
 
     Raises
     ------

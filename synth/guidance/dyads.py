@@ -49,6 +49,13 @@ class Dyad:
         From orientation 1, counter-clockwise about G, radians in [0, 2 pi).
     direction : "ccw", "cw" or None
         The direction of a crank that takes the orientations in their order, if there is one.
+
+    Examples
+    --------
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> [dyad] = dyads_of_three(orientations, [(3, 1, 2)])
+    >>> round(float(np.degrees(dyad.link_angle)), 2), dyad.direction
+    (21.81, 'ccw')
     """
 
     fixed: Floats
@@ -118,6 +125,18 @@ def dyad_of(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayL
 
 def dyads_of_three(orientations: Orientations, fixed_axes: Iterable[npt.ArrayLike]) -> tuple[Dyad, ...]:
     """Return the dyads of three orientations whose fixed axes are chosen; there is one for each.
+
+    Parameters
+    ----------
+    orientations : Orientations
+        Three of them.
+    fixed_axes : iterable of float[3]
+        Of any length but zero.
+
+    Returns
+    -------
+    tuple of Dyad
+        In the order of the axes.
 
     Raises
     ------

@@ -98,10 +98,30 @@ def centre_axes(orientations: Orientations, samples: int = 360) -> tuple[AxisCur
 def dyads_of_four(orientations: Orientations, samples: int = 36) -> tuple[Dyad, ...]:
     """Return dyads of four orientations, spread over the curves of their axes.
 
+    Parameters
+    ----------
+    orientations : Orientations
+        Four of them.
+    samples : int, optional
+        As of :func:`centre_axes`.
+
+    Returns
+    -------
+    tuple of Dyad
+
     Raises
     ------
     UnsolvableError
         As :func:`centre_axes`.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100)]
+    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
+    >>> dyads = dyads_of_four(orientations, 12)
+    >>> len(dyads) >= 12, max(dyad.residual for dyad in dyads) < 1e-12
+    (True, True)
     """
     return tuple(
         dyad_of(orientations, g, w)

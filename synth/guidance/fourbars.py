@@ -146,6 +146,16 @@ def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[Guided
     Best are those without defects, and of these those whose transmission angle stays furthest from 0 and 180
     degrees. Pairs with a link of no angle, or of 180 degrees, are left out.
 
+    Parameters
+    ----------
+    orientations : Orientations
+    dyads : iterable of Dyad
+        Of these orientations.
+
+    Returns
+    -------
+    tuple of GuidedFourBar
+
     Examples
     --------
     >>> from synth.guidance.five import dyads_of_five
@@ -168,10 +178,27 @@ def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[Guided
 def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> GuidedFourBar:
     """Return the four-bar of two dyads of the same orientations, with its defects.
 
+    Parameters
+    ----------
+    orientations : Orientations
+    driver, follower : Dyad
+
+    Returns
+    -------
+    GuidedFourBar
+
     Raises
     ------
     UnsolvableError
         If a link has no angle, or one of 180 degrees.
+
+    Examples
+    --------
+    >>> from synth.guidance.dyads import dyads_of_three
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> four_bar = four_bar_of(orientations, *dyads_of_three(orientations, [(3, 1, 2), (-1, 2, 3)]))
+    >>> np.degrees(four_bar.link_angles).round(2).tolist(), four_bar.kind.name, four_bar.defects
+    ([69.08, 21.81, 87.95, 46.21], 'crank-rocker', ())
     """
     links = _link_angles(driver, follower)
     if np.minimum(links, np.pi - links).min() <= _NO_LINK:
@@ -210,10 +237,28 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
     steps : int, optional
         Steps between two orientations.
 
+    Returns
+    -------
+    BodyMotion
+
     Raises
     ------
     UnsolvableError
         If the four-bar has a defect, or does not close all the way.
+
+    Examples
+    --------
+    It passes each orientation; the steps between two are equal in the driver's angle:
+
+    >>> from synth.guidance.dyads import dyads_of_three
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> four_bar = four_bar_of(orientations, *dyads_of_three(orientations, [(3, 1, 2), (-1, 2, 3)]))
+    >>> motion = motion_of(orientations, four_bar, 4)
+    >>> motion.quaternions.shape, motion.keys
+    ((9, 4), (0, 4, 8))
+    >>> products = (motion.quaternions[list(motion.keys)] * orientations.quaternions).sum(axis=1)
+    >>> bool(np.allclose(abs(products), 1.0))
+    True
     """
     if four_bar.defects or four_bar.direction is None:
         raise UnsolvableError(

@@ -71,6 +71,14 @@ class Hoop:
         The axes that must be crossed in this order: S_13, ..., S_1n, S_2n.
     in_order : bool
         Whether they are.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> turned = hoop(Orientations.from_rotation(body), (0, 0, 1))
+    >>> [pair_name(pair) for pair in turned.required], turned.in_order
+    (['S13', 'S23'], True)
     """
 
     direction: Direction

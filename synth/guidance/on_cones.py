@@ -75,6 +75,14 @@ def conical_forms(four_bar: GuidedFourBar) -> tuple[ConicalForm, ...]:
 
     Those with the least sum of link angles come first.
 
+    Parameters
+    ----------
+    four_bar : GuidedFourBar
+
+    Returns
+    -------
+    tuple of ConicalForm
+
     Examples
     --------
     >>> from synth.guidance.five import dyads_of_five

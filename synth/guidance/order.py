@@ -54,6 +54,14 @@ class OrderAnalysis:
     misfit : float
         Largest difference, in radians, between the crank's link angle at an orientation and its mean: zero if the
         dyad passes through all orientations. With four orientations or more most fixed axes have no such dyad.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> found = analyse_order(Orientations.from_rotation(body), (0, 0, 1))
+    >>> found.kept, found.by_inequalities, found.by_crank_angles
+    ('ccw', 'ccw', 'ccw')
     """
 
     hoop: Hoop

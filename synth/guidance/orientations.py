@@ -252,6 +252,17 @@ class Orientations:
 def unit_vector(vector: npt.ArrayLike, name: str = "axis") -> Floats:
     """Return a vector of length one in the direction of another: float[3].
 
+    Parameters
+    ----------
+    vector : float[3]
+        Of any length but zero.
+    name : str, optional
+        What it is, for the message.
+
+    Returns
+    -------
+    float[3]
+
     Raises
     ------
     InvariantError
@@ -275,10 +286,27 @@ def unit_vector(vector: npt.ArrayLike, name: str = "axis") -> Floats:
 def read_orientations(path: str | Path) -> Orientations:
     """Return the orientations of a file (``synthedra/orientations``, docs/files.md).
 
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Orientations
+
     Raises
     ------
     FileError
         If the file cannot be read, or does not hold three or more different rotations.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "turned.json")
+    ...     write_orientations(np.array([[1, 0, 0, 0], [0.6, 0.8, 0, 0], [0.8, 0, 0.6, 0]]), path)
+    ...     len(read_orientations(path))
+    3
     """
     key, rows = orientation_rows(path)
     try:
@@ -305,6 +333,15 @@ def write_orientations(quaternions: Floats, path: str | Path, *, force: bool = F
     ------
     FileError
         If it cannot be written, or is there already.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> turned = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> with TemporaryDirectory() as folder:
+    ...     write_orientations(turned.quaternions, Path(folder, "turned.json"))
+    ...     bool((read_orientations(Path(folder, "turned.json")).quaternions == turned.quaternions).all())
+    True
     """
     write_text(Path(path), json_text(orientations_document(quaternions.tolist())), force=force)
 

@@ -100,6 +100,14 @@ def linkage_on_cone(linkage: OnCone) -> PosedLinkage:
 
     All axes pass through the apex, so all loops have their centre there, whatever the chain says.
 
+    Parameters
+    ----------
+    linkage : OnCone
+
+    Returns
+    -------
+    PosedLinkage
+
     Raises
     ------
     UnsolvableError

@@ -38,6 +38,12 @@ class Generated:
         Of finite motion, as the source says.
     count : int or None
         Mobility by count of a general member of its type.
+
+    Examples
+    --------
+    >>> made = generate("miura")
+    >>> made.generator.name, made.freedoms
+    ('miura', 1)
     """
 
     generator: Generator

@@ -33,6 +33,12 @@ class Parameter:
     default, least, most : float
         Both ends belong to the range; radians.
     meaning : str
+
+    Examples
+    --------
+    >>> from synth.patterns.catalogue import GENERATORS
+    >>> [(one.name, one.unit) for one in GENERATORS["miura"].parameters]
+    [('rows', 'count'), ('columns', 'count'), ('sector', 'angle'), ('straight', 'length'), ('zigzag', 'length')]
     """
 
     name: str

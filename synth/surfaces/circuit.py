@@ -36,6 +36,12 @@ class Circuits:
         it is open.
     residual : float[...]
         Sum of the steps less 2 pi k, radians.
+
+    Examples
+    --------
+    >>> found = circuits(np.radians([90, 90, 90, 90]))
+    >>> bool(found.open), int(found.turns)
+    (True, 1)
     """
 
     open: npt.NDArray[np.bool_]
@@ -96,6 +102,15 @@ def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 
 def wrapped(angles: npt.ArrayLike) -> Floats:
     """Return angles in (-pi, pi].
+
+    Parameters
+    ----------
+    angles : float[...]
+        Radians.
+
+    Returns
+    -------
+    float[...]
 
     Examples
     --------

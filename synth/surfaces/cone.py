@@ -61,6 +61,12 @@ class ConeMap:
         Why there is no cone; empty where there is one.
     supplementary : ConeMap or None
         Of four-bars without a cone: the linkage on the same joint lines whose sum of angles is least.
+
+    Examples
+    --------
+    >>> found = map_to_cones(np.radians([120, 95, 45, 85]))
+    >>> len(found.cones), found.kind.grashof, found.solutions
+    (2, 'Grashof', 'a')
     """
 
     angles: tuple[float, ...]

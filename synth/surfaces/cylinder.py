@@ -41,6 +41,12 @@ class CylinderMap:
     stretched : tuple of tuples of int
         Signs with which the lengths sum to zero within their rounding, and not quite: the loop may be on one more
         circle, too large to be told.
+
+    Examples
+    --------
+    >>> found = map_to_cylinders([4, 3, 5, 1])
+    >>> len(found.cylinders), found.kind.name
+    (2, 'rocker-crank')
     """
 
     lengths: tuple[float, ...]

@@ -83,10 +83,30 @@ def angles_on(linkage: ConicalLinkage, cone: CommonCone) -> dict[Pair, float]:
 def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
     """Return a linkage given by steps and lambda as one that is given by all its link angles.
 
+    Parameters
+    ----------
+    linkage : ConicalLinkage
+        One that is given by link angles is returned as it is.
+
+    Returns
+    -------
+    ConicalLinkage
+
     Raises
     ------
     UnsolvableError
         If lambda is not given.
+
+    Examples
+    --------
+    Four quarter turns round a cone of half apex angle 45 degrees are links of 60 degrees:
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> steps = {(0, 1): np.pi / 2, (1, 2): np.pi / 2, (2, 3): np.pi / 2}
+    >>> given = by_angles(ConicalLinkage(chain, steps=steps, cone_angle=np.pi / 4))
+    >>> {pair: round(degrees(angle), 9) for pair, angle in given.angles.items()}
+    {(0, 3): 60.0, (0, 1): 60.0, (1, 2): 60.0, (2, 3): 60.0}
     """
     if linkage.steps is None:
         return linkage

@@ -59,6 +59,12 @@ class MappedLoop:
         so well is the size known.
     caution : str
         Where rounding decides whether there is a circle, or leaves few digits of its size; else empty.
+
+    Examples
+    --------
+    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> [(one.circuit, one.signs, one.turns) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
+    [('open', (1, 1, 1, 1), 1), ('crossed', (1, 1, -1, -1), 0)]
     """
 
     size: float
@@ -103,6 +109,14 @@ class FamilyOfCircles:
         k, always 0.
     caution : str
         Where the loop sum vanishes within rounding only; else empty.
+
+    Examples
+    --------
+    A parallelogram lies crossed, in two ways, on every cylinder that its longest link can span:
+
+    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> [(float(one.interval[0]), one.interval[1], one.signs) for one in map_to_cylinders([2, 1, 2, 1]).families]
+    [(1.0, inf, (1, 1, -1, -1)), (1.0, inf, (1, -1, -1, 1))]
     """
 
     interval: tuple[float, float]

@@ -61,6 +61,15 @@ class Paper:
 def paper_named(name: str) -> Paper:
     """Return the paper of a name: A4, A3, Letter, or WIDTHxHEIGHT in millimetres.
 
+    Parameters
+    ----------
+    name : str
+        In any case of letters.
+
+    Returns
+    -------
+    Paper
+
     Raises
     ------
     InvariantError

@@ -110,6 +110,14 @@ def write_solids(
         If a number is not one that can be.
     UnsolvableError
         If there are no panels with coordinates, one is not plane, or narrower than the gap, or changes its shape.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> with TemporaryDirectory() as folder:
+    ...     write_solids(square, Path(folder, "square.stl"), size=50)
+    ('hinges, but for the gaps',)
     """
     suffix = _checked(Path(path), force=force)
     whole, poses, left_out = poses_of(sheet)

@@ -75,6 +75,17 @@ def write_template(
         If the extension is not known, or a file cannot be written or is there already.
     UnsolvableError
         If there would be too many pages, or reportlab is not installed.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.templates.template import template_of
+    >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> with TemporaryDirectory() as folder:
+    ...     [path] = write_template(template_of(square, size=50), Path(folder, "square.svg"))
+    ...     print(path.name, path.read_text()[:4])
+    square.svg <svg
     """
     place = Path(path)
     check_template(place, force=force)

@@ -67,10 +67,29 @@ def verdict_of_linkage(linkage: PosedLinkage, precision: Precision, generic: int
     generic : int, optional
         The mobility of its type, with which the sentence compares.
 
+    Returns
+    -------
+    Verdict
+
     Raises
     ------
     UnsolvableError
         If it has too many joints.
+
+    Examples
+    --------
+    A parallelogram of solids, its four axes parallel:
+
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.precision import precision_of
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from graphs.mechanism.solids import HingedSolids
+    >>> from synth.moving.linkages import linkage_of
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+    >>> solids = HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)})
+    >>> print(verdict_of_linkage(linkage_of(solids), precision_of(corners), 1))
+    Moves with 1 freedom from its pose.
     """
     joints = len(linkage.graph.joints)
     if joints > MOST_JOINTS:

@@ -116,6 +116,16 @@ def save_moving_poses(thing: Sheet | Panels, places: Floats, path: str | Path, *
         If matplotlib is not installed.
     FileError
         If the file cannot be written, or is there already.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "square.gif")
+    ...     save_moving_poses(Sheet(4, (), "", ((0, 1, 2, 3),)), np.stack([square, square / 2]), path)
+    ...     print(path.read_bytes()[:6])
+    b'GIF89a'
     """
     frames = [pixels(scene, dots=_DOTS) for scene in pose_scenes(thing, places)]
     beside = Beside(Path(path), force=force)
