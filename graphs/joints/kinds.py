@@ -10,20 +10,35 @@ __all__ = ["JointKind", "kind_named"]
 
 
 class JointKind(Enum):
-    """A kind of joint, by the letter that names of legs use (UPS, RUS)."""
+    """A kind of joint, by the letter that names of legs use (UPS, RUS).
+
+    Attributes
+    ----------
+    REVOLUTE
+        Turns about an axis: a crease.
+    PRISMATIC
+        Slides along a direction.
+    UNIVERSAL
+        Turns about two axes that cross at a right angle, one held by each link.
+    SPHERICAL
+        Turns about a point.
+    CYLINDRICAL
+        Turns about an axis and slides along it.
+    PLANAR
+        Slides in a plane and turns about its normal.
+
+    Examples
+    --------
+    >>> JointKind("U").word, JointKind.UNIVERSAL.freedoms, JointKind.UNIVERSAL.axes
+    ('universal', 2, 2)
+    """
 
     REVOLUTE = "R"
-    """Turns about an axis: a crease."""
     PRISMATIC = "P"
-    """Slides along a direction."""
     UNIVERSAL = "U"
-    """Turns about two axes that cross at a right angle, one held by each link."""
     SPHERICAL = "S"
-    """Turns about a point."""
     CYLINDRICAL = "C"
-    """Turns about an axis and slides along it."""
     PLANAR = "E"
-    """Slides in a plane and turns about its normal."""
 
     @property
     def freedoms(self) -> int:
@@ -54,6 +69,11 @@ _OTHER_WORDS = {"hinge": "R", "slider": "P", "cardan": "U", "hooke": "U", "ball"
 
 def kind_named(text: str) -> JointKind:
     """Return the kind of joint that a word or a letter means, in small or large letters.
+
+    Parameters
+    ----------
+    text : str
+        Such as ``U``, ``universal`` or ``cardan``.
 
     Raises
     ------

@@ -49,7 +49,16 @@ _KEYWORDS = ("and", "or", "not", "in", "between", "like", "contains", "is", "kno
 
 
 class ExpressionError(InvariantError):
-    """A condition that cannot be read; the message shows the word in square brackets where it stands."""
+    """A condition that cannot be read; the message shows the word in square brackets where it stands.
+
+    Examples
+    --------
+    >>> try:
+    ...     condition_of("links 8", {"links": int})
+    ... except ExpressionError as error:
+    ...     print(error)
+    [links] 8: 'links' is not compared with anything; expected =, <, in, like, contains or is known ...
+    """
 
 
 class Condition(NamedTuple):

@@ -103,6 +103,16 @@ class Atlas:
     Attributes
     ----------
     path : Path
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.atlas import AtlasPlan, build_atlas
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
+    ...     rows = Atlas(Path(folder) / "a.sqlite").query("all_explicit and vertices <= 6")
+    >>> [(row["id"], row["vertices"]) for row in rows]
+    [('m1:a-b.ac-.b-d.cd-', 5), ('m1:a--b.ac-.b-d.cd-', 6)]
     """
 
     path: Path
