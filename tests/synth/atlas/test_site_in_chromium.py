@@ -81,8 +81,9 @@ def test_a_type_has_a_page_on_which_it_folds(site: Path, tab: Any) -> None:
     tab.goto(f"{site.as_uri()}#kind=scd&realised=yes")
     tab.locator(".card").first.click()
     tab.wait_for_selector("main[data-ready]", timeout=20_000)
-    tab.get_by_label("Angle, degrees").fill("40")
-    tab.get_by_label("Angle, degrees").press("Enter")
+    angle = tab.locator(".sliders input[type=number]").first
+    angle.fill("40")
+    angle.press("Enter")
     expect(tab.locator(".status")).to_have_text(re.compile("close"))
     assert tab.get_by_role("link", name="template to print").count() == 1
     tab.get_by_role("link", name="k1:Cr").first.click()
