@@ -321,3 +321,10 @@ def test_plans_say_what_is_wrong() -> None:
         AtlasPlan(6, dofs=(1, 1))
     with pytest.raises(InvariantError, match="no chain is named"):
         AtlasPlan(6, orders_of=("wat",))
+
+
+def test_rows_as_a_data_frame(small_atlas: Atlas) -> None:
+    pytest.importorskip("pandas")
+    frame = small_atlas.query("kind = chain", columns=["id", "links"]).to_frame()
+    assert list(frame.columns) == ["id", "links"]
+    assert frame["links"].tolist() == [4, 6, 6]
