@@ -9,7 +9,7 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow test-web page check data pictures docs examples clean help
+.PHONY: demo test test-slow test-web page check data pictures docs examples release clean help
 
 help:
 	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
@@ -21,6 +21,7 @@ help:
 	@echo "make data       make the files under data/ anew"
 	@echo "make pictures   make the pictures of README.md and docs/ anew"
 	@echo "make docs       make the site of docs/ in docs/_build, with its pictures, without a warning"
+	@echo "make release    build sdist and wheel in dist/, check them, and install them in clean environments"
 	@echo "make examples   write what the commands of README.md and docs/ print into them anew"
 	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
 
@@ -102,6 +103,21 @@ data: $(STAMP)
 docs: pictures
 	$(BIN)/python -m pip install --quiet -e '.[docs,draw]'
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+
+# Environments for every Python that is here, without extras and with those of users.
+release: $(STAMP)
+	rm -rf dist
+	$(BIN)/python -m pip install --quiet build twine check-wheel-contents
+	$(BIN)/python -m build
+	$(BIN)/twine check --strict dist/*
+	$(BIN)/check-wheel-contents --toplevel enumerate,graphs,synth dist/*.whl
+	@for python in python3.11 python3.12 python3.13; do \
+	  command -v $$python >/dev/null || { echo "$$python is not here"; continue; }; \
+	  for extras in "" "[draw,parquet,view]"; do \
+	    rm -rf dist/tried && $$python -m venv dist/tried && dist/tried/bin/pip install --quiet "$$(ls dist/*.whl)$$extras" && \
+	    dist/tried/bin/synth --version && dist/tried/bin/synth mobility data/patterns/bird-base.fold >/dev/null || exit 1; \
+	  done; \
+	done; rm -rf dist/tried
 
 examples: $(STAMP)
 	$(BIN)/python docs/examples.py
