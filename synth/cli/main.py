@@ -33,6 +33,7 @@ _COMMANDS = {
     "positions": "synth.cli.things.positions:positions",
     "explain": "synth.cli.things.explain:explain",
     "advise": "synth.cli.things.advise:advise",
+    "states": "synth.cli.compliance.states:states",
     "draw": "synth.cli.things.draw:draw",
     "view": "synth.cli.things.view:view",
     "atlas": "synth.cli.things.atlas:atlas_group",

@@ -425,6 +425,7 @@ def test_shell_completion_knows_the_commands():
         "fold",
         "positions",
         "explain",
+        "states",
         "advise",
         "atlas",
         "draw",
