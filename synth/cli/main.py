@@ -34,6 +34,7 @@ _COMMANDS = {
     "explain": "synth.cli.things.explain:explain",
     "advise": "synth.cli.things.advise:advise",
     "states": "synth.cli.compliance.states:states",
+    "limits": "synth.cli.compliance.limits:limits",
     "draw": "synth.cli.things.draw:draw",
     "view": "synth.cli.things.view:view",
     "atlas": "synth.cli.things.atlas:atlas_group",

@@ -22,6 +22,8 @@ __all__ = ["Elastic", "PathPose", "RestPassed", "States", "Transition"]
 
 _LISTED = 20
 """Sets, poses and modes that are printed; data has all."""
+_LEVEL = 1e-9
+"""Moments below this part of the largest of a path are printed as zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ class RestPassed:
     ----------
     joint : joint id
     driven : float
-        Angle of the driven joint there, radians; between two poses, in proportion.
+        Angle of the driven joint there, radians.
     """
 
     joint: JointId
@@ -160,7 +162,8 @@ class Elastic:
         if self.driver is None:
             return []
         every = list(range(len(self.path)))
-        rows = [self._row(self.path[place]) for place in every[:: -(-len(every) // _LISTED)]]
+        level = _LEVEL * max(abs(float(one.pose.held[0])) for one in self.path)
+        rows = [self._row(self.path[place], level) for place in every[:: -(-len(every) // _LISTED)]]
         columns = ("driven, degrees", "moment", "energy", "stable", "freedoms", "state")
         lines: list[Block] = [
             f"load path of joint {shown(self.driver)}:",
@@ -172,10 +175,11 @@ class Elastic:
         ]
         return [*lines, *([f"stopped: {self.stopped}"] if self.stopped else [])]
 
-    def _row(self, one: PathPose) -> tuple[str, ...]:
+    def _row(self, one: PathPose, level: float) -> tuple[str, ...]:
+        moment = float(one.pose.held[0])
         return (
             f"{degrees(float(one.pose.angles[self._column])):.6g}",
-            f"{float(one.pose.held[0]):.6g}",
+            f"{moment:.6g}" if abs(moment) > level else "0",
             f"{one.pose.energy:.6g}",
             "yes" if one.pose.stable else "no",
             _number(one.state.freedoms),

@@ -8,6 +8,7 @@ from itertools import pairwise
 from math import pi
 
 import numpy as np
+from scipy.optimize import brentq
 
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
@@ -150,7 +151,8 @@ class _Asked:
         values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
         path = load_path(bending, pose.angles, driver, values)
         told = tuple(self.path_poses(path))
-        return Elastic(joints, pose, drive.joint, told, tuple(self.passed(path)), path.stopped, modes)
+        passed = tuple(self.passed(bending, path))
+        return Elastic(joints, pose, drive.joint, told, passed, path.stopped, modes)
 
     def path_poses(self, path: LoadPath) -> Iterator[PathPose]:
         """Yield the poses of a load path with their states."""
@@ -158,16 +160,20 @@ class _Asked:
             here = moved(self.linkage, pose.angles)
             yield PathPose(pose, state_of(here, self.compliant, self.active(pose.angles)))
 
-    def passed(self, path: LoadPath) -> Iterator[RestPassed]:
+    def passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
         """Yield where compliant joints come to rest after the beginning."""
         for before, after in pairwise(path.poses):
+            ends = [float(pose.angles[path.driver]) for pose in (before, after)]
             for joint in self.compliant.joints:
                 was, now = (self.off_rest(joint, pose.angles) for pose in (before, after))
                 if abs(was) <= AT_REST or (was * now > 0.0 and abs(now) > AT_REST):
                     continue
-                ends = [float(pose.angles[path.driver]) for pose in (before, after)]
-                part = 1.0 if abs(now) <= AT_REST else was / (was - now)
-                yield RestPassed(joint, ends[0] + part * (ends[1] - ends[0]))
+
+                def off(driven: float, joint: JointId = joint, start: Floats = before.angles) -> float:
+                    between = load_path(bending, start, path.driver, [driven])
+                    return self.off_rest(joint, between.poses[-1].angles)
+
+                yield RestPassed(joint, ends[1] if abs(now) <= AT_REST else brentq(off, *ends, xtol=AT_REST))
 
 
 def _transitions(sets: Sequence[State]) -> Iterator[Transition]:

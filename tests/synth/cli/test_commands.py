@@ -426,6 +426,7 @@ def test_shell_completion_knows_the_commands():
         "positions",
         "explain",
         "states",
+        "limits",
         "advise",
         "atlas",
         "draw",
