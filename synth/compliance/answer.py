@@ -21,7 +21,7 @@ from synth.compliance.small_motions import SmallMotion
 __all__ = ["Elastic", "PathPose", "RestPassed", "States", "Transition"]
 
 _LISTED = 20
-"""Sets, poses and modes that are printed; data has all."""
+"""Sets, transitions, poses and modes that are printed; data has all."""
 _LEVEL = 1e-9
 """Moments below this part of the largest of a path are printed as zero."""
 
@@ -161,14 +161,17 @@ class Elastic:
     def _load_path(self) -> list[Block]:
         if self.driver is None:
             return []
-        every = list(range(len(self.path)))
         level = _LEVEL * max(abs(float(one.pose.held[0])) for one in self.path)
-        rows = [self._row(self.path[place], level) for place in every[:: -(-len(every) // _LISTED)]]
+        step = -(-len(self.path) // _LISTED)
+        shown_poses = [*self.path[:-1:step], self.path[-1]]
+        rows = [self._row(one, level) for one in shown_poses]
         columns = ("driven, degrees", "moment", "energy", "stable", "freedoms", "state")
         lines: list[Block] = [
             f"load path of joint {shown(self.driver)}:",
             TableBlock(columns, rows, ("driven, degrees", "moment", "energy", "freedoms")),
         ]
+        if len(rows) < len(self.path):
+            lines.append(f"{len(rows)} of {len(self.path)} poses")
         lines += [
             f"joint {shown(one.joint)} comes to rest at {degrees(one.driven):.6g} degrees of the driven joint"
             for one in self.passed
@@ -197,10 +200,9 @@ class Elastic:
                 f"{shown(self.joints[place])}: {mode.rates[place]:.3g}" for place in largest.tolist()
             )
             rows.append((told, moves))
-        return [
-            "small motions about it:",
-            TableBlock(("frequency", "joints that move most"), rows, ("frequency",)),
-        ]
+        table = TableBlock(("frequency", "joints that move most"), rows, ("frequency",))
+        more = len(self.modes) - len(rows)
+        return ["small motions about it:", table, *([f"and {more} faster ones"] if more else [])]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -252,11 +254,14 @@ class States:
         rows = [(str(one.active), _number(one.freedoms), one.kind, one.certainty) for one in chosen[:_LISTED]]
         lines.append(TableBlock(("active", "freedoms", "state", "how known"), rows, ("freedoms",)))
         if len(self.sets) > len(rows):
+            first = "" if len(rows) == len(chosen) else "the first of "
             lines.append(
-                f"{len(rows)} of {numbered(len(self.sets), 'set')}: those to which one member less gives other "
-                "freedoms"
+                f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those to which one member less gives "
+                "other freedoms"
             )
-        lines += [one.told() for one in self.transitions] or ["no transition of a class at this pose"]
+        lines += [one.told() for one in self.transitions[:_LISTED]] or ["no transition of a class at this pose"]
+        if len(self.transitions) > _LISTED:
+            lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
         return [*lines, *([] if self.elastic is None else self.elastic.blocks())]
 
     def __str__(self) -> str:

@@ -32,6 +32,8 @@ _ERROR = 1e-10
 """Of derivatives at a pose that closes to 1e-12."""
 _MEETS = 1e-9
 """Cosines this near to 1 or -1 are these: the range just reaches."""
+_PARALLEL = 1e-6
+"""Sine of the angle of axes that are parallel, but for the rounding of coordinates."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +170,7 @@ def _at_joint(end: End, now: float, angle: float, *, forwards: bool) -> End:
 def _corner(linkage: PosedLinkage, places: tuple[int, int, int, int]) -> tuple[Corner, float]:
     """Return the corner of a joint and the three of a ride-along, and the angle of its base links, 0 to 2 pi."""
     points, axes = linkage.points[list(places)], linkage.directions[list(places)]
-    parallel = float(np.abs(np.cross(axes, axes[0])).max()) < _MEETS
+    parallel = float(np.abs(np.cross(axes, axes[0])).max()) < _PARALLEL
     rays = points - points[0] if parallel else _rays(points, axes)
     along = axes[0]
     if parallel:
@@ -185,7 +187,7 @@ def _rays(points: Floats, axes: Floats) -> Floats:
     across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
     centre = np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0]
     out = ((points - centre) * axes).sum(axis=1)
-    return np.asarray(axes * np.where(np.abs(out) > _MEETS, np.sign(out), 1.0)[:, None])
+    return np.asarray(axes * np.where(np.abs(out) > _PARALLEL, np.sign(out), 1.0)[:, None])
 
 
 def _pairs(

@@ -184,7 +184,7 @@ def sheet_masses(sheet: Sheet, density: float) -> tuple[Mass, ...]:
     Parameters
     ----------
     sheet : Sheet
-        With coordinates.
+        With coordinates; of one with several frames the first that has them.
     density : float
         Mass of a unit of area.
 
@@ -199,6 +199,8 @@ def sheet_masses(sheet: Sheet, density: float) -> tuple[Mass, ...]:
     >>> round(sum(one.mass for one in sheet_masses(square, 0.5)), 12)
     2.0
     """
+    if sheet.frames is not None:
+        sheet = sheet.frames.first_placed()
     if sheet.coordinates is None:
         raise UnsolvableError("masses of panels need coordinates, and the sheet has none")
     corners = in_space(sheet.coordinates)

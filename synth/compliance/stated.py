@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
-from math import pi
+from sys import float_info
 
 import numpy as np
 from scipy.optimize import brentq
@@ -121,14 +121,10 @@ class _Asked:
     linkage: PosedLinkage
     compliant: Members
     springs: Springs
-    places: Mapping[JointId, int] = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "places", {joint: place for place, joint in enumerate(self.linkage.graph.joints)})
 
     def off_rest(self, joint: JointId, angles: Floats) -> float:
         """Return how far a compliant joint is from rest, radians; without a spring it rests at the pose given."""
-        place = self.places[joint]
+        place = list(self.linkage.graph.joints).index(joint)
         return float(angles[place]) - self.springs.rest.get(joint, float(self.linkage.angles[place]))
 
     def active(self, angles: Floats) -> Members:
@@ -147,7 +143,7 @@ class _Asked:
             return Elastic(joints, pose, modes=modes)
         if drive.frames < 1:
             raise InvariantError("frames", f"a path of {drive.frames} frames", "1 or more")
-        [driver], goal = goals_of(joints, {drive.joint: drive.to}, 100.0 * pi)
+        [driver], goal = goals_of(joints, {drive.joint: drive.to}, float_info.max)
         values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
         path = load_path(bending, pose.angles, driver, values)
         told = tuple(self.path_poses(path))

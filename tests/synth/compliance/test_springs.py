@@ -94,7 +94,7 @@ def test_a_moment_moves_it_to_where_the_slope_is_that_moment():
 
 def test_moments_of_a_load_path_are_the_slopes_of_the_energy_and_work_is_what_it_stores():
     bending = elastic()
-    goals = np.linspace(0.0, 1.2, 21)[1:]
+    goals = np.linspace(0.0, 0.6, 11)[1:]
     path = load_path(bending, bending.linkage.angles, 0, goals)
     cranks = START + path.driven
     assert not path.stopped
@@ -120,12 +120,12 @@ def test_a_joint_that_is_not_the_crank_is_driven_as_well():
 
 def test_a_joint_at_rest_in_two_poses_makes_it_rigid_in_both():
     """The angle between coupler and rocker is that of the distance from A to D: the same at opposite crank angles."""
-    asked = Drive(0, -2.0 * START, 5)  # an odd number: the crank does not stop half-way, where it is a dead point
+    asked = Drive(0, -2.0 * START, 3)  # an odd number: the crank does not stop half-way, where it is a dead point
     found = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=asked).elastic
     kinds = [one.state.kind for one in found.path]
-    assert kinds == ["rigid immobile", *4 * ["compliant mobile"], "rigid immobile"]
+    assert kinds == ["rigid immobile", *2 * ["compliant mobile"], "rigid immobile"]
     assert [(one.joint, one.driven) for one in found.passed] == [(2, pytest.approx(-2.0 * START))]
-    beyond = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=Drive(0, -2.05 * START, 3)).elastic
+    beyond = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=Drive(0, -2.05 * START, 2)).elastic
     assert [one.driven for one in beyond.passed] == [pytest.approx(-2.0 * START, abs=1e-5)]
     assert beyond.path[-1].state.kind == "compliant mobile"
 
