@@ -220,6 +220,13 @@ class States:
         The smallest that make it a mechanism of each class.
     elastic : Elastic or None
         What springs do, where there are any.
+
+    Examples
+    --------
+    >>> from synth.compliance import states
+    >>> from synth.patterns import generate
+    >>> states(generate("four-bar").mechanism, [0])
+    <States: rigid immobile; compliant mechanism>
     """
 
     compliant: Members

@@ -43,6 +43,11 @@ class State:
     certainty : {"proved", "numerical", "not known"}
         Proved: no rates close to first order, or the equations are independent; or as `synth.folding.branches_of`
         says.
+
+    Examples
+    --------
+    >>> State(Members((0,)), 1, "proved").kind
+    'compliant mobile'
     """
 
     active: Members

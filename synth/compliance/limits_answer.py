@@ -116,8 +116,15 @@ class Limits:
     Attributes
     ----------
     ride_alongs : tuple of RideAlong
-        Those that others sit on after these.
+        Those that sit on others come before these.
     truss : Truss
+
+    Examples
+    --------
+    >>> from synth.compliance import limits
+    >>> from synth.patterns import generate
+    >>> limits(generate("deployable-cylinder", pleats=3).mechanism).truss.freedoms
+    0
     """
 
     ride_alongs: tuple[RideAlong, ...]

@@ -33,6 +33,11 @@ class Members:
     ----------
     joints : tuple of joint ids
     links : tuple of link ids
+
+    Examples
+    --------
+    >>> print(Members((0, 3), ("flap",)))
+    joint 0, joint 3, link 'flap'
     """
 
     joints: tuple[JointId, ...] = ()

@@ -40,6 +40,11 @@ class Mass:
         Less than 0 for what a body lacks; not of a link in all.
     point : (float, float, float)
         Where it is at the pose given, in the coordinates of the file.
+
+    Examples
+    --------
+    >>> Mass("door", 1.5, (0.4, 0.0, 1.0)).mass
+    1.5
     """
 
     link: LinkId
@@ -56,6 +61,11 @@ class Masses:
     points : tuple of Mass
     ground : link id or None
         None: the ground of the graph, else its first link.
+
+    Examples
+    --------
+    >>> len(Masses((Mass("door", 1.5, (0.4, 0.0, 1.0)),), ground="wall").points)
+    1
     """
 
     points: tuple[Mass, ...]

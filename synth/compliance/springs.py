@@ -40,6 +40,13 @@ class Springs:
         Angles at which springs are at rest, radians, from the zero of each joint; by default those of the pose.
     moments : mapping of joint id to float
         That turn a joint's second link against its first, whatever its angle.
+
+    Examples
+    --------
+    A spring at joint 0, at rest at 0.5 radians, and one at joint 2, at rest as it lies:
+
+    >>> Springs({0: 2.0, 2: 1.0}, rest={0: 0.5}).moments
+    {}
     """
 
     stiffness: Mapping[JointId, float] = field(default_factory=dict)

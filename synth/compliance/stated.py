@@ -45,6 +45,11 @@ class Drive:
         Radians, from the zero of the joint.
     frames : int
         Poses after the first.
+
+    Examples
+    --------
+    >>> Drive(0, 0.5).frames
+    20
     """
 
     joint: JointId
