@@ -12,7 +12,7 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import scd_from_panels
 from graphs.edit.analogues import planar_analogue
 from graphs.edit.sc import add_loop
-from graphs.edit.scd import crease_link, ride_along
+from graphs.edit.scd import crease_link, lock_hinge, ride_along
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -220,6 +220,13 @@ def creased_mesh(rows: int, columns: int, panels: list[int]) -> SCDGraph:
     return scd
 
 
+def held_ride_along() -> SCDGraph:
+    """Return a four-bar with a ride-along whose two links are held together, as one."""
+    scd = ride_along(scd_from_panels(FOUR_FAN), 0).graph
+    between = max(scd.joints) - 1  # the two links of the ride-along just added
+    return lock_hinge(scd, between).graph
+
+
 FOUR_FAN = [(0, k, k % 4 + 1) for k in range(1, 5)]
 
 
@@ -246,6 +253,8 @@ EDITED = [
                f"N {n} J {n} V {2 * n} C 1 E_ext {3 * n} E_int {2 * n} M {n - 3}")
         for n in range(5, 9)
     ),
+    wiener("held-ride-along", "6.3.2", "lock", held_ride_along, "N 5 J 6 V 6 C 0 E_ext 10 E_int 2 M 0",
+           "which mechanism is held is in the figure only: here the four-bar with a ride-along of 4.2.5.3"),
     wiener("sarrus", "6.1.4", "sarrus", lambda: implicit_loop(6, "none"), "N 6 J 6 V 12 C 0 E_ext 18 E_int 12 M 0",
            "the general member of the type; Sarrus' geometry moves with 1"),
     wiener("mesh-4x4-inner-creases", "6.1.1.2", "crease_claim", lambda: creased_mesh(4, 4, [5, 6, 9, 10]),

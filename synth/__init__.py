@@ -16,8 +16,8 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 `map_to_cylinders`, `map_linkage`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`,
 `four_bars`. A type as a thing: `realise`, panels with coordinates; `realise_on_cone`. Motion: `fold`, a crease
 pattern with rigid panels, frame by frame; `move`, any linkage; `positions`, all at given inputs. `explain`: why it
-moves; `advise`: what to lock, which panels to crease. Known patterns and linkages: `generate`, by parameters.
-All types up to a size in a file: `open_atlas`.
+moves; `advise`: what to lock, which panels to crease; `states`: which members bend, and what springs do. Known
+patterns and linkages: `generate`, by parameters. All types up to a size in a file: `open_atlas`.
 Pictures: `draw`, of any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms show
 themselves.
 
@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from synth.advice.advised import advise as advise
     from synth.assembly.found import positions as positions
     from synth.atlas.asked.opened import open_atlas as open_atlas
+    from synth.compliance.stated import states as states
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.folding.motion import fold as fold
     from synth.guidance.fourbars import four_bars as four_bars
@@ -101,6 +102,7 @@ else:
             "synth.advice.advised": "advise",
             "synth.atlas.asked.opened": "open_atlas",
             "synth.assembly.found": "positions",
+            "synth.compliance.stated": "states",
             "synth.drawing.mechanisms.pictures": "draw",
             "synth.folding.motion": "fold",
             "synth.verdict.judged": "mobility",

@@ -33,6 +33,8 @@ _COMMANDS = {
     "positions": "synth.cli.things.positions:positions",
     "explain": "synth.cli.things.explain:explain",
     "advise": "synth.cli.things.advise:advise",
+    "states": "synth.cli.compliance.states:states",
+    "limits": "synth.cli.compliance.limits:limits",
     "draw": "synth.cli.things.draw:draw",
     "view": "synth.cli.things.view:view",
     "atlas": "synth.cli.enumerate.atlas:atlas_group",

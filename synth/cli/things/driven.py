@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 __all__ = ["driven_angles", "numbers_of_joints"]
 
 
-def driven_angles(graph: SCGraph, words: tuple[str, ...]) -> dict[JointId, float]:
-    """Return the angles of driven joints, radians, as ``--drive`` has them."""
-    asked = numbers_of_joints(graph, words, "--drive", "JOINT=DEGREES")
+def driven_angles(graph: SCGraph, words: tuple[str, ...], option: str = "--drive") -> dict[JointId, float]:
+    """Return the angles of joints, radians, as an option has them."""
+    asked = numbers_of_joints(graph, words, option, "JOINT=DEGREES")
     return {joint: radians(angle) for joint, angle in asked.items()}
 
 

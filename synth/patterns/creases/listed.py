@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isclose, pi
 
-from synth.patterns.creases import bases, tessellations, triangulated, tubes, twists
+from synth.patterns.creases import bases, cylinders, tessellations, triangulated, tubes, twists
 from synth.patterns.generator import Generator, Values, angle, count, length
 
 __all__ = ["GENERATORS"]
@@ -106,6 +106,18 @@ GENERATORS = (
         _of_storey,
         "open ends: 2 sides - 6; a polygon that is a panel: none, but 1 if the other is open, sides are even "
         "and turn is half a side", "Kresling 1996",
+    ),
+    Generator(
+        "deployable-cylinder", "Radially deployable cylinder", cylinders.deployable_cylinder,
+        (
+            count("pleats", 4, 3, 12, "pairs of walls"),
+            angle("short", 30, 1, 45, "of each crease, from where ride-alongs are straight"),
+            angle("slack", 5, 1, 10, "half of that of walls at inner creases from flat then"),
+            length("height", 1.0, 0.2, 10, "of the walls, whose width is 1"),
+        ),
+        lambda v: 2 * int(v["pleats"]) - 3,
+        "until ride-alongs are straight, where it stops; rigid if they are held so: see synth limits",
+        "Wiener 2016, 6.3; proportions chosen",
     ),
     Generator(
         "map", "Map", tessellations.map_sheet,

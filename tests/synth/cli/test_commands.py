@@ -425,6 +425,8 @@ def test_shell_completion_knows_the_commands():
         "fold",
         "positions",
         "explain",
+        "states",
+        "limits",
         "advise",
         "atlas",
         "draw",

@@ -1,0 +1,206 @@
+"""Poses at which springs and moments are in balance, and the load path of driven joints.
+
+Theory: docs/theory/compliance.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+
+from graphs.arrays import Floats
+from graphs.errors import NumericalError
+from synth.compliance.springs import Bent, ElasticLinkage
+from synth.folding.newton import CLOSED, corrected, exactly_held
+from synth.folding.path import driven_path
+
+__all__ = ["Equilibrium", "LoadPath", "equilibrium", "load_path"]
+
+_STEPS = 200
+_LONGEST = 0.2
+"""Of a step, in radians of all joints (root of summed squares)."""
+_BALANCED = 1e-11
+"""Slope of the energy at which it is in balance, as part of the largest moment at hand."""
+_SOFT = 1e-6
+"""Curvature below this part of the largest is taken for it: else steps are long where the energy is level."""
+_HALVINGS = 40
+_DOWN = 1e-4
+"""Part of the fall that the slope foretells which a step has to bring (Armijo)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Equilibrium:
+    """A pose at which springs and moments are in balance.
+
+    Attributes
+    ----------
+    angles : float[J]
+        Radians.
+    energy : float
+        Of springs and moments.
+    held : float[D]
+        Moments that keep driven joints at their angles; none where no joint is driven.
+    least : float or None
+        The least curvature of the energy along motions that leave driven joints still, per squared radian; None
+        where there are none.
+    unbalanced : float
+        The slope of the energy that is left.
+    error : float
+        By how much loops do not close.
+    """
+
+    angles: Floats
+    energy: float
+    held: Floats
+    least: float | None
+    unbalanced: float
+    error: float
+
+    @property
+    def stable(self) -> bool:
+        """Whether the energy rises along all motions that leave driven joints still."""
+        return self.least is None or self.least > 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class LoadPath:
+    """Equilibria while one joint is driven.
+
+    Attributes
+    ----------
+    driver : int
+        The place of the joint.
+    poses : tuple of Equilibrium
+        The first is where it began, with the joint held there.
+    stopped : str
+        Why it ended before its goal; empty if it reached it.
+    """
+
+    driver: int
+    poses: tuple[Equilibrium, ...]
+    stopped: str
+
+    @property
+    def driven(self) -> Floats:
+        """Angles of the joint, radians: float[F]."""
+        return np.array([pose.angles[self.driver] for pose in self.poses])
+
+    @property
+    def moments(self) -> Floats:
+        """Moments that hold it there: float[F]."""
+        return np.array([float(pose.held[0]) for pose in self.poses])
+
+
+def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tuple[int, ...] = ()) -> Equilibrium:
+    """Return the equilibrium that the energy falls to from a closed pose.
+
+    Newton's method on the closed poses, with the curvature made positive, and steps halved until the energy falls
+    as its slope foretells.
+
+    Parameters
+    ----------
+    elastic : ElasticLinkage
+    start : float[J], optional
+        Radians; by default the pose of the linkage.
+    held : tuple of int, optional
+        Places of joints that keep their angles.
+
+    Raises
+    ------
+    NumericalError
+        If a singular pose is met, or balance is not reached.
+
+    Examples
+    --------
+    Two equal springs in series share an angle: a spring of 1 that is at rest at 1 pulls a parallelogram against
+    one at its opposite joint.
+
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.compliance.springs import Springs
+    >>> from synth.folding.linkage import linkage_of_axes
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2.5, 1, 0), (0.5, 1, 0)]
+    >>> linkage = linkage_of_axes(ring, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
+    >>> found = equilibrium(ElasticLinkage(linkage, Springs({0: 1.0, 2: 1.0}, {0: 1.0})))
+    >>> found.angles.round(9).tolist(), found.stable
+    ([0.5, -0.5, 0.5, -0.5], True)
+    """
+    angles = elastic.linkage.angles if start is None else start
+    values = angles[list(held)]
+    for _ in range(_STEPS):
+        along, bent = _beside(elastic, angles, held)
+        off = float(np.abs(bent.slope).max(initial=0.0))
+        moments = np.abs([elastic.slopes(angles), elastic.moments])
+        if off <= _BALANCED * max(float(moments.max(initial=0.0)), float(elastic.stiffness.max(initial=0.0))):
+            least = float(np.linalg.eigvalsh(bent.curvature)[0]) if along.shape[1] else None
+            error = elastic.closure.error(angles)
+            return Equilibrium(angles, elastic.energy(angles), bent.held, least, off, error)
+        angles = _lower(elastic, angles, along @ _downhill(bent), (held, values), along @ bent.slope)
+    raise NumericalError(f"springs came to no balance in {_STEPS} steps: moments of {off:.1e} are left")
+
+
+def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.ArrayLike) -> LoadPath:
+    """Return the equilibria while a joint is driven to one angle after the other.
+
+    Parameters
+    ----------
+    elastic : ElasticLinkage
+    start : float[J]
+        A closed pose, radians.
+    driver : int
+        The place of the joint.
+    values : float[F]
+        Its angles, radians.
+
+    Raises
+    ------
+    NumericalError
+        As :func:`equilibrium`.
+    """
+    poses, stopped = [equilibrium(elastic, start, (driver,))], ""
+    for value in np.asarray(values, dtype=float).tolist():
+        path = driven_path(elastic.closure, poses[-1].angles, [driver], [[value]])
+        if path.stopped:
+            stopped = path.stopped
+            break
+        poses.append(equilibrium(elastic, path.angles[-1], (driver,)))
+    return LoadPath(driver, tuple(poses), stopped)
+
+
+def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, Bent]:
+    """Return the rates that leave held joints still, float[J, n], and how the energy bends along them."""
+    tangent = elastic.tangent(angles)
+    along = tangent.rates @ scipy.linalg.null_space(tangent.rates[list(held)]) if held else tangent.rates
+    return along, elastic.bent(angles, tangent, along, held)
+
+
+def _downhill(bent: Bent) -> Floats:
+    """Return Newton's step with the signs of all curvatures made positive, no longer than may be: float[n]."""
+    values, vectors = np.linalg.eigh(bent.curvature)
+    sizes = np.abs(values)
+    sizes = np.maximum(sizes, _SOFT * max(float(sizes.max()), float(np.abs(bent.slope).max())))
+    step = -vectors @ ((vectors.T @ bent.slope) / sizes)
+    return np.asarray(step * min(1.0, _LONGEST / float(np.linalg.norm(step))))
+
+
+def _lower(
+    elastic: ElasticLinkage, angles: Floats, step: Floats, held: tuple[tuple[int, ...], Floats], slope: Floats
+) -> Floats:
+    """Return a closed pose along a step at which the energy is lower, held joints at their angles."""
+    places, values = held
+    before = elastic.energy(angles)
+    rounding = 1e-14 * (abs(before) + float(elastic.stiffness.max(initial=0.0)))
+    for halving in range(_HALVINGS):
+        part = 0.5**halving
+        pose = corrected(elastic.closure, angles + part * step, places)
+        if places:
+            pose = exactly_held(elastic.closure, pose, places, values)
+        if pose.error > CLOSED or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
+            continue
+        if elastic.energy(pose.angles) <= before + _DOWN * part * float(slope @ step) + rounding:
+            return pose.angles
+    raise NumericalError("springs came to no balance: the energy falls along no step that keeps loops closed")
