@@ -99,6 +99,7 @@ check: $(STAMP)
 data: $(STAMP)
 	$(BIN)/python data/make.py
 	$(BIN)/python data/realised.py
+	$(BIN)/python data/atlas_names.py
 
 docs: pictures
 	$(BIN)/python -m pip install --quiet -e '.[docs,draw]'

@@ -30,8 +30,13 @@ _WELL_KNOWN = (
 
 def main() -> None:
     """Write the file."""
-    entries = [*_of_chains(), *_of_files()]
-    PLACE.write_text("[\n" + ",\n".join("  " + json.dumps(entry) for entry in entries) + "\n]\n", encoding="utf-8")
+    lines = ",\n".join("  " + json.dumps(entry) for entry in entries())
+    PLACE.write_text(f"[\n{lines}\n]\n", encoding="utf-8")
+
+
+def entries() -> list[dict[str, str]]:
+    """Return kind, id, name and source of each type that has a name."""
+    return [*_of_chains(), *_of_files()]
 
 
 def _of_chains() -> Iterator[dict[str, str]]:

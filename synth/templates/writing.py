@@ -83,9 +83,9 @@ def write_template(
     >>> from synth.templates.template import template_of
     >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
     >>> with TemporaryDirectory() as folder:
-    ...     [path] = write_template(template_of(square, size=50), Path(folder, "square.svg"))
-    ...     print(path.name, path.read_text()[:4])
-    square.svg <svg
+    ...     made = write_template(template_of(square, size=50), Path(folder, "square.svg"))
+    ...     print([(path.name, path.read_text()[:4]) for path in made])
+    [('square.svg', '<svg'), ('square-note.svg', '<svg')]
     """
     place = Path(path)
     check_template(place, force=force)

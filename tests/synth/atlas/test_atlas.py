@@ -7,6 +7,7 @@ import random
 import shutil
 import sqlite3
 from collections import Counter
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -328,3 +329,9 @@ def test_rows_as_a_data_frame(small_atlas: Atlas) -> None:
     frame = small_atlas.query("kind = chain", columns=["id", "links"]).to_frame()
     assert list(frame.columns) == ["id", "links"]
     assert frame["links"].tolist() == [4, 6, 6]
+
+
+def test_the_names_are_those_of_the_data() -> None:
+    import atlas_names
+
+    assert [asdict(one) for one in named_types()] == atlas_names.entries()
