@@ -21,6 +21,8 @@ __all__ = ["template"]
 _OF_PANELS = {"scale": None, "tabs": 8.0, "slots": False, "hinge_kind": "fold", "hinge_width": None}
 _OF_SURFACES = {"cone_angle": None, "cone": None, "radius": None, "thickness": None}
 """Options of one kind of thing, and what they are where nothing was asked for."""
+_REALISED = 150.0
+"""Millimetres of the longer side of a type, which has coordinates, but no size, from being realised."""
 _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
 
 
@@ -64,8 +66,8 @@ def template(
     """Print panels at true scale, to cut out and fold.
 
     FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of many, of which --row
-    names one. A type without coordinates is realised first. Coordinates are in the unit that a .fold file names,
-    or millimetres, unless --scale or --size says otherwise. What is larger than a page comes in tiles, never
+    names one. A type without coordinates is realised first, 150 mm wide or high. Coordinates are in the unit that a
+    .fold file names, or millimetres, unless --scale or --size says otherwise. What is larger than a page comes in tiles, never
     smaller: tiles overlap by 10 mm, and crosses of one name lie over each other. Each page has a gauge of 100 mm:
     measure it. Of .svg a file is written for each page; a .dxf is one drawing at full size.
 
@@ -132,10 +134,13 @@ def _of_panels(asked: Given, kind: Any, look: Mapping[str, Any], *, note: bool) 
     thing: Any = asked.thing
     sheet, done = panels_of_thing(thing, kind=kind, mode=asked.mode)
     how = {name: look[name] for name in ("scale", "size", "tabs", "slots")}
-    made = template_of(sheet, title=sheet.title or Path(asked.name).name, hinges=hinges, **how)
     told = [f"{done}, as `synth realise` does"] if done else []
-    if look["scale"] is None and look["size"] is None and unit_of(sheet) is None:
+    if look["scale"] is None and look["size"] is None and done:
+        how["size"] = _REALISED
+        told.append(f"a type has no size: its longer side is {_REALISED:g} mm; --size says another")
+    elif look["scale"] is None and look["size"] is None and unit_of(sheet) is None:
         told.append("no unit is given: a unit of the coordinates is 1 mm")
+    made = template_of(sheet, title=sheet.title or Path(asked.name).name, hinges=hinges, **how)
     told += [f"not shown: {', '.join(made.told)}"] if made.told else []
     if note:
         made, why = pictured(made, sheet)

@@ -73,3 +73,9 @@ def test_modes_and_ways_to_realise_are_of_types(data):
     standing, _ = panels_of_thing(ChainString((2, 2)), kind="space")
     kinds = {stroke.kind for stroke in template_of(standing, size=150).pieces[0].strokes}
     assert kinds == {"CUT", "MOUNTAIN", "VALLEY"}
+
+
+def test_a_type_gets_a_size(tmp_path):
+    done = run("template", "RR-R-RRR", "-o", tmp_path / "ups.svg")
+    assert "its longer side is 150 mm; --size says another" in done.stderr
+    assert (tmp_path / "ups.svg").is_file()
