@@ -65,11 +65,12 @@ def template(
 ) -> None:
     """Print panels at true scale, to cut out and fold.
 
-    FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of many, of which --row
-    names one. A type without coordinates is realised first, 150 mm wide or high. Coordinates are in the unit that a
-    .fold file names, or millimetres, unless --scale or --size says otherwise. What is larger than a page comes in tiles, never
-    smaller: tiles overlap by 10 mm, and crosses of one name lie over each other. Each page has a gauge of 100 mm:
-    measure it. Of .svg a file is written for each page; a .dxf is one drawing at full size.
+    FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of many, of which
+    --row names one. A type without coordinates is realised first, 150 mm wide or high. Coordinates are in the
+    unit that a .fold file names, or millimetres, unless --scale or --size says otherwise. What is larger than a
+    page comes in tiles, never smaller: tiles overlap by 10 mm, and crosses of one name lie over each other.
+    Each page has a gauge of 100 mm: measure it. Of .svg a file is written for each page; a .dxf is one drawing
+    at full size.
 
     Panels that do not lie side by side are laid out in nets, none over another, with tabs: edges of one number are
     glued, or put together with slots. In thick material folds are strips of a stated width.
