@@ -30,6 +30,8 @@ from synth.atlas.made.plan import AtlasPlan
 from synth.atlas.names import named_types
 
 DATA = Path(__file__).resolve().parents[3] / "data"
+MOST_LINKS = 10
+"""Of files that are looked for: each joint of a mechanism is edited."""
 TINY = AtlasPlan(4, creases=2, orders_of=(), realised=False)
 
 
@@ -268,7 +270,7 @@ def test_show_by_id_and_by_name(small_atlas: Atlas) -> None:
 
 
 def test_files_of_data_are_named(small_atlas: Atlas) -> None:
-    index = json.loads((DATA / "index.json").read_text())
+    index = [entry for entry in json.loads((DATA / "index.json").read_text()) if entry.get("N", 0) <= MOST_LINKS]
     known = {row["id"] for row in small_atlas.query(limit=10_000)}
     there = 0
     for entry in index:
