@@ -11,9 +11,10 @@ from typing import Any
 
 from graphs.plain_text import plain
 from synth.atlas.columns import COLUMNS
+from synth.atlas.site.document import document
 from synth.viewer.pages import json_in_html
 
-__all__ = ["POLICY", "SEARCHED", "data_script", "index_page"]
+__all__ = ["SEARCHED", "data_script", "index_page"]
 
 SEARCHED = (
     "id", "kind", "name", "links", "joints", "dof", "centres", "symmetry", "ride_alongs", "all_explicit",
@@ -21,43 +22,30 @@ SEARCHED = (
 )  # fmt: skip
 """Columns that the first page knows."""
 
-POLICY = (
-    "default-src 'none'; script-src 'self' file:; style-src 'self' file: 'unsafe-inline'; "
-    "img-src 'self' file: blob: data:; base-uri 'none'; form-action 'none'"
-)
-"""Own scripts, styles and pictures, and nothing else; no requests to anywhere."""
-
-_INDEX = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<link rel="stylesheet" href="gallery.css">
-</head>
-<body>
-<main id="gallery">
+_BODY = """<main id="gallery">
 <h1>{title}</h1>
 <p class="about">{about}</p>
 <noscript>This page searches by a script, and scripts are switched off: see the folder types.</noscript>
 </main>
 <script src="data.js"></script>
-<script src="gallery.js"></script>
-</body>
-</html>
-"""
+<script src="gallery.js"></script>"""
 
 
 def index_page(title: str, about: str) -> str:
     """Return the HTML of the first page.
+
+    Parameters
+    ----------
+    title, about : str
+        Plain text: what it is called, and how it was made.
 
     Examples
     --------
     >>> "<h1>a &lt; b</h1>" in index_page("a < b", "")
     True
     """
-    return _INDEX.format(policy=POLICY, title=escape(plain(title, 200)), about=escape(plain(about, 1000)))
+    body = _BODY.format(title=escape(plain(title, 200)), about=escape(plain(about, 1000)))
+    return document(title, ["gallery.css"], body)
 
 
 def data_script(rows: Sequence[Mapping[str, Any]], title: str, about: str, digits: int) -> str:

@@ -16,7 +16,7 @@ from graphs.plain_text import plain
 from synth.atlas.asked.mechanisms import drawable_of_type
 from synth.atlas.asked.type_report import TypeReport
 from synth.atlas.columns import COLUMNS
-from synth.atlas.site.index_page import POLICY
+from synth.atlas.site.document import document
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
 from synth.templates.formats.svg import svg_of_page
@@ -33,18 +33,7 @@ _BOX = (200.0, 150.0)
 _PRINTED = 180.0
 """Millimetres of the longer side of a template: it fits a page of A4."""
 
-_PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<link rel="stylesheet" href="../page.css">
-<link rel="stylesheet" href="../gallery.css">
-</head>
-<body>
-<article class="type">
+_BODY = """<article class="type">
 <p><a href="../index.html">All types</a></p>
 <h1>{title}</h1>
 {names}
@@ -54,10 +43,7 @@ _PAGE = """<!DOCTYPE html>
 </div>
 {neighbours}
 </article>
-{thing}
-</body>
-</html>
-"""
+{thing}"""
 _THING = """<main id="page"></main>
 <script type="application/json" id="data">{data}</script>
 <script src="../page.js"></script>"""
@@ -97,9 +83,9 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> T
     fold = values.get("fold_file")
     sheet = None if fold is None else sheet_from_fold(json.loads(fold), Path(f"{file}.fold"))
     template = None if sheet is None else _template(sheet)
-    page = _PAGE.format(
-        policy=POLICY,
-        title=escape(plain(values.get("name") or values["id"], 200)),
+    title = values.get("name") or values["id"]
+    body = _BODY.format(
+        title=_text(title),
         file=file,
         names="".join(f"<p>{_text(one.name)}: {_text(one.source)}</p>" for one in report.named),
         links=_links(file, fold, template),
@@ -107,6 +93,7 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> T
         neighbours=_neighbours(report, places),
         thing="" if sheet is None else _thing(sheet, values["id"]),
     )
+    page = document(title, ["../page.css", "../gallery.css"], body)
     graph = _picture(drawable_of_type(values["kind"], values["id"]))
     return TypeFiles(page, graph if sheet is None else _picture(sheet), graph, fold, template)
 

@@ -1,0 +1,52 @@
+"""What the pages of a site have in common: their head, and what they may load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+
+from graphs.plain_text import plain
+
+__all__ = ["document"]
+
+_POLICY = (
+    "default-src 'none'; script-src 'self' file:; style-src 'self' file: 'unsafe-inline'; "
+    "img-src 'self' file: blob: data:; base-uri 'none'; form-action 'none'"
+)
+"""Own scripts, styles and pictures, and nothing else; no requests to anywhere."""
+
+_DOCUMENT = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+{styles}
+</head>
+<body>
+{body}
+</body>
+</html>
+"""
+
+
+def document(title: str, styles: Sequence[str], body: str) -> str:
+    """Return a page of a site.
+
+    Parameters
+    ----------
+    title : str
+        Plain text, escaped here.
+    styles : sequence of str
+        Where style sheets are, from the page.
+    body : str
+        HTML.
+
+    Examples
+    --------
+    >>> "<title>a &lt; b</title>" in document("a < b", [], "")
+    True
+    """
+    sheets = "\n".join(f'<link rel="stylesheet" href="{place}">' for place in styles)
+    return _DOCUMENT.format(policy=_POLICY, title=escape(plain(title, 200)), styles=sheets, body=body)
