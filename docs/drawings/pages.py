@@ -1,0 +1,30 @@
+"""Which theory page has which drawing: run as a program, it writes them to docs/pictures/theory."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from drawings import kinds  # noqa: E402
+from synth.drawing import Scene, save_scene  # noqa: E402
+
+FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
+
+DRAWINGS: dict[str, Callable[[], Scene]] = {
+    **kinds.DRAWINGS,
+}
+"""Name of a theory page to what draws its picture."""
+
+
+def main() -> None:
+    """Write the drawings of the pages named, or all."""
+    FOLDER.mkdir(exist_ok=True)
+    for page in sys.argv[1:] or DRAWINGS:
+        save_scene(DRAWINGS[page](), FOLDER / f"{page}.svg", force=True)
+
+
+if __name__ == "__main__":
+    main()
