@@ -8,8 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from drawings import kinds  # noqa: E402
-from synth.drawing import Scene, save_scene  # noqa: E402
+from drawings import kinds
+from synth.drawing import Scene, save_scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
 
