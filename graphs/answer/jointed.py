@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -101,7 +102,9 @@ def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
     Parameters
     ----------
     linkage : JointedLinkage
-        With places. Legs that begin and end at the same link, and open ends, have none.
+        With places. Open ends have none. Of a leg that comes back to its first link, and of a lone ring, rows
+        between spherical joints that follow each other are asked; the ground, or of a ring without one the
+        longest row, is held.
 
     Examples
     --------
@@ -111,17 +114,28 @@ def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
     (Passive(joints=(0, 1), freedoms=1, spins=True),)
     """
     screws = _screws(linkage)
-    degree = dict(linkage.chain.degree)
     found = []
-    for leg in legs(linkage.chain):
-        if leg.links[0] == leg.links[-1] or min(degree[leg.links[0]], degree[leg.links[-1]]) < 2:
-            continue
-        columns = np.hstack([screws[joint] for joint in leg.joints])
+    for row in (row for leg in legs(linkage.chain) for row in _rows_between_ends(linkage, leg)):
+        columns = np.hstack([screws[joint] for joint in row])
         rank = spectrum(columns, _ERROR).rank
         if rank is not None and rank < columns.shape[1]:
             free = columns.shape[1] - rank
-            found.append(Passive(leg.joints, free, free == 1 and _spins(linkage, leg)))
+            found.append(Passive(row, free, free == 1 and _spins(linkage, row)))
     return tuple(found)
+
+
+def _rows_between_ends(linkage: JointedLinkage, leg: Leg) -> list[tuple[JointId, ...]]:
+    """Return the rows of a leg that may move while both their ends are held."""
+    degree = dict(linkage.chain.degree)
+    first, last = leg.links[0], leg.links[-1]
+    if first != last:
+        return [leg.joints] if min(degree[first], degree[last]) > 1 else []
+    balls = [place for place, joint in enumerate(leg.joints) if linkage.kinds[joint] is JointKind.SPHERICAL]
+    rows = [leg.joints[a : b + 1] for a, b in pairwise(balls)]
+    if rows and degree[first] == 2 and first != linkage.chain.ground:
+        rows.append(leg.joints[balls[-1] :] + leg.joints[: balls[0] + 1])
+        rows.remove(max(rows, key=len))
+    return [row for row in rows if len(row) < len(leg.joints)]
 
 
 def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
@@ -165,9 +179,9 @@ def _told(passive: tuple[Passive, ...]) -> Iterator[str]:
             yield f"{total} of the freedoms passive: legs that {doing} (joints {names}{more})"
 
 
-def _spins(linkage: JointedLinkage, leg: Leg) -> bool:
-    """Tell whether a leg that moves between ends held is one that turns between two spherical joints."""
-    return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in leg.joints) == 2
+def _spins(linkage: JointedLinkage, row: tuple[JointId, ...]) -> bool:
+    """Tell whether a row that moves between ends held is one that turns between two spherical joints."""
+    return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in row) == 2
 
 
 def _screws(linkage: JointedLinkage) -> dict[JointId, Floats]:

@@ -53,6 +53,20 @@ def freedoms_of_leg_held(linkage, joints):
     return freedoms_by_screws(JointedLinkage(ring, kinds, {joint: linkage.places[joint] for joint in joints}))
 
 
+@pytest.mark.parametrize("first", range(4))
+@pytest.mark.parametrize("ground", [None, 0])
+def test_the_rod_of_a_lone_ring_spins_wherever_the_ring_begins(first, ground):
+    chain = SCGraph(4, {f"j{(i + first) % 4}": (i, (i + 1) % 4) for i in range(4)}, ground=ground)
+    balls = {"j1": JointKind.SPHERICAL, "j2": JointKind.SPHERICAL}
+    rest = {"j0": JointKind.REVOLUTE, "j3": JointKind.REVOLUTE}
+    passive = passive_freedoms(placed(JointedLinkage(chain, {**balls, **rest})))
+    if ground == 0 and first == 2:  # the rod itself is held: what turns about its line is all else
+        assert passive == ()
+    else:
+        (rod,) = passive
+        assert (set(rod.joints), rod.freedoms, rod.spins) == (set(balls), 1, True)
+
+
 def test_passive_freedoms_are_those_of_legs_whose_ends_are_held():
     told = 0
     for seed in range(20):
