@@ -41,6 +41,8 @@ def renewed(document: str) -> str:
     """Return a document whose blocks say what their commands print."""
     made, end = "", 0
     for fence in fences_of(document):
+        if fence.place is not None:
+            Path(fence.place).write_text(fence.text, encoding="utf-8")
         if fence.language == "console":
             made += document[end : fence.start] + _block(fence.text)
             end = fence.end

@@ -34,6 +34,8 @@ def test_examples(path):
     names: dict[str, object] = {}
     run = 0
     for fence in fences_of(path.read_text(encoding="utf-8")):
+        if fence.place is not None:
+            Path(fence.place).write_text(fence.text, encoding="utf-8")
         if fence.language == "console":
             for command in commands_of(fence.text):
                 printed = printed_by(command.words)

@@ -50,12 +50,11 @@ class Reconstruction:
         return mobility_of_model(self.model)
 
     def to_json(self) -> dict[str, Any]:
-        """Return the reconstruction as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the reconstruction as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         counts = asdict(self.counts)
         return {
             "vertices": [
-                {"vertex": step.vertex, "in": step.kind.value, "links": [str(link) for link in step.links]}
-                for step in self.steps
+                {"vertex": step.vertex, "in": step.kind.value, "links": list(step.links)} for step in self.steps
             ],
             "counts": {key: counts[key] for key in _TOLD},
             "mobility": self.mobility,

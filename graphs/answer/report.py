@@ -61,7 +61,7 @@ class MobilityAnswer(MobilityReport):
         return overconstraint(self.pose.dof, self.mobility)
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         counted = super(MobilityAnswer, self).to_json()
         notes = {key: counted.pop(key) for key in ("repairs", "warnings")}
         pose = None

@@ -105,7 +105,7 @@ class MobilityReport:
         return replace(self, repairs=(*self.repairs, *repairs), warnings=(*self.warnings, *warnings))
 
     def to_json(self) -> dict[str, Any]:
-        """Return the report as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the report as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "class": self.mechanism_class,
             "links": self.links,

@@ -126,7 +126,7 @@ class Reduction:
         return [forest.subgraph(sorted(part)).copy() for part in nx.weakly_connected_components(forest)]
 
     def to_json(self) -> dict[str, Any]:
-        """Return the reduction as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the reduction as plain data, with the keys that scripts rely on (docs/command-json.md)."""
 
         def counts(sc: SCGraph) -> dict[str, Any]:
             return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility_report(sc).mobility}
@@ -137,10 +137,10 @@ class Reduction:
             "after": counts(self.graph),
             "steps": [
                 {
-                    "removed": list(map(str, step.removed)),
-                    "onto": list(map(str, step.onto)),
-                    "joints": list(map(str, step.joints)),
-                    "joint": None if step.joint is None else str(step.joint),
+                    "removed": list(step.removed),
+                    "onto": list(step.onto),
+                    "joints": list(step.joints),
+                    "joint": step.joint,
                     "sits_on": step.sits_on,
                 }
                 for step in self.steps

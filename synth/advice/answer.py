@@ -125,7 +125,7 @@ class Advice:
     mended: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "freedoms": self.freedoms,
             "wanted": self.wanted,

@@ -75,7 +75,7 @@ class Positions:
         return not self.lost
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "driven_deg": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
             "positions": [

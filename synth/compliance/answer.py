@@ -241,7 +241,7 @@ class States:
         return tuple(dict.fromkeys(one.name for one in self.transitions))
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "compliant": self.compliant.to_json(),
             "state": self.now.to_json(),

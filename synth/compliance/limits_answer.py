@@ -131,7 +131,7 @@ class Limits:
     truss: Truss
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {"ride_alongs": [one.to_json() for one in self.ride_alongs], "truss": self.truss.to_json()}
 
     def blocks(self) -> list[Block]:

@@ -110,14 +110,14 @@ class LinkageBehaviour:
         return Way(int(self.behaviour.ways[link])).name.lower()
 
     def to_json(self) -> dict[str, Any]:
-        """Return the behaviour as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the behaviour as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         motion, chain = self.behaviour.motion, self.chain
         lines, row = icrl(motion.motions), self.table_row()
         intra, extra = self.mobile()
         return {
             "lambda_deg": None if self.cone_angle is None else degrees(self.cone_angle),
             "azimuths_deg": dict(zip(map(str, chain.joints), in_degrees(self.places.tolist()), strict=True)),
-            "ground": str(chain.links[0]),
+            "ground": chain.links[0],
             "freedoms": None if motion.undecided else int(motion.freedoms),
             "rank": None if motion.undecided else int(motion.rank()),
             "nearly_mobile": int(motion.nearly),
@@ -126,17 +126,15 @@ class LinkageBehaviour:
             "extramobile": extra,
             "links": [
                 {
-                    "link": str(link),
-                    "joints": [str(chain.joints[joint]) for joint in joints],
+                    "link": link,
+                    "joints": [chain.joints[joint] for joint in joints],
                     "way": self.way_of(number),
                     "icrl_deg": _finite(degrees(lines[number])),
                     "instant_centre": _centre(motion.motions[number]),
                 }
                 for number, (link, joints) in enumerate(zip(chain.links, chain.joints_of, strict=True))
             ],
-            "tangent": [
-                str(joint) for joint, is_so in zip(chain.joints, self.behaviour.tangent, strict=True) if is_so
-            ],
+            "tangent": [joint for joint, is_so in zip(chain.joints, self.behaviour.tangent, strict=True) if is_so],
             "table4": None
             if row is None
             else {

@@ -113,7 +113,7 @@ class Folding:
         return made
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         found = self.branches
         return {
             "freedoms": self.freedoms,

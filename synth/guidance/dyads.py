@@ -72,7 +72,7 @@ class Dyad:
         return self.direction is not None
 
     def to_json(self) -> dict[str, Any]:
-        """Return the keys of a dyad that scripts rely on (docs/files.md)."""
+        """Return the keys of a dyad that scripts rely on (docs/command-json.md)."""
         return {
             "G": self.fixed.tolist(),
             "W": self.moving.tolist(),

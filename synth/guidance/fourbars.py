@@ -93,7 +93,7 @@ class GuidedFourBar:
         return tuple(name for name, here in found.items() if here)
 
     def to_json(self) -> dict[str, Any]:
-        """Return the four-bar as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the four-bar as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "driver": self.driver.to_json(),
             "follower": self.follower.to_json(),

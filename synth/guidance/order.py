@@ -83,7 +83,7 @@ class OrderAnalysis:
         return self.kept == self.by_inequalities == self.by_crank_angles
 
     def to_json(self) -> dict[str, Any]:
-        """Return the analysis as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the analysis as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         turned, breaks = self.hoop, self.hoop.breaks_at
         return {
             "direction": turned.direction,

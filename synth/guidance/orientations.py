@@ -284,7 +284,7 @@ def unit_vector(vector: npt.ArrayLike, name: str = "axis") -> Floats:
 
 
 def read_orientations(path: str | Path) -> Orientations:
-    """Return the orientations of a file (``synthedra/orientations``, docs/files.md).
+    """Return the orientations of a file (``synthedra/orientations``, docs/native-json.md).
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class GuidingDyads:
     all_found: DyadsOfFive | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Return the dyads as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the dyads as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         told: dict[str, Any] = {
             "orientations": len(self.orientations),
             "dyads": [dyad.to_json() for dyad in self.dyads],

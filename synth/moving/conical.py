@@ -79,11 +79,11 @@ class ConicalMotion:
         return dict(zip(self.linkage.graph.joints, whole, strict=True))
 
     def to_json(self) -> dict[str, Any]:
-        """Return the motion as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the motion as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         joints = list(map(str, self.linkage.graph.joints))
         return {
             "lambda_deg": None if self.on_cone.cone_angle is None else degrees(self.on_cone.cone_angle),
-            "ground": str(self.chain.links[0]),
+            "ground": self.chain.links[0],
             "driver": str(self.driver),
             "range_deg": [degrees(self.backward.limit), degrees(self.forward.limit)],
             "turns_fully": self.turns_fully,

@@ -76,7 +76,7 @@ class Motion:
         return self.branches.branches[self.branch or 0]
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         found, taken = self.branches, self.taken
         return {
             "freedoms": None if taken is None else taken.freedoms,

@@ -70,7 +70,7 @@ class Explanation:
     gap: float
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "freedoms": self.freedoms,
             "count": self.count,

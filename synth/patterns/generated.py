@@ -59,7 +59,7 @@ class Generated:
         return None if self.count is None else self.freedoms - self.count
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         units = {parameter.name: parameter.unit for parameter in self.generator.parameters}
         return {
             "name": self.generator.name,

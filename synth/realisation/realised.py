@@ -121,7 +121,7 @@ class Realised:
             "freedoms": self.freedoms,
             "folds": self.folds,
             "convex_border": self.convex,
-            "bent_panels": [str(link) for link in self.bent],
+            "bent_panels": list(self.bent),
             "try": self.number,
             "tries": self.tries,
             "notes": list(self.notes),

@@ -83,7 +83,7 @@ class ConeMap:
         return cautions_of(self.kind, (*self.flat, *self.cones), self.families)
 
     def to_json(self) -> dict[str, Any]:
-        """Return the map as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         document: dict[str, Any] = {
             "angles_deg": in_degrees(self.angles),
             **({} if self.kind is None else self.kind.to_json(angular=True)),

@@ -62,7 +62,7 @@ class CylinderMap:
         return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
 
     def to_json(self) -> dict[str, Any]:
-        """Return the map as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "lengths": list(self.lengths),
             **({} if self.kind is None else self.kind.to_json(angular=False)),

@@ -38,7 +38,7 @@ class LinkageMap:
     families: tuple[CommonFamily, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """Return what scripts rely on (docs/files.md): circuit, signs and k are lists, an item a loop."""
+        """Return what scripts rely on (docs/command-json.md): circuit, signs and k are lists, an item a loop."""
         return {
             "loops": [list(map(str, loop.joints)) for loop in self.linkage.chain.loops],
             "cones": [

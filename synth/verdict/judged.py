@@ -57,7 +57,7 @@ class JudgedMobility(MobilityAnswer):
         return cls(**parts, verdict=verdict, mended=mended)
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/files.md)."""
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         told = super(JudgedMobility, self).to_json()
         verdict = None if self.verdict is None else self.verdict.to_json()
         return {"verdict": verdict, **told, "mended": list(self.mended)}

@@ -102,7 +102,7 @@ class Verdict:
     places: dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
-        """Return the keys that scripts rely on (docs/files.md)."""
+        """Return the keys that scripts rely on (docs/command-json.md)."""
         return {
             "freedoms": self.freedoms,
             "basis": self.basis,

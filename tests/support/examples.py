@@ -3,6 +3,7 @@
 A block of commands is fenced as ``console``: a line that begins with ``$ synth`` is a command, the lines to the next
 are what it prints. A line of three dots stands for any lines, three dots in a line for any text. Numbers are equal to
 the digits that are written, one in the last place apart; residuals, and gaps above them, are only small, or large.
+A block of JSON after "as `name.json`:" is saved so, as a reader would save it.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ from synth.cli.main import main
 
 __all__ = ["Command", "Fence", "agree", "commands_of", "fences_of", "printed_by"]
 
-_FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FENCE = re.compile(
+    r"(?:as `(?P<place>[\w.-]+)`:\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.M | re.S | re.I
+)
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 _DOTS = "..."
 _ROUNDING = 1e-6
@@ -34,12 +37,15 @@ class Fence:
     text : str
     start, end : int
         Of the text in the document.
+    place : str or None
+        The file it is saved as.
     """
 
     language: str
     text: str
     start: int
     end: int
+    place: str | None
 
 
 @dataclass(frozen=True)
@@ -60,7 +66,10 @@ class Command:
 
 def fences_of(document: str) -> list[Fence]:
     """Return the blocks of a document that name their language."""
-    return [Fence(match[1], match[2], match.start(2), match.end(2)) for match in _FENCE.finditer(document)]
+    return [
+        Fence(match["language"], match["text"], match.start("text"), match.end("text"), match["place"])
+        for match in _FENCE.finditer(document)
+    ]
 
 
 def commands_of(block: str) -> Iterator[Command]:

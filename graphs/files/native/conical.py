@@ -5,7 +5,7 @@ Format ``synthedra/conical``: the keys of ``synthedra/sc``, and one of
 - ``angles``: ``[[joint, joint, degrees], ...]``, link angles between two joints of one link;
 - ``steps``: the same, signed projected angles between any two joints, and optionally ``lambda_deg``.
 
-Schema: graphs/schema/conical.schema.json. Guide: docs/files.md.
+Schema: graphs/schema/conical.schema.json. Guide: docs/native-json.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The native JSON files: SC and SCD graphs, models, vertex-edge graphs, linkages on cones, hinged solids, ...
 
-The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/files.md.
+The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/native-json.md.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ in ``joints`` objects with ``id``, ``links`` and
   out it is R;
 - ``point`` and ``axes``: its place, of all joints or of none.
 
-Schema: graphs/schema/joints.schema.json. Guide: docs/files.md.
+Schema: graphs/schema/joints.schema.json. Guide: docs/native-json.md.
 """
 
 from __future__ import annotations

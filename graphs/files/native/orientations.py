@@ -1,6 +1,6 @@
 """Orientations of a body as native documents: what a linkage is to guide its coupler through.
 
-The format is published as ``graphs/schema/orientations.schema.json``. Guide: docs/files.md.
+The format is published as ``graphs/schema/orientations.schema.json``. Guide: docs/native-json.md.
 What is read here is checked for its form; :func:`synth.guidance.orientations.read_orientations` makes orientations
 of it.
 """

@@ -4,7 +4,7 @@ Format ``synthedra/solids``: the keys of ``synthedra/sc``, and
 
 - ``axes``: ``[{"joint": id, "point": [x, y, z], "direction": [x, y, z]}, ...]``, one for each joint.
 
-Schema: graphs/schema/solids.schema.json. Guide: docs/files.md.
+Schema: graphs/schema/solids.schema.json. Guide: docs/native-json.md.
 """
 
 from __future__ import annotations

@@ -37,7 +37,11 @@ class _AxisType(click.ParamType):  # type: ignore[type-arg, unused-ignore]
 AXIS = _AxisType()
 
 ORIENTATIONS = click.option(
-    "--orientations", "file", required=True, metavar="FILE", help="Three or more orientations (docs/files.md)."
+    "--orientations",
+    "file",
+    required=True,
+    metavar="FILE",
+    help="Three or more orientations (docs/native-json.md).",
 )
 
 

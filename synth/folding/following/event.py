@@ -57,9 +57,9 @@ class PathEvent:
         return {
             "kind": self.kind,
             "frame": self.frame,
-            "driver": str(names[self.driver]),
+            "driver": names[self.driver],
             "at_deg": degrees(float(self.angles[self.driver])),
-            "joints": [str(names[joint]) for joint in self.joints],
+            "joints": [names[joint] for joint in self.joints],
             "drop": self.drop,
             "other_ways": self.other_ways,
             "panels": list(self.panels),

@@ -98,9 +98,9 @@ class OnOneCone:
         return {
             "kind": "cone",
             "lambda_deg": degrees(self.cone_angle),
-            "steps_deg": [[str(a), str(b), degrees(x)] for (a, b), x in (self.linkage.steps or {}).items()],
-            "link_angles_deg": [[str(a), str(b), degrees(x)] for (a, b), x in self.arcs.items()],
-            "loops": [list(map(str, loop.joints)) for loop in chain.loops],
+            "steps_deg": [[a, b, degrees(x)] for (a, b), x in (self.linkage.steps or {}).items()],
+            "link_angles_deg": [[a, b, degrees(x)] for (a, b), x in self.arcs.items()],
+            "loops": [list(loop.joints) for loop in chain.loops],
             "circuit": list(self.circuits),
             "clear_deg": degrees(self.clear),
             "mobility": self.mobility,

@@ -15,6 +15,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge
+from tests.support.examples import fences_of
 
 ROOT = Path(__file__).resolve().parents[3]
 SCHEMAS = {
@@ -134,3 +135,12 @@ def test_reader_and_schema_refuse_alike(rng):
         assert str(error).startswith("some.json: ")
     else:
         assert valid
+
+
+def test_the_page_of_native_formats_has_an_example_of_each_that_its_schema_accepts():
+    page = (ROOT / "docs" / "native-json.md").read_text(encoding="utf-8")
+    documents = [json.loads(fence.text) for fence in fences_of(page) if fence.language == "json"]
+    assert {doc["format"] for doc in documents} == {f"synthedra/{name}" for name in SCHEMAS}
+    for doc in documents:
+        jsonschema.validate(doc, schema_of(doc))
+        assert f"graphs/schema/{doc['format'].split('/')[1]}.schema.json" in page
