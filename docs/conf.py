@@ -5,10 +5,15 @@ from __future__ import annotations
 import sys
 from importlib.metadata import version as version_of
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 HERE = Path(__file__).resolve().parent
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
 sys.path.insert(0, str(HERE))
 
+from cross_links import CrossLinks  # noqa: E402
 from reference_pages import write_reference  # noqa: E402
 
 project = "synthedra"
@@ -27,4 +32,9 @@ autodoc_typehints = "none"
 default_role = "py:obj"
 suppress_warnings = ["myst.xref_missing"]  # links to files of the project that are no pages: a test follows them
 
-write_reference(HERE / "reference")
+_links = CrossLinks(write_reference(HERE / "reference"))
+
+
+def setup(app: Sphinx) -> None:
+    """Have reference and theory linked to each other."""
+    _links.connect(app)

@@ -8,6 +8,8 @@ from pathlib import Path
 from pkgutil import iter_modules
 from types import FunctionType
 
+from cross_links import with_links
+
 __all__ = ["write_reference"]
 
 _PACKAGES = ("graphs", "enumerate", "synth")
@@ -15,13 +17,18 @@ _INSIDE = ("cli", "ids", "lazy", "arrays")
 """Modules that are no part of the reference."""
 
 
-def write_reference(folder: Path) -> None:
+def write_reference(folder: Path) -> list[tuple[str, object]]:
     """Write the pages of the rooms into a folder, the front door, and the list of them.
 
     Parameters
     ----------
     folder : Path
         ``reference`` of the documentation.
+
+    Returns
+    -------
+    list of (str, object)
+        The names under which functions and classes are documented, and these.
     """
     (folder / "rooms").mkdir(parents=True, exist_ok=True)
     place_of: dict[int, str] = {}
@@ -32,6 +39,12 @@ def write_reference(folder: Path) -> None:
             made.append(module)
             _replace(folder / "rooms" / f"{module}.md", _page_of_room(module, names, place_of))
     _replace(folder / "index.md", _front_door(place_of, made))
+    return [(name, _named(name)) for name in place_of.values()]
+
+
+def _named(name: str) -> object:
+    module, _, last = name.rpartition(".")
+    return getattr(import_module(module), last)
 
 
 def _rooms_of(package: str) -> list[str]:
@@ -54,7 +67,7 @@ def _page_of_room(module: str, names: list[str], place_of: dict[int, str]) -> st
         if place_of.setdefault(id(getattr(room, name)), f"{module}.{name}") == f"{module}.{name}"
     ]
     rows = [f"   {place_of[id(getattr(room, name))]}" for name in names]
-    parts = [getdoc(room) or "", ".. autosummary::\n   :nosignatures:\n\n" + "\n".join(rows)]
+    parts = [with_links(getdoc(room) or ""), ".. autosummary::\n   :nosignatures:\n\n" + "\n".join(rows)]
     parts += [_directive(module, name, getattr(room, name)) for name in new]
     return f"# {module}\n\n```{{eval-rst}}\n" + "\n\n".join(parts) + "\n```\n"
 
@@ -77,7 +90,7 @@ def _front_door(place_of: dict[int, str], rooms: list[str]) -> str:
         "# Reference",
         "",
         "```{eval-rst}",
-        getdoc(synth) or "",
+        with_links(getdoc(synth) or ""),
         "",
         ".. autosummary::",
         "   :nosignatures:",

@@ -161,3 +161,12 @@ def test_few_classes_that_rooms_offer_are_without_an_example():
     """Many are answers of functions that have one: there may be fewer, not more."""
     without = [name for name, cls in offered(type).items() if ">>> " not in sections(cls, "Examples")]
     assert len(without) <= 67, without
+
+
+def test_every_misprint_is_told_on_the_page_of_its_theory():
+    items = re.findall(
+        r"^\| (\d{3}-\d+)", (ROOT / "docs" / "misprints.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+    assert len(items) > 30
+    theory = "".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs" / "theory").glob("*.md"))
+    assert not {item for item in items if not re.search(rf"\b{item}\b", theory)}
