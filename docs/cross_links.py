@@ -1,4 +1,4 @@
-"""Reference and theory linked to each other, by what the modules say: "Theory: docs/theory/pose.md"; `conf.py` uses it."""
+"""Reference and theory linked to each other, by the pages that modules cite; `conf.py` uses it."""
 
 from __future__ import annotations
 
