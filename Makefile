@@ -116,7 +116,7 @@ release: $(STAMP)
 	$(BIN)/twine check --strict dist/*
 	$(BIN)/check-wheel-contents --toplevel enumerate,graphs,synth dist/*.whl
 	@for python in python3.11 python3.12 python3.13; do \
-	  command -v $$python >/dev/null || { echo "$$python is not here"; continue; }; \
+	  $$python -c pass 2>/dev/null || { echo "$$python is not here"; continue; }; \
 	  for extras in "" "[draw,parquet,view]"; do \
 	    rm -rf dist/tried && $$python -m venv dist/tried && dist/tried/bin/pip install --quiet "$$(ls dist/*.whl)$$extras" && \
 	    dist/tried/bin/synth --version && dist/tried/bin/synth mobility data/patterns/bird-base.fold >/dev/null || exit 1; \

@@ -41,6 +41,7 @@ _COMMANDS = {
     "order": "synth.cli.guidance.order:order",
     "dyads": "synth.cli.guidance.dyads:dyads",
     "fourbar": "synth.cli.guidance.fourbar:fourbar",
+    "completion": "synth.cli.completion:completion",
 }
 """Name of a subcommand to where it is."""
 

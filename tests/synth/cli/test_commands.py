@@ -126,6 +126,7 @@ def test_shell_completion_knows_the_commands():
         "order",
         "dyads",
         "fourbar",
+        "completion",
     }
 
 
