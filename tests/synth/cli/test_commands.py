@@ -20,7 +20,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from synth.cli.main import main
 
-WITHOUT_JSON = ("enumerate", "cone", "cylinder", "atlas", "realise", "template", "draw", "view")
+WITHOUT_JSON = ("enumerate", "cone", "cylinder", "atlas", "realise", "template", "draw", "view", "completion")
 """Groups, whose commands have it, and what only writes files."""
 
 
