@@ -2,9 +2,11 @@
 
 import inspect
 import re
+import tomllib
 from dataclasses import is_dataclass
 from enum import Enum
 from importlib import import_module
+from importlib.metadata import version
 from pathlib import Path
 from pkgutil import iter_modules
 from types import FunctionType
@@ -170,3 +172,10 @@ def test_every_misprint_is_told_on_the_page_of_its_theory():
     assert len(items) > 30
     theory = "".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs" / "theory").glob("*.md"))
     assert not {item for item in items if not re.search(rf"\b{item}\b", theory)}
+
+
+def test_the_version_stands_in_one_place_and_where_it_is_cited():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    cited = re.search(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
+    assert cited is not None
+    assert cited[1] == project["version"] == version("synthedra")
