@@ -1,4 +1,4 @@
-"""Cones and cylinders: linkages on them, where loops close, what rounding leaves open, which way links go."""
+"""Cones and cylinders: linkages on them, where loops close, what rounding leaves open, several loops, steps."""
 
 from __future__ import annotations
 

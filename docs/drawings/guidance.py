@@ -80,9 +80,10 @@ class _Globe:
 
 
 def order() -> Scene:
-    """The hoop about a fixed axis that keeps the order."""
-    orientations = read_orientations(_CRANK_ROCKER)
-    dyad = next(one for one in synth.guiding_dyads(orientations).dyads if one.in_order)
+    """The hoop about a fixed axis that keeps the order of four orientations."""
+    five = read_orientations(_CRANK_ROCKER)
+    dyad = next(one for one in synth.guiding_dyads(five).dyads if one.in_order)
+    orientations = Orientations(five.quaternions[:4])
     turning = hoop(orientations, dyad.fixed, dyad.direction or "ccw")
     return cropped(thinned(legible(draw_hoop(orientations, dyad.fixed, turning))))
 

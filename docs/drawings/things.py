@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
+from itertools import filterfalse
 from math import degrees, hypot, radians
 
 import synth
@@ -46,9 +48,14 @@ def realisation() -> Scene:
 
 
 def _unnumbered(thing: Mechanism, side: float) -> Scene:
-    """Return links, joints and centres of a thing: only its links have numbers."""
-    scene = synth.draw(thing, kind="graph", caption=None, box=(side, side))
-    return cropped(legible(without(scene, "ride-alongs", "labels")))
+    """Return links, joints and centres of a thing, without numbers."""
+    scene = without(synth.draw(thing, kind="graph", caption=None, box=(side, side)), "ride-alongs", "labels")
+    layers = (Layer(one.name, tuple(filterfalse(_is_label, one.shapes))) for one in scene.layers)
+    return cropped(replace(scene, layers=tuple(layers)))
+
+
+def _is_label(shape: Shape) -> bool:
+    return isinstance(shape, Label)
 
 
 def generators() -> Scene:

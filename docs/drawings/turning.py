@@ -49,6 +49,7 @@ def _ranges(lengths: Sequence[float]) -> Scene:
     input_there = np.isfinite(output_planar(lengths, turns))
     # seen from C the output is the input: its angle is counted from C O
     output_there = np.isfinite(output_planar((g, b, h, a), pi - turns))
+    # a position off the limits, where links would lie in line
     theta = float(turns[input_there][len(turns[input_there]) // 6])
     psi = float(output_planar(lengths, theta, -1))
     o, c = (0.0, 0.0), (g, 0.0)
