@@ -4,26 +4,38 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from drawings import kinds
+from drawings import cones, enumeration, guidance, kinds, things, turning
 from synth.drawing import Scene, save_scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
 
 DRAWINGS: dict[str, Callable[[], Scene]] = {
     **kinds.DRAWINGS,
+    **enumeration.DRAWINGS,
+    **things.DRAWINGS,
+    **cones.DRAWINGS,
+    **turning.DRAWINGS,
+    **guidance.DRAWINGS,
 }
 """Name of a theory page to what draws its picture."""
+
+
+def drawing_of(page: str) -> Scene:
+    """Return the drawing of a page; who cannot see it is told what the function that draws it says of itself."""
+    draw = DRAWINGS[page]
+    return replace(draw(), title=(draw.__doc__ or "").split("\n")[0])
 
 
 def main() -> None:
     """Write the drawings of the pages named, or all."""
     FOLDER.mkdir(exist_ok=True)
     for page in sys.argv[1:] or DRAWINGS:
-        save_scene(DRAWINGS[page](), FOLDER / f"{page}.svg", force=True)
+        save_scene(drawing_of(page), FOLDER / f"{page}.svg", force=True)
 
 
 if __name__ == "__main__":

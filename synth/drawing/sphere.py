@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import groupby
+from math import hypot
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +19,7 @@ from synth.drawing.labels import spread
 from synth.drawing.scene.frame import Frame, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
 from synth.drawing.scene.plot import Plot
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape, text_width
 from synth.drawing.space.view import View, view_from
 from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
 from synth.guidance.orientations import Orientations, unit_vector
@@ -36,6 +37,8 @@ _MOST_LABELLED = 7
 """Orientations; of more only the axes that decide are shown."""
 _MOST_DRAWN = 15
 _FAR = (2.0, 2.0)
+_APART = hypot(text_width("S12", SMALL), SMALL) / _RADIUS
+"""From name to name, in radii: as far as the letters of two reach, whichever way they lie."""
 
 
 def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Scene:
@@ -85,7 +88,8 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     ]
     verdict = "the order is kept" if hoop.in_order else "the order is not kept"
     said = [
-        f"hoop about G, turning {direction_words(hoop.direction)} from S12: {verdict}; red: the axes that decide",
+        f"hoop about G, turning {direction_words(hoop.direction)} from S12: {verdict}; "
+        "red, above the line: the axes that decide",
         "blue: the body's z axis at each orientation; red, green: towards its x, y; open or dashed: far side",
     ]
     return page_of(Frame(1, 0, 0, 0, 0, _SIDE, _SIDE + _STRIP), layers, said)
@@ -181,7 +185,7 @@ def _marks(globe: _Globe, marks: Sequence[tuple[Floats, str, str]], orientations
     """Return dots with names, which keep off each other and off the numbers of orientations."""
     at, near = globe.flat(np.array([point for point, _, _ in marks]))
     bodies, _ = globe.flat(orientations.matrices[:, :, 2])
-    texts = spread(np.concatenate([at, bodies]), reach=0.085, gap=0.075)[: len(marks)]
+    texts = spread(np.concatenate([at, bodies]), reach=0.085, gap=_APART)[: len(marks)]
     shapes: list[Shape] = []
     for spot, label_at, (_, name, colour), here in zip(at, texts, marks, near, strict=True):
         place, text_at = globe.on_page(spot), globe.on_page(label_at)

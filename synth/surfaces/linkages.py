@@ -99,7 +99,7 @@ def by_angles(linkage: ConicalLinkage) -> ConicalLinkage:
 
     Examples
     --------
-    Four quarter turns round a cone of half apex angle 45 degrees are links of 60 degrees:
+    Four quarter turns round a cone of lambda 45 degrees are links of 60 degrees:
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])

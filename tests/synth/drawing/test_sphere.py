@@ -19,6 +19,8 @@ from synth.guidance.dyads import dyads_of_three
 from synth.guidance.four import centre_axes
 from synth.guidance.hoop_method import hoop
 from synth.guidance.order import order_verdicts
+from synth.guidance.orientations import read_orientations
+from synth.guidance.synthesis import guiding_dyads
 
 TASK = Path(__file__).resolve().parents[3] / "data" / "orientations" / "tipparthi.json"
 
@@ -49,6 +51,27 @@ def test_names_of_axes_keep_off_each_other_and_off_the_numbers_of_orientations()
     others = [shape.at for shape in layer(scene, "orientations") if isinstance(shape, shapes.Label)]
     apart = [np.hypot(a[0] - b[0], a[1] - b[1]) for i, a in enumerate(names) for b in [*names[:i], *others]]
     assert min(apart) > 5.0
+
+
+def overlapping(labels):
+    """Pairs of names of which letters lie on letters."""
+    pairs = []
+    for i, one in enumerate(labels):
+        for other in labels[:i]:
+            wide = min(one.box[2], other.box[2]) - max(one.box[0], other.box[0])
+            high = min(one.box[3], other.box[3]) - max(one.box[1], other.box[1])
+            if wide > 0.5 and high > 0.5:
+                pairs.append((one.text, other.text))
+    return pairs
+
+
+def test_names_of_axes_do_not_lie_on_each_other_beside_a_crank_rocker():
+    """Its relative axes are near each other: names keep a name's width off, not only its height."""
+    given = read_orientations(TASK.with_name("crank-rocker.json"))
+    for dyad in guiding_dyads(given).dyads:
+        scene = draw_hoop(given, dyad.fixed, hoop(given, dyad.fixed))
+        names = [shape for shape in layer(scene, "axes") if isinstance(shape, shapes.Label)]
+        assert overlapping(names) == []
 
 
 def painted(scene, spots):

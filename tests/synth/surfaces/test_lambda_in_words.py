@@ -1,0 +1,22 @@
+"""What lambda is: the same in the code and in the words of the documents."""
+
+from math import degrees, pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from synth.conformed.pose import joint_axes
+
+DOCS = Path(__file__).resolve().parents[3] / "docs"
+
+
+def test_lambda_is_what_the_words_say():
+    axis, first = np.array([0.0, -1.0, 0.0]), joint_axes([0.0], 0.3)[0]
+    half_the_apex = float(np.arccos(axis @ first))
+    assert half_the_apex == pytest.approx(pi / 2 - 0.3)
+    words = (DOCS / "words.md").read_text().replace("\n", " ")
+    assert "**Lambda**: the angle between a ruling line and the plane across the axis" in words
+    assert f"{degrees(pi / 2):.0f} degrees less half the apex angle" in words
+    for place in [*DOCS.glob("*.md"), *DOCS.glob("guides/*.md")]:
+        assert "is half the apex" not in place.read_text(), place
