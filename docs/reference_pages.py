@@ -81,19 +81,15 @@ def _directive(module: str, name: str, thing: object) -> str:
 def _front_door(place_of: dict[int, str], rooms: list[str]) -> str:
     """Return the first page: what `import synth` offers, and the rooms."""
     synth = import_module("synth")
-    rows = [
-        f"   {place_of[id(getattr(synth, name))]}"
-        for name in _offered_by("synth")
-        if id(getattr(synth, name)) in place_of
-    ]
+    rows = [_row(name, getattr(synth, name), place_of) for name in _offered_by("synth")]
     lines = [
         "# Reference",
         "",
         "```{eval-rst}",
         with_links(getdoc(synth) or ""),
         "",
-        ".. autosummary::",
-        "   :nosignatures:",
+        ".. list-table::",
+        "   :widths: 25 75",
         "",
         *rows,
     ]
@@ -109,6 +105,14 @@ def _front_door(place_of: dict[int, str], rooms: list[str]) -> str:
         "",
     ]
     return "\n".join(lines)
+
+
+def _row(name: str, thing: object, place_of: dict[int, str]) -> str:
+    """Return a row of the table of the front door: a name, linked to where it is documented, and what it does."""
+    place = place_of.get(id(thing))
+    told = f":py:obj:`{name} <{place}>`" if place else f"``{name}``"
+    first = (getdoc(thing) or "").partition("\n\n")[0].replace("\n", " ")
+    return f"   * - {told}\n     - {first}"
 
 
 def _replace(place: Path, text: str) -> None:
