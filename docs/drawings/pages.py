@@ -8,13 +8,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from drawings import kinds
+from drawings import kinds, mobility
 from synth.drawing import Scene, save_scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
 
 DRAWINGS: dict[str, Callable[[], Scene]] = {
     **kinds.DRAWINGS,
+    **mobility.DRAWINGS,
 }
 """Name of a theory page to what draws its picture."""
 
