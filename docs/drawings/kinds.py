@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import replace
 from math import dist
-from pathlib import Path
 
 import synth
 from drawings.altered import mirrored, over, plain_graph, without
+from drawings.examples import generated_sheet, sheet_of_file
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
-from graphs.identity.drawings import map_id
+from graphs.identity.drawings import map_id, mechanism_from_map_id
+from graphs.ids import JointId
 from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.vertex_edge import vertex_edge_from_sc
 from synth.drawing import Scene
 from synth.drawing.mechanisms.sc_graphs import class_numbers
@@ -26,7 +26,6 @@ from synth.drawing.scene.shapes import Disc, Label, Line, Point, Shape
 
 __all__ = ["DRAWINGS"]
 
-DATA = Path(__file__).resolve().parent.parent.parent / "data"
 _DASH = (2.5, 2.0)
 _FREE = 22.0
 """Points that are drawn of a crease which runs to the border."""
@@ -36,7 +35,7 @@ _TWO_DRAWINGS = ("m1:a--b.ac-.bde.cef.d--g.fg-", "m1:a--b.ac-.bde.cef.d-g.fg--")
 
 def sc_graphs() -> Scene:
     """A panel mechanism beside its link-joint graph with the centres of its loops."""
-    teller = Patterned(_realised("fortune-teller"), 200.0)
+    teller = Patterned(sheet_of_file("realised/fortune-teller.fold"), 200.0)
     return beside(
         said(teller.scene(), "panels and creases"),
         said(
@@ -58,13 +57,13 @@ def scd_graphs() -> Scene:
 
 def _panels_and_drawing(name: str) -> Scene:
     """Return the panels of one loop, its creases drawn on to where they meet, above its SCD graph."""
-    pattern = Patterned(_realised(name), 150.0)
+    pattern = Patterned(sheet_of_file(f"realised/{name}.fold"), 150.0)
     scd = synth.convert(pattern.sheet, "scd")
-    joints = list(pattern.mechanism.hinges)
-    return above(over(pattern.scene(), _meeting(pattern, joints, 0)), _graph(scd, 150.0), gap=2.0)
+    assert isinstance(scd, SCDGraph)
+    return above(over(pattern.scene(), _meeting(pattern, pattern.joints, 0)), _graph(scd, 150.0), gap=2.0)
 
 
-def _meeting(pattern: Patterned, joints: list[int], number: int) -> list[Shape]:
+def _meeting(pattern: Patterned, joints: Sequence[JointId], number: int) -> list[Shape]:
     """Return dashes from creases to the point where they meet, and the sign of a finite centre there."""
     centre = pattern.meeting(joints)
     dashes: list[Shape] = [Line(pattern.towards(joint, centre), "grey", FINE, _DASH) for joint in joints]
@@ -85,21 +84,19 @@ def centre_classes() -> Scene:
 
 def _two_loops(name: str) -> Scene:
     """Return a mechanism of two loops, their shared creases thick, all creases drawn on to their centres."""
-    pattern = Patterned(_realised(name), 200.0)
+    pattern = Patterned(sheet_of_file(f"realised/{name}.fold"), 200.0)
     sc = pattern.mechanism.sc
     numbers = class_numbers(sc)
     thick: list[Shape] = [Line(pattern.crease(joint), "ink", 1.5 * STRONG) for joint in pattern.shared(0, 1)]
     signs = [
-        shape
-        for place, loop in enumerate(sc.loops)
-        for shape in _meeting(pattern, list(loop.joints), numbers[place])
+        shape for place, loop in enumerate(sc.loops) for shape in _meeting(pattern, loop.joints, numbers[place])
     ]
     return over(pattern.scene(), [*thick, *signs])
 
 
 def polyhedron_model() -> Scene:
     """Four folded panels beside the vertices and rods that stand for them."""
-    sheet = synth.generate("miura", rows=2, columns=2, fold=1.2).mechanism
+    sheet = generated_sheet("miura", rows=2, columns=2, fold=1.2)
     model = synth.convert(sheet, "polyhedron")
     assert isinstance(model, PolyhedronModel)
     panels = synth.draw(sheet, numbers=False, box=(210.0, 210.0), caption=None)
@@ -121,15 +118,16 @@ def _rods_of(model: PolyhedronModel) -> Scene:
     scene = without(synth.draw(model, box=(210.0, 210.0), caption=None), "labels")
     rods, *others = scene.layers
     drawn = [
-        line if frozenset(ends) in sides else replace(line, colour="class0", width=FINE, dash=_DASH)
+        line if frozenset(ends) in sides else Line(line.points, "class0", FINE, _DASH)
         for ends, line in zip(model.edges, rods.shapes, strict=True)
+        if isinstance(line, Line)
     ]
     return replace(scene, layers=(replace(rods, shapes=tuple(drawn)), *others))
 
 
 def vertex_edge_graphs() -> Scene:
     """A crease pattern and the vertex-edge graph that lies in it."""
-    pattern = Patterned(synth.read(DATA / "patterns" / "bird-base.fold"), 200.0)
+    pattern = Patterned(sheet_of_file("patterns/bird-base.fold"), 200.0)
     return beside(
         said(pattern.scene(colour="letters"), "crease pattern"),
         said(
@@ -143,7 +141,8 @@ def vertex_edge_graphs() -> Scene:
 def _vertex_edge(pattern: Patterned) -> Scene:
     """Return the vertex-edge graph of a pattern, where its centres lie; creases to the border end free."""
     graph = vertex_edge_from_sc(pattern.mechanism.sc)
-    at = {loop: pattern.places[vertex] for loop, vertex in enumerate(pattern.mechanism.loop_vertices)}
+    places = [pattern.places[vertex] for vertex in pattern.mechanism.loop_vertices]
+    at: dict[Hashable, Point] = dict(enumerate(places))
     edges: list[Shape] = []
     for joint, ends in graph.creases.items():
         if len(ends) == 2:
@@ -163,7 +162,7 @@ def _begun(start: Point, crease: list[Point]) -> list[Point]:
 
 def crease_patterns() -> Scene:
     """A pattern with a vertex and a hole, and its mechanism: what the faces and creases become."""
-    pattern = Patterned(_realised("hybrid-ten-bar"), 200.0)
+    pattern = Patterned(sheet_of_file("realised/hybrid-ten-bar.fold"), 200.0)
     sc = pattern.mechanism.sc
     x, y = pattern.middle_of_hole()
     words: list[Shape] = [
@@ -183,11 +182,11 @@ def crease_patterns() -> Scene:
 
 def map_codes() -> Scene:
     """A drawing, its mirror image, and another drawing of the same links and joints, with their ids."""
-    one, other = (synth.read(code) for code in _TWO_DRAWINGS)
-    image = _mirror_image(one)
+    one, other = map(mechanism_from_map_id, _TWO_DRAWINGS)
+    assert isinstance(one, SCDGraph)
     return beside(
         said(_graph(one, 150.0), "a drawing", map_id(one)),
-        said(mirrored(_graph(one, 150.0)), "its mirror image: the same id", map_id(image)),
+        said(mirrored(_graph(one, 150.0)), "its mirror image: the same id", map_id(_mirror_image(one))),
         said(_graph(other, 150.0), "another drawing: another id", map_id(other)),
     )
 
@@ -201,13 +200,7 @@ def _mirror_image(scd: SCDGraph) -> SCDGraph:
     return SCDGraph(scd.nodes, scd.joints, scd.loops, rotation=rotation, outer=outer)
 
 
-def _realised(name: str) -> Sheet:
-    sheet = synth.read(DATA / "realised" / f"{name}.fold")
-    assert isinstance(sheet, Sheet)
-    return sheet
-
-
-def _graph(graph: SCGraph | SCDGraph, side: float) -> Scene:
+def _graph(graph: SCGraph, side: float) -> Scene:
     return plain_graph(synth.draw(graph, kind="graph", box=(side, side), caption=None))
 
 

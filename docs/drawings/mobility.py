@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
 import synth
 from drawings.altered import over, plain_graph, without_letters
+from drawings.examples import generated_sheet, graph_of_file, sheet_of_file
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
@@ -29,13 +29,12 @@ from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon, Shape
 
 __all__ = ["DRAWINGS"]
 
-DATA = Path(__file__).resolve().parent.parent.parent / "data"
 _DOTTED = (1.0, 2.0)
 
 
 def verdict() -> Scene:
     """A Miura sheet, and the same with its vertices moved: what the verdict says of both."""
-    miura = synth.generate("miura", rows=3, columns=4).mechanism
+    miura = generated_sheet("miura", rows=3, columns=4)
     return beside(
         _judged(miura, "Miura sheet"), _judged(_shaken(miura, 0.1), "vertices moved a little: general angles")
     )
@@ -45,9 +44,10 @@ def _judged(sheet: Sheet, name: str) -> Scene:
     """Return a pattern coloured by the verdict on it, with its count and the verdict in words."""
     found = synth.mobility(sheet)
     assert found.verdict is not None
+    assert found.mobility is not None
     freedoms = found.verdict.freedoms
     moves = f"folds with {numbered(freedoms, 'freedom')}" if freedoms else "rigid"
-    creases = "orange: creases that move" if freedoms else "grey, dotted: creases that cannot move"
+    creases = "whole lines, orange: creases that move" if freedoms else "dotted, grey: creases that cannot move"
     pattern = Patterned(sheet, 200.0).scene(colour="verdict")
     return said(
         pattern,
@@ -81,8 +81,9 @@ def mobility_by_count() -> Scene:
 
 def _counted(name: str, centres: str) -> Scene:
     """Return a type with its class and its mobility by the loops, by those of a closed surface if there is one."""
-    graph = synth.read(DATA / "wiener" / f"{name}.json")
+    graph = graph_of_file(f"wiener/{name}.json")
     report = mobility_report(graph)
+    assert report.mobility is not None
     picture = without_letters(plain_graph(synth.draw(graph, kind="graph", box=(130.0, 130.0), caption=None)))
     return said(picture, f"{report.mechanism_class}:", centres, f"M = {_terms(graph)} = {signed(report.mobility)}")
 
@@ -106,17 +107,17 @@ def exact_mobility() -> Scene:
         )
         for joint in pattern.mechanism.hinges
     ]
-    count = signed(mobility_report(pattern.mechanism.sc).mobility)
+    count = signed(_count(sheet))
     return said(
         over(pattern.scene(), ways),
         f"M = {count} by count, {found.mobility} by rank: {numbered(found.idle, 'equation')} idle",
-        "orange: creases that move; grey, dotted: creases that no motion turns",
+        "thick, orange: creases that move; dotted, grey: creases that no motion turns",
     )
 
 
 def _mesh_with_creased_edge() -> Sheet:
     """Return a general mesh of sixteen panels, four of them, at its edge, creased along diagonals."""
-    sheet = _shaken(synth.generate("map", rows=4, columns=4).mechanism, 0.12)
+    sheet = _shaken(generated_sheet("map", rows=4, columns=4), 0.12)
     for _, right, _, below in sheet.faces[:4]:
         sheet = crease_sheet(sheet, right, below).sheet
     return sheet
@@ -124,9 +125,11 @@ def _mesh_with_creased_edge() -> Sheet:
 
 def pose() -> Scene:
     """Singular values of a folded sheet whose coordinates are rounded: the gap between equations and noise."""
-    sheet = synth.generate("miura", rows=4, columns=4, fold=1.2).mechanism
-    rounded = replace(sheet, coordinates=tuple(tuple(round(x, 5) for x in row) for row in sheet.coordinates))
+    sheet = generated_sheet("miura", rows=4, columns=4, fold=1.2)
+    places = np.array(sheet.coordinates).round(5).tolist()
+    rounded = replace(sheet, coordinates=tuple(map(tuple, places)))
     found = pose_mobility(rounded)
+    assert found.dof is not None
     values = np.linalg.svd(dense(closure_at_pose(rounded, mechanism_of_sheet(rounded))), compute_uv=False)
     picture = _singular_values(values / values[0], found)
     return beside(
@@ -173,42 +176,42 @@ def _singular_values(values: Floats, found: PoseMobility) -> Scene:
             halo=False,
         )
     )
-    return Scene(270.0, 200.0, (Layer("values", tuple(shapes)),), "singular values")
+    return Scene(270.0, 200.0, (Layer("values", tuple(shapes)),))
 
 
 def reduction() -> Scene:
     """Ride-alongs taken off a sheet, one after the other: freedoms stay."""
-    sheet = synth.read(DATA / "realised" / "adjunct-chain.fold")
+    sheet = sheet_of_file("realised/adjunct-chain.fold")
     scenes = []
     while True:
         pattern = Patterned(sheet, 170.0)
         steps = synth.reduce(pattern.mechanism.sc).steps
-        removed = steps[0].removed if steps else ()
+        removed = [link for link in steps[0].removed if isinstance(link, int)] if steps else []
         scenes.append(_with_ride_along(pattern, removed))
         if not removed:
-            return said(beside(*scenes, gap=8.0), "yellow: the ride-along that is taken off next")
+            return said(beside(*scenes, gap=8.0), "rimmed, yellow: the ride-along that is taken off next")
         sheet = take_off_panels(sheet, removed).sheet
 
 
 def _with_ride_along(pattern: Patterned, removed: Collection[int]) -> Scene:
     """Return a pattern, the panels that are taken off next marked and crossed by lines."""
     count = numbered(len(pattern.mechanism.panels), "link")
-    freedoms = mobility_report(pattern.mechanism.sc).mobility
     faces = [pattern.sheet.faces[face] for link in removed for face in pattern.mechanism.panels[link]]
     marks = [Polygon([pattern.places[v] for v in face], "marked", "ink", STRONG, opacity=0.7) for face in faces]
-    return said(over(pattern.scene(), marks), count, f"M = {freedoms}")
+    return said(over(pattern.scene(), marks), count, f"M = {_count(pattern.sheet)}")
 
 
 def edits() -> Scene:
     """A pattern between two edits: a crease locked, and a panel creased."""
-    sheet = synth.generate("waterbomb-base").mechanism
+    sheet = generated_sheet("waterbomb-base")
     centre, first, second = sheet.faces[1]
+    places = np.array(sheet.coordinates)
     locked = lock_crease(sheet, sheet.edges.index((centre, first)))
-    creased = crease_sheet(sheet, centre, np.mean([sheet.coordinates[end] for end in (first, second)], axis=0))
-    new = len(creased.sheet.coordinates) - 1
+    creased = crease_sheet(sheet, centre, ((places[first] + places[second]) / 2).tolist())
+    new = len(places)
     return beside(
         _edited(locked, Line([], "grey", STRONG, _DOTTED), (centre, first), "one crease locked"),
-        said(Patterned(sheet, 130.0).scene(), "before", f"M = {_mobility(sheet)}"),
+        said(Patterned(sheet, 130.0).scene(), "before", f"M = {_count(sheet)}"),
         _edited(creased, Line([], "class1", STRONG), (centre, new), "one panel creased"),
     )
 
@@ -218,11 +221,14 @@ def _edited(edit: SheetEdit, mark: Line, crease: tuple[int, int], what: str) -> 
     pattern = Patterned(edit.sheet, 130.0)
     marked = replace(mark, points=[pattern.places[end] for end in crease])
     change = f"dM = {'+' * (edit.predicted > 0)}{signed(edit.predicted)}"
-    return said(over(pattern.scene(), [marked]), f"{what}: {change}", f"M = {_mobility(edit.sheet)}")
+    return said(over(pattern.scene(), [marked]), f"{what}: {change}", f"M = {_count(edit.sheet)}")
 
 
-def _mobility(sheet: Sheet) -> int | None:
-    return mobility_report(mechanism_of_sheet(sheet).sc).mobility
+def _count(sheet: Sheet) -> int:
+    """Return the mobility of a sheet by count."""
+    found = mobility_report(mechanism_of_sheet(sheet).sc).mobility
+    assert found is not None
+    return found
 
 
 DRAWINGS: dict[str, Callable[[], Scene]] = {
