@@ -9,7 +9,10 @@ from math import inf
 from synth.drawing.scene.palette import SMALL
 from synth.drawing.scene.shapes import Disc, Label, Layer, Point, Scene, Shape
 
-__all__ = ["mirrored", "over", "plain_graph", "without", "without_letters"]
+__all__ = ["DASH", "DOTTED", "mirrored", "over", "plain_graph", "without", "without_letters"]
+
+DASH, DOTTED = (2.5, 2.0), (1.0, 2.0)
+"""Strokes and gaps of lines that are added, points."""
 
 
 def over(scene: Scene, shapes: Iterable[Shape]) -> Scene:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import synth
+from graphs.arrays import Floats
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 
-__all__ = ["generated_sheet", "generated_solids", "graph_of_file", "sheet_of_file"]
+__all__ = ["generated_sheet", "generated_solids", "graph_of_file", "sheet_of_file", "with_places"]
 
 _DATA = Path(__file__).resolve().parent.parent.parent / "data"
 
@@ -33,6 +35,11 @@ def generated_sheet(name: str, *, fold: float | None = None, **parameters: float
     sheet = synth.generate(name, fold=fold, **parameters).mechanism
     assert isinstance(sheet, Sheet)
     return sheet
+
+
+def with_places(sheet: Sheet, places: Floats) -> Sheet:
+    """Return a sheet with its vertices elsewhere: float[vertices, 2] or float[vertices, 3]."""
+    return replace(sheet, coordinates=tuple(map(tuple, places.tolist())))
 
 
 def generated_solids(name: str, **parameters: float) -> HingedSolids:

@@ -8,7 +8,7 @@ from math import degrees, radians
 import numpy as np
 
 import synth
-from drawings.altered import over
+from drawings.altered import DASH, over
 from drawings.examples import generated_sheet, generated_solids
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
@@ -27,8 +27,6 @@ from synth.moving.linkages import linkage_of
 
 __all__ = ["DRAWINGS"]
 
-_DASH = (2.5, 2.0)
-
 
 def overconstraint() -> Scene:
     """A Miura sheet and the sets of loops that hold an idle equation each, numbered."""
@@ -37,10 +35,11 @@ def overconstraint() -> Scene:
     pattern = Patterned(generated_sheet("miura", **size), 200.0)
     sets = [[_vertex_of(pattern, loop) for loop in one.loops] for one in found.sets]
     marks = [shape for number, corners in enumerate(sets) for shape in _set_of_loops(corners, number)]
+    freedoms = numbered(found.freedoms, "freedom")
     (each,) = {one.idle for one in found.sets}
     return said(
         over(pattern.scene(), marks),
-        f"{numbered(found.freedoms, 'freedom')}, M = {signed(found.count)} by count: {found.idle} equations idle,",
+        f"folded: {freedoms}, M = {signed(found.count)} by count: {found.idle} equations idle,",
         f"{each} about each inner panel: in the loops of its four vertices",
     )
 
@@ -92,7 +91,7 @@ def _curve(angles: Floats, values: Floats, name: str, marks: Sequence[tuple[floa
     """Return values against the turn of the crank, degrees; poses of balance are discs, full if stable."""
     reach = 1.1 * max(values.max(), -values.min())
     plot = Plot(34.0, 20.0, 300.0, 84.0, (0.0, 360.0), (min(1.1 * float(values.min()), -0.08 * reach), reach))
-    shapes: list[Shape] = [Line([plot.at(0.0, 0.0), plot.at(360.0, 0.0)], "grey", FINE, _DASH)]
+    shapes: list[Shape] = [Line([plot.at(0.0, 0.0), plot.at(360.0, 0.0)], "grey", FINE, DASH)]
     shapes += plot.below((0, 90, 180, 270, 360), "turn of the crank, degrees")
     shapes += plot.beside(round_steps(*plot.y, most=4), name)
     shapes.append(Line(plot.row(angles, values), "class0", STRONG))

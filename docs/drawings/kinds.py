@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import dist
 
 import synth
-from drawings.altered import mirrored, over, plain_graph, without
+from drawings.altered import DASH, mirrored, over, plain_graph, without
 from drawings.examples import generated_sheet, sheet_of_file
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
@@ -26,7 +26,6 @@ from synth.drawing.scene.shapes import Disc, Label, Line, Point, Shape
 
 __all__ = ["DRAWINGS"]
 
-_DASH = (2.5, 2.0)
 _FREE = 22.0
 """Points that are drawn of a crease which runs to the border."""
 _TWO_DRAWINGS = ("m1:a--b.ac-.bde.cef.d--g.fg-", "m1:a--b.ac-.bde.cef.d-g.fg--")
@@ -66,7 +65,7 @@ def _panels_and_drawing(name: str) -> Scene:
 def _meeting(pattern: Patterned, joints: Sequence[JointId], number: int) -> list[Shape]:
     """Return dashes from creases to the point where they meet, and the sign of a finite centre there."""
     centre = pattern.meeting(joints)
-    dashes: list[Shape] = [Line(pattern.towards(joint, centre), "grey", FINE, _DASH) for joint in joints]
+    dashes: list[Shape] = [Line(pattern.towards(joint, centre), "grey", FINE, DASH) for joint in joints]
     return [*dashes, *centre_sign(centre, Centre.FINITE, colour_of_class(number))]
 
 
@@ -118,7 +117,7 @@ def _rods_of(model: PolyhedronModel) -> Scene:
     scene = without(synth.draw(model, box=(210.0, 210.0), caption=None), "labels")
     rods, *others = scene.layers
     drawn = [
-        line if frozenset(ends) in sides else Line(line.points, "class0", FINE, _DASH)
+        line if frozenset(ends) in sides else Line(line.points, "class0", FINE, DASH)
         for ends, line in zip(model.edges, rods.shapes, strict=True)
         if isinstance(line, Line)
     ]

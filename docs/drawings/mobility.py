@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 import synth
-from drawings.altered import over, plain_graph, without_letters
-from drawings.examples import generated_sheet, graph_of_file, sheet_of_file
+from drawings.altered import DOTTED, over, plain_graph, without_letters
+from drawings.examples import generated_sheet, graph_of_file, sheet_of_file, with_places
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
@@ -28,8 +28,6 @@ from synth.drawing.scene.plot import Plot, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon, Shape
 
 __all__ = ["DRAWINGS"]
-
-_DOTTED = (1.0, 2.0)
 
 
 def verdict() -> Scene:
@@ -63,7 +61,7 @@ def _shaken(sheet: Sheet, part: float) -> Sheet:
     sides = np.array([places[a] - places[b] for a, b in sheet.edges])
     most = part * float(np.median(np.hypot(*sides.T)))
     moved = places + np.random.default_rng(2).uniform(-most, most, places.shape)
-    return replace(sheet, coordinates=tuple(map(tuple, moved.tolist())))
+    return with_places(sheet, moved)
 
 
 def mobility_by_count() -> Scene:
@@ -102,9 +100,7 @@ def exact_mobility() -> Scene:
     pattern = Patterned(sheet, 200.0)
     found = diagnose(pattern.mechanism.sc)
     ways = [
-        Line(
-            pattern.crease(joint), *(("grey", NORMAL, _DOTTED) if joint in found.immobile else ("class1", STRONG))
-        )
+        Line(pattern.crease(joint), *(("grey", NORMAL, DOTTED) if joint in found.immobile else ("class1", STRONG)))
         for joint in pattern.mechanism.hinges
     ]
     count = signed(_count(sheet))
@@ -126,8 +122,7 @@ def _mesh_with_creased_edge() -> Sheet:
 def pose() -> Scene:
     """Singular values of a folded sheet whose coordinates are rounded: the gap between equations and noise."""
     sheet = generated_sheet("miura", rows=4, columns=4, fold=1.2)
-    places = np.array(sheet.coordinates).round(5).tolist()
-    rounded = replace(sheet, coordinates=tuple(map(tuple, places)))
+    rounded = with_places(sheet, np.array(sheet.coordinates).round(5))
     found = pose_mobility(rounded)
     assert found.dof is not None
     values = np.linalg.svd(dense(closure_at_pose(rounded, mechanism_of_sheet(rounded))), compute_uv=False)
@@ -165,7 +160,7 @@ def _singular_values(values: Floats, found: PoseMobility) -> Scene:
         Disc(plot.at(place + 1.0, height), 2.4, "ink", None) for place, height in enumerate(heights.tolist())
     ]
     gap = [plot.at(number, above), plot.at(number, max(below, heights[-1]))]
-    shapes.append(Line(gap, "class1", NORMAL, _DOTTED))
+    shapes.append(Line(gap, "class1", NORMAL, DOTTED))
     middle = (gap[0][1] + gap[1][1]) / 2
     shapes.append(Label((gap[0][0] - 14.0, middle), "gap", SMALL, halo=False))
     shapes.append(
@@ -210,7 +205,7 @@ def edits() -> Scene:
     creased = crease_sheet(sheet, centre, ((places[first] + places[second]) / 2).tolist())
     new = len(places)
     return beside(
-        _edited(locked, Line([], "grey", STRONG, _DOTTED), (centre, first), "one crease locked"),
+        _edited(locked, Line([], "grey", STRONG, DOTTED), (centre, first), "one crease locked"),
         said(Patterned(sheet, 130.0).scene(), "before", f"M = {_count(sheet)}"),
         _edited(creased, Line([], "class1", STRONG), (centre, new), "one panel creased"),
     )

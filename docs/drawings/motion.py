@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import cos, radians, sin
+from math import cos, degrees, radians, sin
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 import synth
-from drawings.altered import over
-from drawings.examples import generated_sheet, generated_solids, sheet_of_file
+from drawings.altered import DASH, DOTTED, over
+from drawings.examples import generated_sheet, generated_solids, sheet_of_file, with_places
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
@@ -20,7 +20,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing import Scene
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.plot import Plot
+from synth.drawing.scene.plot import Plot, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Shape
 from synth.drawing.space.bodies import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
@@ -34,7 +34,6 @@ from synth.moving.linkages import linkage_of
 
 __all__ = ["DRAWINGS"]
 
-_DASH = (2.5, 2.0)
 _POSE = 2
 """The frame of a folding that is shown, of six."""
 _STILL = 1e-6
@@ -54,16 +53,16 @@ def folding() -> Scene:
 
 def _branch(sheet: Sheet, number: int, freedoms: int | None) -> Scene:
     """Return a pattern by what its creases do on one branch, above a pose on it."""
-    folding_ = synth.fold(sheet, branch=number, frames=6)
-    _, pose = pose_scenes(_lettered(sheet, folding_, _POSE), folding_.places[[0, _POSE]], 108.0)
+    followed = synth.fold(sheet, branch=number, frames=6)
+    _, pose = pose_scenes(_lettered(sheet, followed, _POSE), followed.places[[0, _POSE]], 108.0)
     pattern = Patterned(sheet, 108.0).scene(colour="branch", branch=number)
     assert freedoms is not None
     return said(above(pattern, pose, gap=0.0), f"way {number}: {numbered(freedoms, 'freedom')}")
 
 
-def _lettered(sheet: Sheet, folding_: Folding, frame: int) -> Sheet:
+def _lettered(sheet: Sheet, followed: Folding, frame: int) -> Sheet:
     """Return a sheet with the letters that its creases have in a frame; those that lie still are unassigned."""
-    angles = dict(zip(folding_.joints, folding_.path.angles[frame].tolist(), strict=True))
+    angles = dict(zip(followed.joints, followed.path.angles[frame].tolist(), strict=True))
     letters = {joint: "U" if abs(angle) < _STILL else "V" if angle > 0 else "M" for joint, angle in angles.items()}
     assigned = (letters.get(edge, letter) for edge, letter in enumerate(sheet.assignments))
     return replace(sheet, assignments="".join(assigned))
@@ -76,8 +75,9 @@ def moving() -> Scene:
     poses = circuit[[round(eighth * (len(circuit) - 1) / 8) for eighth in range(4)]]
     panels, _ = bodies_of(linkage)
     scenes = pose_scenes(panels, _steadied(places_of_hinges(linkage, poses)), 114.0)
-    row = beside(*(said(scene, f"{number} / 8") for number, scene in enumerate(scenes)), gap=0.0)
-    return said(row, "six solids in a ring of six hinges (orange): eighths of the way round")
+    words = (f"{signed(round(degrees(angle)))}°" for angle in poses[:, 0])
+    row = beside(*map(said, scenes, words), gap=0.0)
+    return said(row, "six solids in a ring of six hinges (orange), by the turn of one hinge")
 
 
 def _steadied(places: Floats) -> Floats:
@@ -106,7 +106,7 @@ def _circuits(four_bar: HingedSolids, driven: float) -> Scene:
     plot = Plot(34.0, 20.0, 170.0, 150.0, (-180.0, 180.0), (-180.0, 180.0))
     shapes: list[Shape] = [*plot.below((-180, -90, 0, 90, 180), "driven angle, degrees")]
     shapes += plot.beside((-180, -90, 0, 90, 180), "angle of another joint")
-    shapes.append(Line([plot.at(driven, -180.0), plot.at(driven, 180.0)], "grey", FINE, _DASH))
+    shapes.append(Line([plot.at(driven, -180.0), plot.at(driven, 180.0)], "grey", FINE, DASH))
     drawn: set[int | None] = set()
     for number, position in enumerate(found.positions, 1):
         if position.circuit not in drawn:
@@ -147,7 +147,7 @@ def mending() -> Scene:
     _, pose = pose_scenes(found.sheet, synth.fold(found.sheet, frames=6).places[[0, 3]], 120.0)
     return beside(
         said(
-            _looking_like(_enlarged(rounded, found.sheet), Line([], "grey", NORMAL, (1.0, 2.0))),
+            _looking_like(_enlarged(rounded, found.sheet), Line([], "grey", NORMAL, DOTTED)),
             "as written, to three decimals: rigid",
             f"(errors drawn {_LARGER} times as large)",
         ),
@@ -169,15 +169,14 @@ def _looking_like(sheet: Sheet, look: Line) -> Scene:
 def _rounded(sheet: Sheet) -> Sheet:
     """Return a sheet that lies aslant, its coordinates written to three decimals."""
     turn = np.array([[cos(_ASLANT), sin(_ASLANT)], [-sin(_ASLANT), cos(_ASLANT)]])
-    places = (np.array(sheet.coordinates)[:, :2] @ turn).round(3)
-    return replace(sheet, coordinates=tuple(map(tuple, places.tolist())))
+    return with_places(sheet, (np.array(sheet.coordinates)[:, :2] @ turn).round(3))
 
 
 def _enlarged(written: Sheet, exact: Sheet) -> Sheet:
     """Return a sheet with its vertices so many times as far from where they should be."""
     places = np.array(exact.coordinates)[:, :2]
     errors = np.array(written.coordinates) - places
-    return replace(written, coordinates=tuple(map(tuple, (places + _LARGER * errors).tolist())))
+    return with_places(written, places + _LARGER * errors)
 
 
 DRAWINGS: dict[str, Callable[[], Scene]] = {
