@@ -142,36 +142,29 @@ def pose() -> Scene:
 def _singular_values(values: Floats, found: PoseMobility) -> Scene:
     """Return singular values, on a scale of powers of ten, with what noise may come to."""
     plot = Plot(40.0, 22.0, 220.0, 150.0, (0.0, len(values) + 1.0), (-8.0, 0.0))
-    heights = np.log10(np.maximum(values, 10.0 ** plot.y[0]))
-    spectrum = found.spectrum
-    above, below = np.log10(spectrum.smallest), np.log10(spectrum.noise)
-    number = float(len(values))
-    band = [
-        plot.at(plot.x[side], height) for side, height in ((0, below), (1, below), (1, plot.y[0]), (0, plot.y[0]))
+    lowest, noise = plot.y[0], float(np.log10(found.spectrum.noise))
+    heights = np.maximum(np.log10(values), lowest).tolist()
+    band = [plot.at(plot.x[side], height) for side, height in ((0, noise), (1, noise), (1, lowest), (0, lowest))]
+    gap = [plot.at(len(values), height) for height in (np.log10(found.spectrum.smallest), noise)]
+    shapes: list[Shape] = [
+        Polygon(band, "faint", None),
+        *_powers_of_ten(plot),
+        *(Disc(plot.at(place, height), 2.4, "ink", None) for place, height in enumerate(heights, 1)),
+        Line(gap, "class1", NORMAL, DOTTED),
+        Label((gap[0][0] - 14.0, (gap[0][1] + gap[1][1]) / 2), "gap", SMALL, halo=False),
+        Label(plot.at(0.4 * len(values), (noise + lowest) / 2), "what rounding may come to", SMALL, halo=False),
     ]
-    shapes: list[Shape] = [Polygon(band, "faint", None)]
-    shapes += plot.below((), "singular values, the largest first")
-    shapes += plot.beside((), "part of the largest")
+    return Scene(270.0, 200.0, (Layer("values", tuple(shapes)),))
+
+
+def _powers_of_ten(plot: Plot) -> list[Shape]:
+    """Return the axes of a plot whose heights are powers of ten."""
+    shapes = [*plot.below((), "singular values, the largest first"), *plot.beside((), "part of the largest")]
     for power in range(int(plot.y[0]), 1, 2):
         x, y = plot.at(0.0, power)
         shapes.append(Label((x - 16.0, y), f"1e{power}" if power else "1", SMALL, halo=False))
         shapes.append(Line([(x - 3.0, y), (x, y)], "ink", FINE))
-    shapes += [
-        Disc(plot.at(place + 1.0, height), 2.4, "ink", None) for place, height in enumerate(heights.tolist())
-    ]
-    gap = [plot.at(number, above), plot.at(number, max(below, heights[-1]))]
-    shapes.append(Line(gap, "class1", NORMAL, DOTTED))
-    middle = (gap[0][1] + gap[1][1]) / 2
-    shapes.append(Label((gap[0][0] - 14.0, middle), "gap", SMALL, halo=False))
-    shapes.append(
-        Label(
-            (plot.at(0, 0)[0] + 70.0, plot.at(0, (below + plot.y[0]) / 2)[1]),
-            "what rounding may come to",
-            SMALL,
-            halo=False,
-        )
-    )
-    return Scene(270.0, 200.0, (Layer("values", tuple(shapes)),))
+    return shapes
 
 
 def reduction() -> Scene:
@@ -189,7 +182,7 @@ def reduction() -> Scene:
 
 
 def _with_ride_along(pattern: Patterned, removed: Collection[int]) -> Scene:
-    """Return a pattern, the panels that are taken off next marked and crossed by lines."""
+    """Return a pattern, the panels that are taken off next marked."""
     count = numbered(len(pattern.mechanism.panels), "link")
     faces = [pattern.sheet.faces[face] for link in removed for face in pattern.mechanism.panels[link]]
     marks = [Polygon([pattern.places[v] for v in face], "marked", "ink", STRONG, opacity=0.7) for face in faces]

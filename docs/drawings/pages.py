@@ -23,18 +23,17 @@ DRAWINGS: dict[str, Callable[[], Scene]] = {
 """Name of a theory page to what draws its picture."""
 
 
+def drawing_of(page: str) -> Scene:
+    """Return the drawing of a page; who cannot see it is told what the function that draws it says of itself."""
+    draw = DRAWINGS[page]
+    return replace(draw(), title=(draw.__doc__ or "").split("\n")[0])
+
+
 def main() -> None:
     """Write the drawings of the pages named, or all."""
     FOLDER.mkdir(exist_ok=True)
     for page in sys.argv[1:] or DRAWINGS:
-        save_scene(titled(DRAWINGS[page]), FOLDER / f"{page}.svg", force=True)
-
-
-def titled(drawing: Callable[[], Scene]) -> Scene:
-    """Return a drawing with a title: what its function says that it shows, where it has none of its own."""
-    scene = drawing()
-    what, *_ = (drawing.__doc__ or "").split("\n")
-    return scene if scene.title else replace(scene, title=what)
+        save_scene(drawing_of(page), FOLDER / f"{page}.svg", force=True)
 
 
 if __name__ == "__main__":
