@@ -10,8 +10,9 @@ from math import cos, degrees, hypot, pi, radians, sin
 import numpy as np
 
 import synth
-from drawings.kinds import DATA
-from drawings.pieces import arrow, cropped, head, legible, of_shapes, thinned
+from drawings.altered import cropped, legible, thinned
+from drawings.examples import DATA
+from drawings.pieces import arrow, head, of_shapes
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
 from graphs.errors import InvariantError

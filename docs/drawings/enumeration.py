@@ -10,7 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import synth
-from drawings.pieces import arrow, cropped, in_rows, legible, of_shapes, on_air, without, words
+from drawings.altered import cropped, legible, without
+from drawings.pieces import arrow, in_rows, of_shapes, on_air, words
 from drawings.together import above, beside, said
 from enumerate.chains.names import chain_named, name_of
 from enumerate.chains.rows import chain_ids

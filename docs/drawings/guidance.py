@@ -9,8 +9,9 @@ from itertools import groupby
 import numpy as np
 
 import synth
-from drawings.kinds import DATA
-from drawings.pieces import cropped, in_rows, legible, of_shapes, thinned
+from drawings.altered import cropped, legible, thinned
+from drawings.examples import DATA
+from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.arrays import Floats
 from synth.drawing import Scene

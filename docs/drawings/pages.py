@@ -9,13 +9,16 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from drawings import cones, enumeration, guidance, kinds, things, turning
+from drawings import cones, enumeration, guidance, holding, kinds, mobility, motion, things, turning
 from synth.drawing import Scene, save_scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
 
 DRAWINGS: dict[str, Callable[[], Scene]] = {
     **kinds.DRAWINGS,
+    **mobility.DRAWINGS,
+    **motion.DRAWINGS,
+    **holding.DRAWINGS,
     **enumeration.DRAWINGS,
     **things.DRAWINGS,
     **cones.DRAWINGS,

@@ -8,8 +8,9 @@ from itertools import filterfalse
 from math import degrees, hypot, radians
 
 import synth
-from drawings.kinds import DATA
-from drawings.pieces import arrow, cropped, in_rows, legible, of_shapes, on_air, thinned, without, words
+from drawings.altered import cropped, legible, thinned, without
+from drawings.examples import DATA
+from drawings.pieces import arrow, in_rows, of_shapes, on_air, words
 from drawings.together import above, beside, said
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism

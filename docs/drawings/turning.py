@@ -8,7 +8,8 @@ from math import pi
 
 import numpy as np
 
-from drawings.pieces import cropped, in_rows, of_shapes, thinned
+from drawings.altered import cropped, thinned
+from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.arrays import Flags, Floats
 from graphs.mechanism.sc import SCGraph

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -92,7 +92,7 @@ def layout_of(
     rotation : mapping of link to its joints counter-clockwise, optional
         The drawing to keep. Without it one is chosen.
     outer : sequence of joint ids, optional
-        The face to be outside; else one with most joints.
+        The face to be outside, walked round with it on the left; else one with most joints.
 
     Examples
     --------
@@ -146,7 +146,7 @@ def _placed(
         node = next(iter(part))
         return _Part([node], np.zeros((1, 2)), Skeleton({node: ()}, {}, None), [], True)
     made = bodies if as_bodies else dots
-    wanted = frozenset(outer)
+    wanted = tuple(outer)
     plain = kept if kept is not None else embedded(part)
     if plain is None:
         return _drawn_crossing(part, as_bodies)
@@ -191,10 +191,11 @@ def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | No
     return kept
 
 
-def _outer_faces(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> list[tuple[Node, ...]]:
+def _outer_faces(skeleton: Skeleton, joints: Joints, wanted: Sequence[JointId]) -> list[tuple[Node, ...]]:
     """Return the faces that can be outside, their own mirror images, the one with most corners first.
 
-    There are none if in one of them a node comes twice.
+    There are none if in one of them a node comes twice. Of a ring of binary links both faces have the same joints:
+    that goes first which is walked round as the face that is wanted.
     """
     faces = [face for face in faces_of(skeleton.around) if not _is_body(face, skeleton)]
     if any(len(set(face)) < len(face) for face in faces):
@@ -206,23 +207,29 @@ def _outer_faces(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId])
         ]
         faces = [face for face in faces if {mirror[node] for node in face} == set(face)]
     fit = [face for face in faces if _shared(face, joints, skeleton, wanted) == len(wanted)]
-    return sorted(fit, key=len, reverse=True)
+
+    def preferred(face: tuple[Node, ...]) -> tuple[bool, int]:
+        return _runs_as(_joints_of_face(face, joints, skeleton), wanted), len(face)
+
+    return sorted(fit, key=preferred, reverse=True)
 
 
-def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, wanted: frozenset[JointId]) -> int:
+def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, wanted: Sequence[JointId]) -> int:
     """Return how many joints of the face that is wanted outside lie round a face."""
-    return len(wanted & set(_joints_of_face(face, joints, skeleton))) if wanted else 0
+    return len(set(wanted) & set(_joints_of_face(face, joints, skeleton))) if wanted else 0
+
+
+def _runs_as(row: Sequence[Hashable], other: Sequence[Hashable]) -> bool:
+    """Whether two rows are one cycle and run the same way."""
+    if len(row) != len(other) or not row or row[0] not in other:
+        return False
+    start = other.index(row[0])
+    return tuple(row) == (*other[start:], *other[:start])
 
 
 def _is_body(face: Sequence[Node], skeleton: Skeleton) -> bool:
-    return any(len(row) > 2 and set(row) == set(face) and same_cycle(row, face) and _turns(row, face)
+    return any(len(row) > 2 and set(row) == set(face) and same_cycle(row, face) and _runs_as(row, face)
                for row in skeleton.outlines.values())  # fmt: skip
-
-
-def _turns(row: Sequence[Node], face: Sequence[Node]) -> bool:
-    """Whether two rows of one cycle run the same way."""
-    i = list(face).index(row[0])
-    return tuple(row) == (*face[i:], *face[:i])
 
 
 def _drawn_open(skeleton: Skeleton, faces: Sequence[tuple[Node, ...]]) -> _Part:
@@ -259,7 +266,7 @@ def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
     return _Part(graph.nodes[:own], places[:own], skeleton, faces, True, shortest)
 
 
-def _drawn_filled(skeleton: Skeleton, joints: Joints, wanted: frozenset[JointId]) -> _Part:
+def _drawn_filled(skeleton: Skeleton, joints: Joints, wanted: Sequence[JointId]) -> _Part:
     """Draw a graph that a node cuts in two, with nodes that close it, which then are left out."""
     around = made_biconnected(skeleton.around)
     filled = Skeleton(around, skeleton.outlines, None)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from commands import run
 
+from graphs.convert.panels import scd_from_panels
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.loops.loop import Centre, Loop
@@ -132,6 +133,18 @@ def test_open_edges_are_stubs():
     joints = next(layer for layer in draw(scd).layers if layer.name == "joints").shapes
     stubs = [shape for shape in joints if dict(shape.data).get("link") is not None]
     assert len(stubs) == scd.counts.open_edges > 0
+
+
+@pytest.mark.parametrize("links", [4, 5, 9])
+@pytest.mark.parametrize("turn", [1, -1])
+def test_open_edges_of_a_ring_are_outside_the_face_with_its_centre(links, turn):
+    """Both faces have the same joints: only the way round tells which is outside."""
+    panels = [(0, one + 1, (one + 1) % links + 1)[::turn] for one in range(links)]
+    layers = draw(scd_from_panels(panels)).layers
+    stubs = next(layer for layer in layers if layer.name == "joints").shapes[:links]
+    near, far = np.array([stub.points for stub in stubs]).swapaxes(0, 1)
+    middle = near.mean(axis=0)
+    assert (np.hypot(*(far - middle).T) > np.hypot(*(near - middle).T)).all()
 
 
 def test_loops_that_are_no_faces_are_listed():

@@ -1,8 +1,6 @@
-"""Drawings of theory pages: all mechanisms of a kind, types as things, cones and cylinders, guidance."""
+"""What drawings of theory pages show is so: counts, types, ranges, ways of links."""
 
-import re
 import sys
-from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -11,29 +9,16 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "docs"))
 
-from drawings import cones, enumeration, guidance, things, turning  # noqa: E402
+from drawings import enumeration, turning  # noqa: E402
 from drawings.pages import drawing_of  # noqa: E402
 
 from graphs.mechanism.sc import SCGraph  # noqa: E402
 from synth.conformed.behaviours import Way, behaviour  # noqa: E402
 from synth.conformed.rates import ConformedChain  # noqa: E402
-from synth.drawing import svg_text  # noqa: E402
-from synth.drawing.scene.palette import SMALL  # noqa: E402
-from synth.drawing.scene.shapes import Disc, Line  # noqa: E402
+from synth.drawing.scene.shapes import Line  # noqa: E402
 from synth.fourbar.closing import kind_of_planar  # noqa: E402
 
-DRAWINGS = {
-    page: draw for room in (enumeration, things, cones, turning, guidance) for page, draw in room.DRAWINGS.items()
-}
-PARTS = ("All mechanisms of a kind", "Types as things", "Cones and cylinders", "Guidance")
-QUICK = ("strings", "four-bars", "behaviour", "conical-candidates", "rounding")
-MOST_BYTES, MOST_POINTS = 60_000, 500
-
-
-def pages_of_parts():
-    index = (ROOT / "docs/theory/index.md").read_text()
-    parts = {part.split("\n")[0]: part for part in index.split(":caption: ")[1:]}
-    return [line for name in PARTS for line in parts[name].split("```")[0].split("\n")[1:] if line]
+QUICK = ("four-bars", "behaviour", "conical-candidates")
 
 
 @pytest.fixture(scope="module")
@@ -43,41 +28,6 @@ def drawn():
 
 def texts(scene):
     return [label.text for label in scene.labels()]
-
-
-def test_every_page_of_these_parts_has_its_drawing_near_its_top():
-    assert sorted(DRAWINGS) == sorted([*pages_of_parts(), "viewer"])
-    for page in DRAWINGS:
-        head = (ROOT / f"docs/theory/{page}.md").read_text().split("\n\n")[:4]
-        [picture] = [part for part in head if part.endswith(f"](../pictures/theory/{page}.svg)")]
-        assert len(picture.split("](")[0]) > 40  # the alternative text says what is seen
-        drawing = (ROOT / f"docs/pictures/theory/{page}.svg").read_text()
-        assert len(drawing) < MOST_BYTES
-        assert float(drawing.split('width="')[1].split('"')[0].removesuffix("pt")) < MOST_POINTS
-
-
-@pytest.mark.parametrize("page", QUICK)
-def test_a_drawing_has_the_same_bytes_each_time(page, drawn):
-    assert svg_text(drawing_of(page)) == svg_text(drawn[page])
-
-
-@pytest.mark.parametrize("page", QUICK)
-def test_the_drawing_that_is_kept_says_what_is_drawn_now(page, drawn):
-    """Words and shapes, and not bytes: last digits of numbers are those of a machine."""
-    kept = (ROOT / f"docs/pictures/theory/{page}.svg").read_text()
-    assert unescape("|".join(re.findall("<text[^>]*>([^<]*)<", kept))) == "|".join(texts(drawn[page]))
-    assert kept.count("<circle") == sum(isinstance(shape, Disc) for shape in drawn[page].shapes())
-
-
-@pytest.mark.parametrize("page", QUICK)
-def test_letters_can_be_read_and_lie_within_the_picture(page, drawn):
-    scene = drawn[page]
-    for label in scene.labels():
-        left, top, right, low = label.box
-        assert label.size >= SMALL
-        assert min(left, top) > -1, label.text
-        assert right < scene.width + 1, label.text
-        assert low < scene.height + 1, label.text
 
 
 def test_six_bars_come_of_two_placements():
