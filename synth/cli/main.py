@@ -70,9 +70,12 @@ class _LazyGroup(NamedGroup):
     def main(self, *args: Any, **options: Any) -> Any:
         """Run, and end with one line and a status where something is in the way; help is printed here too."""
         from graphs.errors import SynthedraError
+        from synth.cli.streams import ReaderGoneError
 
         try:
             return super().main(*args, **options)
+        except ReaderGoneError as gone:
+            sys.exit(gone.status)
         except SynthedraError as error:
             click.echo(str(error), err=True)
             sys.exit(2)

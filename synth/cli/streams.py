@@ -9,11 +9,18 @@ from typing import Any
 
 from graphs.errors import SynthedraError
 
-__all__ = ["OutputError", "guard_output"]
+__all__ = ["OutputError", "ReaderGoneError", "guard_output"]
 
 
 class OutputError(SynthedraError):
     """Standard output cannot be written."""
+
+
+class ReaderGoneError(OutputError):
+    """Who should read standard output has stopped reading, as ``head`` does: no reason to complain."""
+
+    status = 128 + 13
+    """The exit status of what the signal SIGPIPE stops."""
 
 
 class _Guarded(io.RawIOBase):
@@ -50,7 +57,7 @@ class _Guarded(io.RawIOBase):
         Raises
         ------
         OutputError
-            At the first failure.
+            At the first failure; ReaderGoneError where nobody reads any more.
         """
         if self._failed:
             return len(data)
@@ -60,6 +67,8 @@ class _Guarded(io.RawIOBase):
             return os.write(self._descriptor, data)
         except OSError as error:
             self._failed = True
+            if isinstance(error, BrokenPipeError):
+                raise ReaderGoneError("standard output: nobody reads it any more") from None
             raise OutputError(f"standard output: cannot be written: {error.strerror}") from None
 
 
