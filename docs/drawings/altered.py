@@ -8,9 +8,9 @@ from math import inf
 
 from shapely.geometry import LineString
 
-from synth.drawing.scene.moving import moved
+from synth.drawing.scene.moving import moved, put
 from synth.drawing.scene.palette import SMALL
-from synth.drawing.scene.shapes import Disc, Label, Layer, Point, Polygon, Scene, Shape
+from synth.drawing.scene.shapes import Disc, Label, Layer, Polygon, Scene, Shape
 
 __all__ = [
     "DASH",
@@ -51,18 +51,8 @@ def plain_graph(scene: Scene) -> Scene:
 
 def mirrored(scene: Scene) -> Scene:
     """Return a picture as a mirror shows it, its letters upright."""
-
-    def there(place: Point) -> Point:
-        return scene.width - place[0], place[1]
-
-    def mirrored_shape(shape: Shape) -> Shape:
-        if isinstance(shape, Label):
-            return replace(shape, at=there(shape.at))
-        if isinstance(shape, Disc):
-            return replace(shape, centre=there(shape.centre))
-        return replace(shape, points=[there(point) for point in shape.points])
-
-    return _each(scene, mirrored_shape)
+    layers = (put(layer, lambda place: (scene.width - place[0], place[1])) for layer in scene.layers)
+    return replace(scene, layers=tuple(layers))
 
 
 def legible(scene: Scene, joints: bool = False) -> Scene:

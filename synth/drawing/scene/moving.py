@@ -1,12 +1,13 @@
-"""Layers put elsewhere, larger or smaller: pictures of a page."""
+"""Layers put elsewhere: pictures of a page."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from synth.drawing.scene.shapes import Disc, Label, Layer, Point, Shape
 
-__all__ = ["moved"]
+__all__ = ["moved", "put"]
 
 
 def moved(layer: Layer, right: float, down: float) -> Layer:
@@ -18,9 +19,23 @@ def moved(layer: Layer, right: float, down: float) -> Layer:
     >>> moved(Layer("a", (Line([(0, 0), (1, 1)]),)), 2, 3).shapes[0].points
     [(2, 3), (3, 4)]
     """
+    return put(layer, lambda place: (place[0] + right, place[1] + down))
 
-    def there(place: Point) -> Point:
-        return place[0] + right, place[1] + down
+
+def put(layer: Layer, there: Callable[[Point], Point]) -> Layer:
+    """Return a layer whose places are others; letters stay upright, discs as large.
+
+    Parameters
+    ----------
+    layer : Layer
+    there : callable
+        From a place to where it comes to lie.
+
+    Examples
+    --------
+    >>> put(Layer("a", (Disc((1, 2), 3),)), lambda place: (-place[0], place[1])).shapes[0].centre
+    (-1, 2)
+    """
 
     def shape_there(shape: Shape) -> Shape:
         if isinstance(shape, Label):
