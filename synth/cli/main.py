@@ -16,34 +16,50 @@ from synth.cli.groups import NamedGroup
 
 __all__ = ["main"]
 
-_COMMANDS = {
-    "mobility": "synth.cli.graphs.mobility:mobility",
-    "reduce": "synth.cli.graphs.reduce:reduce_command",
-    "edit": "synth.cli.graphs.edit:edit",
-    "enumerate": "synth.cli.enumerate.group:enumerate_group",
-    "cone": "synth.cli.surfaces.cone:cone_group",
-    "cylinder": "synth.cli.surfaces.cylinder:cylinder_group",
-    "convert": "synth.cli.graphs.convert:convert",
-    "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
-    "id": "synth.cli.graphs.id:id_command",
-    "generate": "synth.cli.things.generate:generate",
-    "realise": "synth.cli.things.realise:realise",
-    "fold": "synth.cli.things.fold:fold",
-    "template": "synth.cli.things.template:template",
-    "positions": "synth.cli.things.positions:positions",
-    "explain": "synth.cli.things.explain:explain",
-    "advise": "synth.cli.things.advise:advise",
-    "states": "synth.cli.compliance.states:states",
-    "limits": "synth.cli.compliance.limits:limits",
-    "draw": "synth.cli.things.draw:draw",
-    "view": "synth.cli.things.view:view",
-    "atlas": "synth.cli.enumerate.atlas:atlas_group",
-    "order": "synth.cli.guidance.order:order",
-    "dyads": "synth.cli.guidance.dyads:dyads",
-    "fourbar": "synth.cli.guidance.fourbar:fourbar",
-    "completion": "synth.cli.completion:completion",
+_SECTIONS: dict[str, dict[str, str]] = {
+    "Ask how it moves": {
+        "mobility": "synth.cli.graphs.mobility:mobility",
+        "fold": "synth.cli.things.fold:fold",
+        "positions": "synth.cli.things.positions:positions",
+        "explain": "synth.cli.things.explain:explain",
+        "advise": "synth.cli.things.advise:advise",
+        "states": "synth.cli.compliance.states:states",
+        "limits": "synth.cli.compliance.limits:limits",
+    },
+    "See it and make it": {
+        "draw": "synth.cli.things.draw:draw",
+        "view": "synth.cli.things.view:view",
+        "template": "synth.cli.things.template:template",
+        "generate": "synth.cli.things.generate:generate",
+        "realise": "synth.cli.things.realise:realise",
+    },
+    "Change it and name it": {
+        "reduce": "synth.cli.graphs.reduce:reduce_command",
+        "edit": "synth.cli.graphs.edit:edit",
+        "convert": "synth.cli.graphs.convert:convert",
+        "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
+        "id": "synth.cli.graphs.id:id_command",
+    },
+    "List all of a kind": {
+        "enumerate": "synth.cli.enumerate.group:enumerate_group",
+        "atlas": "synth.cli.enumerate.atlas:atlas_group",
+    },
+    "Cones and cylinders": {
+        "cone": "synth.cli.surfaces.cone:cone_group",
+        "cylinder": "synth.cli.surfaces.cylinder:cylinder_group",
+    },
+    "Guide a body": {
+        "order": "synth.cli.guidance.order:order",
+        "dyads": "synth.cli.guidance.dyads:dyads",
+        "fourbar": "synth.cli.guidance.fourbar:fourbar",
+    },
+    "Set up": {
+        "completion": "synth.cli.completion:completion",
+    },
 }
-"""Name of a subcommand to where it is."""
+"""Headings of the help to names of subcommands, and where these are."""
+
+_COMMANDS = {name: place for section in _SECTIONS.values() for name, place in section.items()}
 
 
 _TOLD = ("numpy", "scipy", "networkx", "numba", "shapely")
@@ -66,6 +82,17 @@ class _LazyGroup(NamedGroup):
         command = getattr(import_module(module), name)
         assert isinstance(command, click.Command)
         return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the commands by what they are for."""
+        widest = max(map(len, _COMMANDS))
+        room = formatter.width - 6 - widest
+        for heading, names in _SECTIONS.items():
+            commands = ((name, self.get_command(ctx, name)) for name in names)
+            with formatter.section(heading):
+                formatter.write_dl(
+                    [(f"{name:{widest}}", one.get_short_help_str(room)) for name, one in commands if one]
+                )
 
     def main(self, *args: Any, **options: Any) -> Any:
         """Run, and end with one line and a status where something is in the way; help is printed here too."""
@@ -116,11 +143,11 @@ def main() -> None:
 
     \b
     Examples:
-      synth mobility mechanism.json crease-pattern.fold
-      synth reduce mechanism.json -o reduced.json
-      synth convert crease-pattern.fold mechanism.json
-      synth reconstruct mechanism.json -o model.json
-      synth dyads --orientations orientations.json
+      synth mobility data/patterns/bird-base.fold
+      synth fold data/patterns/bird-base.fold --drive 0=60 -o bird.fold
+      synth view data/patterns/bird-base.fold -o bird.html
+      synth enumerate chains --links 8 --dof 1
+      synth cone map --angles 120,95,45,85
 
     Exit status: 0 done, 1 the answer is no, 2 bad input or usage, or output that cannot be written;
     128 + n stopped by signal n (130: Ctrl-C).

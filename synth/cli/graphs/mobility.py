@@ -22,7 +22,7 @@ __all__ = ["mobility"]
 _LONGEST_PATH = 4096
 
 
-@click.command(short_help="Say how many freedoms a mechanism has, and which formula tells.")
+@click.command(short_help="Say whether it moves, with how many freedoms, and how that is known.")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object a mechanism.")
 @click.option(
