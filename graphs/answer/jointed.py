@@ -74,7 +74,7 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
     >>> kinds = {1: JointKind.SPHERICAL, 2: JointKind.SPHERICAL, 3: JointKind.REVOLUTE}
     >>> answer = mobility_of_jointed(placed(JointedLinkage(leg, kinds)))
     >>> answer.mobility, answer.counts["passive"], answer.pose.dof
-    (2, 0, 2)
+    (2, 1, 2)
     """
     whole = placed(linkage)
     solids = revolutes_of(whole)

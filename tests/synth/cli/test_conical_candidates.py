@@ -59,9 +59,9 @@ def test_a_file_of_a_candidate_behaves_as_its_row_says(tmp_path):
             continue
         [report] = json.loads(run("cone", "behaviour", path, "--json").stdout)["linkages"]
         assert report["rank"] == row["rank"]
-        told = {one["link"]: one["way"] for one in report["links"]}
+        told = {str(one["link"]): one["way"] for one in report["links"]}
         assert {link: way for link, way in row["ways"] if way != "fixed"} == {
-            link: way for link, way in told.items() if link != report["ground"]
+            link: way for link, way in told.items() if link != str(report["ground"])
         }
 
 

@@ -141,6 +141,6 @@ def test_a_limit_names_joints_by_their_ids():
     folded = fold(replace(bare, edges=rim + bare.edges, assignments="BBBB" + bare.assignments), drive={4: np.pi})
     assert "panels lie on each other at joint(s) 7, with the driven joint 4 at 123.1" in folded.path.stopped
     (event,) = folded.to_json()["events"]
-    assert (event["kind"], event["joints"], event["driver"]) == ("limit", ["7"], "4")
+    assert (event["kind"], event["joints"], event["driver"]) == ("limit", [7], 4)
     assert abs(folded.path.angles[-1][3]) == pytest.approx(np.pi, abs=1e-8)
     assert "limit: panels lie on each other at joint(s) 7" in str(folded)
