@@ -56,6 +56,9 @@ def from_document(value: Any, path: Path) -> NativeObject:
     if not isinstance(value, dict):
         check.fail("", value, "an object with the key 'format'")
     kind = value.get("format")
+    if kind == "synthedra/orientations":
+        told = "orientations of a body, which `synth order`, `dyads`, `fourbar` and `draw` take"
+        raise FileError(path, "format", told, "a mechanism")
     if not isinstance(kind, str) or kind not in FORMATS:
         raise FileError(
             path, "format", "missing" if kind is None else shown(kind), "one of " + ", ".join(sorted(FORMATS))
