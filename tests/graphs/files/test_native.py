@@ -144,8 +144,3 @@ def test_the_page_of_native_formats_has_an_example_of_each_that_its_schema_accep
     for doc in documents:
         jsonschema.validate(doc, schema_of(doc))
         assert f"graphs/schema/{doc['format'].split('/')[1]}.schema.json" in page
-
-
-def test_orientations_are_no_mechanism_and_their_commands_are_named():
-    with pytest.raises(FileError, match=r"orientations of a body, which `synth order`.*expected a mechanism"):
-        read(ROOT / "data" / "orientations" / "tipparthi.json")

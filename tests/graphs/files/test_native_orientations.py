@@ -106,11 +106,8 @@ def test_quaternions_and_matrices_are_the_same_orientations(tmp_path):
     assert np.allclose(same, 1.0)
 
 
-def test_orientations_are_no_mechanism():
-    with pytest.raises(
-        FileError,
-        match="format: 'synthedra/orientations'; expected one of synthedra/conical, synthedra/joints, synthedra/polyhedron",
-    ):
+def test_orientations_are_no_mechanism_and_the_commands_that_take_them_are_named():
+    with pytest.raises(FileError, match=r"orientations of a body, which `synth order`.*; expected a mechanism"):
         read(FILES[0])
 
 
