@@ -18,13 +18,17 @@ from real_patterns import folder_of_patterns
 ROOT = Path(__file__).resolve().parent.parent
 
 
-settings.register_profile(
-    "synthedra", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
-)
-settings.load_profile("synthedra")
+_HOW = {"deadline": None, "derandomize": True, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("quick", max_examples=50, **_HOW)
+settings.register_profile("full", max_examples=100, **_HOW)
 
 
-_SHARED = ("fold_folder", "whole")
+def pytest_configure(config: pytest.Config) -> None:
+    """Try fewer examples where the slow tests are left out."""
+    settings.load_profile("quick" if "not slow" in config.option.markexpr else "full")
+
+
+_SHARED = ("fold_folder", "whole", "real_atlas", "atlas")
 """Fixtures whose tests share what takes long to read or to make: with several processes, one has them all."""
 
 

@@ -69,6 +69,7 @@ def test_code_is_renewed_when_a_function_it_calls_changes(tmp_path):
 
 
 @forks
+@pytest.mark.slow
 def test_two_processes_compile_different_signatures_at_once(tmp_path, monkeypatch):
     make_toy(tmp_path)
     monkeypatch.setenv("BASE", str(tmp_path / "rounds"))

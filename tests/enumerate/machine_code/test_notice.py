@@ -1,5 +1,6 @@
 """The word to the user: once in a run."""
 
+import pytest
 from toy_kernels import make_toy, run
 
 from enumerate.machine_code.notice import compiling, heard_by, on_compiling, to_workers
@@ -51,6 +52,7 @@ def test_a_worker_tells_if_nobody_has():
     assert to_workers() is None
 
 
+@pytest.mark.slow
 def test_one_process_of_several_tells(tmp_path):
     make_toy(tmp_path)
     values, told = run(WORKERS, tmp_path, tmp_path / "cache")

@@ -84,7 +84,7 @@ def chains_command(links, dof, *words):
 @pytest.mark.parametrize(
     ("name", "words", "links", "dof"),
     [
-        ("chains.sqlite", "go on with --resume", 15, 4),
+        pytest.param("chains.sqlite", "go on with --resume", 15, 4, marks=pytest.mark.slow),
         pytest.param("chains.sqlite", "go on with --resume", 16, 1, marks=pytest.mark.slow),
         pytest.param("chains.g6", "nothing was written", 16, 1, marks=pytest.mark.slow),
     ],
@@ -192,7 +192,13 @@ def small_disk(path, size):
         subprocess.run(["umount", path], check=True)
 
 
-@pytest.mark.parametrize("name", ["chains.sqlite", "chains.jsonl", "chains.parquet", "chains.g6", "chains"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "chains.sqlite",
+        *(pytest.param(f"chains{end}", marks=pytest.mark.slow) for end in (".jsonl", ".parquet", ".g6", "")),
+    ],
+)
 def test_a_full_disk_gives_one_line_and_loses_nothing(tmp_path, name):
     disk = tmp_path / "disk"
     disk.mkdir()

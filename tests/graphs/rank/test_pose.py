@@ -127,7 +127,7 @@ ROUNDED = {
 }
 
 
-@pytest.mark.parametrize("most", [120, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("most", [80, pytest.param(1000, marks=pytest.mark.slow)])
 def test_crease_patterns_as_they_lie(fold_folder, most):
     """Freedoms as in the index; where coordinates are rounded, small singular values make up the difference."""
     same = rounded = 0

@@ -197,6 +197,7 @@ def test_a_stopped_run_goes_on(tmp_path):
     ]
 
 
+@pytest.mark.slow
 def test_a_chain_of_two_freedoms_and_singular_eight_bars():
     five = SCGraph(5, [(0, 1), (1, 2), (2, 3), (3, 4), (4, 0)])
     rows = CandidateJob(five, (0,)).rows()
