@@ -12,7 +12,7 @@ unexport PYTHONDONTWRITEBYTECODE
 .PHONY: demo test test-slow test-web page check data pictures docs examples release clean help
 
 help:
-	@echo "make demo       install into $(VENV), compile what the first commands need, and ask some mechanisms for their mobility"
+	@echo "make demo       install into $(VENV), ask some mechanisms for their mobility, and compile what enumerations need"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
 	@echo "make test-web   what is shown in a notebook, which is run, and the tests of the page of synth view, in node and in Chromium"
@@ -45,8 +45,9 @@ install-venv:
 	fi
 
 demo: $(STAMP) page
-	@$(BIN)/python -m synth.cli.ahead || true
 	@BIN=$(BIN) sh data/demo.sh
+	@$(BIN)/python -m synth.cli.ahead || true
+	@echo "Next: . $(BIN)/activate, then synth --help"
 
 # Compiled once before the tests, so that two of them do not compile the same function side by side.
 COMPILED := $(VENV)/.compiled

@@ -6,6 +6,8 @@ is removed by the next one to the same place. To add a format, write a sink and 
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -199,6 +201,25 @@ class JsonLinesSink(_FileSink):
         self._write(json.dumps(dict(zip(self._columns, row, strict=True))) + "\n" for row in rows)
 
 
+class CsvSink(_FileSink):
+    """A table for spreadsheets: names of columns, then a line a row. Lists are JSON text, as in a store."""
+
+    def start(self, job: Job) -> Collection[int]:
+        """Open the file, and write the names."""
+        there = super().start(job)
+        self._write_table([self._columns])
+        return there
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write a line a row."""
+        self._write_table([stored(value) if isinstance(value, tuple) else value for value in row] for row in rows)
+
+    def _write_table(self, rows: Iterable[Iterable[Any]]) -> None:
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(rows)
+        self._write([text.getvalue()])
+
+
 class ParquetSink(_FileSink):
     """Parquet, one row group a unit; needs pyarrow. A list of values of several types is JSON text."""
 
@@ -332,7 +353,8 @@ class FolderSink:
             self._folder.discard()
 
 
-SINKS: dict[str, type[Graph6Sink | JsonLinesSink | ParquetSink]] = {
+SINKS: dict[str, type[CsvSink | Graph6Sink | JsonLinesSink | ParquetSink]] = {
+    ".csv": CsvSink,
     ".g6": Graph6Sink,
     ".jsonl": JsonLinesSink,
     ".parquet": ParquetSink,

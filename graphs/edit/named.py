@@ -16,20 +16,20 @@ _MOST = 12
 
 
 def known(names: Iterable[Hashable], asked: str) -> str:
-    """Return what is known in the place of a name: the names, how many, the nearest.
+    """Return what is known in the place of a name: the names, how many, the nearest (of a number, none is).
 
     Examples
     --------
     >>> known(["crank", "rocker"], "cranck")
     "one of 'crank', 'rocker'; the nearest is 'crank'"
     >>> known(range(40), "99")
-    'one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, ... (40); the nearest is 9'
+    'one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, ... (40)'
     """
     every = list(names)
     if not every:
         return "there is none"
     listed = ", ".join(map(shown, every[:_MOST])) + (f", ... ({len(every)})" if len(every) > _MOST else "")
-    near = get_close_matches(asked[:100], map(str, every), 1)
+    near = [] if asked.isdigit() else get_close_matches(asked[:100], map(str, every), 1)
     nearest = next((shown(name) for name in every if near and str(name) == near[0]), None)
     return f"one of {listed}" + (f"; the nearest is {nearest}" if nearest is not None else "")
 

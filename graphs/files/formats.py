@@ -9,9 +9,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError
+from graphs.errors import FileError, OpenError, UnsolvableError
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
@@ -22,6 +21,7 @@ from graphs.files.bare import (
     read_graphml,
 )
 from graphs.files.edge_lists import edge_list_text, read_edge_list
+from graphs.files.ids import is_id, line_named, mechanism_of_id
 from graphs.files.kept_type import change_of_type
 from graphs.files.losses import (
     lost_as_bare_graph,
@@ -37,15 +37,12 @@ from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
-from graphs.identity.chains import chain_from_id
-from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import flattened
-from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["READERS", "WRITERS", "Entry", "is_id", "mechanism_of_id", "read", "read_all", "read_linkage", "write"]
+__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_linkage", "write"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +72,8 @@ def read_all(path: str | Path) -> Iterator[Entry]:
     Parameters
     ----------
     path : str or Path
-        A file of any extension of `READERS`, or an id (``k1:...``, ``m1:...``).
+        A file of any extension of `READERS`, an id (``k1:...``, ``m1:...``), or a line of a graph6 file,
+        ``chains.g6:7``.
 
     Yields
     ------
@@ -104,10 +102,13 @@ def read_all(path: str | Path) -> Iterator[Entry]:
     if is_id(path):
         yield Entry(str(path), mechanism_of_id(str(path)))
         return
-    path = Path(path)
+    path, line = line_named(path)
     found = list(_reader(path)(path))
     for place, mechanism in found:
-        yield Entry(f"{path}:{place}" if len(found) > 1 else str(path), mechanism)
+        if line in (None, place):
+            yield Entry(f"{path}:{place}" if len(found) > 1 else str(path), mechanism)
+    if line is not None and all(line != place for place, _ in found):
+        raise FileError(path, f"line {line}", "no mechanism", f"one of {len(found)} lines")
 
 
 def read(path: str | Path) -> Mechanism:
@@ -117,7 +118,7 @@ def read(path: str | Path) -> Mechanism:
     ----------
     path : str or Path
         A file whose extension names its format, or an id, ``k1:...`` or ``m1:...`` (a file so named is written
-        ``./k1:...``).
+        ``./k1:...``), or a line of a graph6 file, ``chains.g6:7``.
 
     Raises
     ------
@@ -133,7 +134,8 @@ def read(path: str | Path) -> Mechanism:
     """
     entries = list(read_all(path))
     if len(entries) != 1:
-        raise FileError(path, "", f"{len(entries)} mechanisms", "one")
+        named = f"one; name it by its line, {entries[0].label}" if entries else "one"
+        raise FileError(path, "", f"{len(entries)} mechanisms", named)
     return entries[0].mechanism
 
 
@@ -160,41 +162,6 @@ def read_linkage(path: str | Path) -> ConicalLinkage:
     if not isinstance(linkage, ConicalLinkage):
         raise FileError(path, "", "a mechanism without angles", "a linkage on a cone, 'synthedra/conical'")
     return linkage
-
-
-_IDS = ("k1:", "m1:")
-
-
-def is_id(path: str | Path) -> bool:
-    """Tell whether the name of a file is the id of a mechanism.
-
-    Examples
-    --------
-    >>> is_id("k1:Cr"), is_id("./k1:Cr")
-    (True, False)
-    """
-    return str(path).startswith(_IDS) and not isinstance(path, Path)
-
-
-def mechanism_of_id(code: str) -> SCGraph:
-    """Return the mechanism of an id; a chain gets finite centres, as a bare link-joint graph does.
-
-    Raises
-    ------
-    FileError
-        If it is not an id.
-
-    Examples
-    --------
-    >>> mechanism_of_id("k1:Cr")
-    <SCGraph: 4 links, 4 joints, 1 centre>
-    """
-    try:
-        if code.startswith("k1:"):
-            return sc_from_link_joint_graph(chain_from_id(code))
-        return mechanism_from_map_id(code)
-    except InvariantError as error:
-        raise FileError(code, "", error.offender, error.expected) from None
 
 
 def write(

@@ -5,15 +5,17 @@ How it lies on cones is worked out in ``synth.surfaces``. Theory: docs/theory/mu
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import degrees, remainder, tau
+from itertools import pairwise
+from math import degrees, pi, remainder, tau
 
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId
+from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["ConicalLinkage", "Pair", "places_of_steps"]
+__all__ = ["ConicalLinkage", "Pair", "places_of_steps", "ring"]
 
 Pair = tuple[JointId, JointId]
 """Two joints of one link."""
@@ -45,6 +47,55 @@ class ConicalLinkage:
     steps: Mapping[Pair, float] | None = None
     cone_angle: float | None = None
 
+    @classmethod
+    def loop(cls, angles: Sequence[float]) -> ConicalLinkage:
+        """Return one loop of link angles: link i, counted from 1, lies between joints i and i + 1.
+
+        Parameters
+        ----------
+        angles : float[n]
+            Link angles in loop order, radians.
+
+        Raises
+        ------
+        InvariantError
+            If a link angle is none between two axes.
+
+        Examples
+        --------
+        >>> linkage = ConicalLinkage.loop([2.1, 1.7, 0.8, 1.5])
+        >>> linkage.chain, linkage.angles[("2", "3")]
+        (<SCGraph: 4 links, 4 joints, 1 centre>, 1.7)
+        """
+        for number, angle in enumerate(angles, start=1):
+            if not 0.0 < angle < pi:
+                told = f"link angle {number} is {degrees(angle):.12g} degrees"
+                raise InvariantError("link angle", told, "the angle between two axes, between 0 and 180")
+        chain = ring(len(angles))
+        joints = list(chain.joints)
+        after = [*joints[1:], joints[0]]
+        return cls(chain, angles=dict(zip(zip(joints, after, strict=True), map(float, angles), strict=True)))
+
+    @classmethod
+    def placed(cls, chain: SCGraph, places: Sequence[float], cone_angle: float | None = None) -> ConicalLinkage:
+        """Return a linkage whose joints lie at given azimuths, by the steps from each joint to the next.
+
+        Parameters
+        ----------
+        chain : SCGraph
+        places : float[J]
+            Azimuths of the joints, radians, in the order of the chain's joints.
+        cone_angle : float, optional
+            lambda, radians.
+
+        Examples
+        --------
+        >>> ConicalLinkage.placed(ring(3), [0.0, 1.5, 1.0]).steps
+        {('1', '2'): 1.5, ('2', '3'): -0.5}
+        """
+        steps = (_shorter_way(float(b) - float(a)) for a, b in pairwise(places))
+        return cls(chain, steps=dict(zip(pairwise(chain.joints), steps, strict=True)), cone_angle=cone_angle)
+
     def __repr__(self) -> str:
         given = "link angles" if self.steps is None else "steps between its axes"
         return f"<ConicalLinkage: {self.chain!r}, {given}>"
@@ -59,6 +110,24 @@ class ConicalLinkage:
         """
         placed = places_of_steps(self.steps or {})
         return [placed[joint] for joint in self.chain.joints]
+
+
+def _shorter_way(step: float) -> float:
+    """Return a step in (-pi, pi]."""
+    turned = remainder(step, tau)
+    return pi if turned <= -pi + 1e-15 else turned
+
+
+def ring(links: int) -> SCGraph:
+    """Return a loop whose link i lies between joints i and i + 1, counted from 1.
+
+    Examples
+    --------
+    >>> dict(ring(4).joints)
+    {'1': (4, 1), '2': (1, 2), '3': (2, 3), '4': (3, 4)}
+    """
+    joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}
+    return SCGraph(range(1, links + 1), joints, [Loop(tuple(joints))])
 
 
 def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dict[JointId, float]:

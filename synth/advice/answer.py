@@ -207,7 +207,9 @@ class Advice:
 
 
 def _how_many(listed: int, more: bool) -> str:
-    return f"the first {listed} sets" if more else f"{numbered(listed, 'set')}, all there are"
+    if more:
+        return "the first set" if listed == 1 else f"the first {listed} sets"
+    return f"{numbered(listed, 'set')}, all there are"
 
 
 def _names(joints: tuple[JointId, ...]) -> str:

@@ -30,7 +30,6 @@ from graphs.mechanism.sc import SCGraph
 from synth.candidates.rows import CandidateChain, order_rows, placed_rows
 from synth.conformed.cycles import loops_of_chain
 from synth.conformed.rates import ConformedChain
-from synth.surfaces.circuit import wrapped
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
 
@@ -249,14 +248,10 @@ class CandidateJob:
         row : mapping
             Column to value.
         """
-        chain, joints = self.chain, list(self.chain.joints)
+        chain = self.chain
         ground = next((link for link in chain if str(link) == row.get("ground")), None)
         fixed = SCGraph(chain.nodes, chain.joints, chain.loops, ground=ground)
-        places = self.places(row)
-        steps = {
-            (joints[i], joints[i + 1]): float(wrapped(places[i + 1] - places[i])) for i in range(len(joints) - 1)
-        }
-        return ConicalLinkage(fixed, steps=steps, cone_angle=self.cone_angle)
+        return ConicalLinkage.placed(fixed, self.places(row).tolist(), self.cone_angle)
 
     def mechanism_text(self, row: Mapping[str, Any]) -> str:
         """Return the file of the linkage of a row, ``synthedra/conical``."""

@@ -1,12 +1,14 @@
-"""``python -m synth.cli.ahead``: compile on all cores what the first commands need, before anybody waits."""
+"""``python -m synth.cli.ahead``: compile on all cores what the first enumerations need, before anybody waits."""
 
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager, redirect_stdout
+from multiprocessing import active_children
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -44,8 +46,24 @@ def compile_ahead() -> int:
         Functions compiled, one counted for each type of arguments.
     """
     with ProcessPoolExecutor(cores()) as pool:
-        counted = pool.submit(_positions)
-        return sum(pool.map(_run, _SMALL)) + counted.result()
+        try:
+            with _deaf_to_interrupts():  # so are the processes that are started here
+                counted = [*(pool.submit(_run, command) for command in _SMALL), pool.submit(_positions)]
+            return sum(new.result() for new in counted)
+        except KeyboardInterrupt:
+            for worker in active_children():
+                worker.kill()  # what it has compiled is kept; in the midst of a function it hears nothing else
+            raise
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Put off Ctrl-C: it would be heard where a pool is half made."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _run(command: str) -> int:
@@ -89,11 +107,15 @@ def _main() -> None:
         )
     number = cores()
     print(
-        f"Compiling the code of the first commands, on {number} core{'s' * (number > 1)}: about a minute",
+        f"Compiling once what enumerations need, on {number} core{'s' * (number > 1)}: a minute or two. "
+        "All else is ready: leave this to itself, or stop it with Ctrl-C.",
         flush=True,
     )
     begin = monotonic()
-    new = compile_ahead()
+    try:
+        new = compile_ahead()
+    except KeyboardInterrupt:
+        sys.exit("stopped; what is left is compiled when it is asked for")
     print(f"{new or 'no'} functions were new; {monotonic() - begin:.0f} s; kept in {kept}")
 
 

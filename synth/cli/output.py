@@ -33,6 +33,7 @@ __all__ = [
     "print_json",
     "table",
     "tell_lost",
+    "tell_written",
 ]
 
 FORCE = click.option(
@@ -82,6 +83,13 @@ def tell_lost(lost: Sequence[str]) -> None:
     """Print what a format could not hold, if there is anything."""
     if lost:
         click.echo("not stored: " + plain(", ".join(lost), 1000))
+
+
+def tell_written(*places: str | Path | None) -> None:
+    """Print the name of each file that was written; None is no file."""
+    for place in places:
+        if place is not None:
+            click.echo(f"written: {plain(str(place), 4096)}")
 
 
 def print_json(value: Any) -> None:

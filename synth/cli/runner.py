@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from graphs.plain_text import LONGEST_CELL
-from synth.cli.output import FORCE, console, plain, print_json, table
+from synth.cli.output import FORCE, console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:
     from enumerate.runner.columns import Column
@@ -109,7 +109,7 @@ def runner_options(function: F) -> F:
     """Add the options of the runner to a subcommand."""
     for option in (
         click.option("--json", "as_json", is_flag=True, help="Print one JSON document."),
-        click.option("--quiet", is_flag=True, help="Show no progress."),
+        click.option("--quiet", is_flag=True, help="Show no progress, nor what was written."),
         FORCE,
         click.option("--resume", is_flag=True, help="Go on with a .sqlite store that a stopped run left."),
         click.option("--scheduler", metavar="ADDRESS", help="Work on a Dask cluster, such as tcp://host:8786."),
@@ -120,7 +120,8 @@ def runner_options(function: F) -> F:
             "-o",
             "--output",
             metavar="FILE",
-            help="Write .jsonl, .sqlite, .parquet, a folder of mechanisms, .g6 (chains only); --count: .sqlite.",
+            help="Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; "
+            "--count: .sqlite.",
         ),
     ):
         function = option(function)
@@ -153,6 +154,7 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
     ``wrapped`` makes of the sink another that does something with the rows before.
     """
     from enumerate.runner.sinks import RowSink, sink_for
+    from graphs.errors import numbered
 
     meter = _Meter.of(options)
     if options.output is not None:
@@ -160,8 +162,9 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
             options.output, resume=options.resume, force=options.force, tell=meter.tell, looking=meter.look
         )
         progress = _run(job, wrapped(sink), options, meter)
-        if not options.quiet and sys.stderr.isatty():
-            click.echo(f"{progress.rows} rows in {progress.seconds:.1f} s: {plain(options.output)}", err=True)
+        if not options.quiet:
+            click.echo(numbered(progress.rows, "new row" if options.resume else "row"))
+            tell_written(options.output)
         return
     if options.as_json:
         found: list[dict[str, Any]] = []

@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.ids import LinkId
-from graphs.loops.loop import Loop
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.conical import ConicalLinkage, ring
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.behaviours import Behaviour, Way, behaviour, icrl, instant_centres
 from synth.conformed.rates import ConformedChain
@@ -26,7 +25,7 @@ from synth.surfaces.cone import map_to_cones
 from synth.surfaces.linkages import map_linkage
 from synth.surfaces.mapping import in_degrees
 
-__all__ = ["LinkageBehaviour", "OnCone", "linkage_on_cones", "loop_of_steps", "loop_on_cones"]
+__all__ = ["LinkageBehaviour", "OnCone", "cone_of_number", "linkage_on_cones", "loop_of_steps", "loop_on_cones"]
 
 _FAR = 1e12
 
@@ -52,6 +51,10 @@ class OnCone:
     chain: SCGraph
     places: Sequence[float]
     cone_angle: float | None
+
+    def linkage(self) -> ConicalLinkage:
+        """Return the linkage as it lies here, by steps and lambda, as it can be written."""
+        return ConicalLinkage.placed(self.chain, self.places, self.cone_angle)
 
     def behaviour(self, ground: LinkId | None = None) -> LinkageBehaviour:
         """Return what the linkage does, one link fixed: its own ground link, or the first, if none is named."""
@@ -155,7 +158,9 @@ def _centre(motion: Floats) -> list[float] | None:
     return [x, y] if abs(x) < _FAR and abs(y) < _FAR else None
 
 
-def linkage_on_cones(linkage: ConicalLinkage, cone_angle: float | None = None) -> list[OnCone]:
+def linkage_on_cones(
+    linkage: ConicalLinkage, cone_angle: float | None = None, *, tolerance: float = 1e-7
+) -> list[OnCone]:
     """Return a linkage on each of its cones, from link angles or from steps.
 
     Parameters
@@ -163,6 +168,8 @@ def linkage_on_cones(linkage: ConicalLinkage, cone_angle: float | None = None) -
     linkage : ConicalLinkage
     cone_angle : float, optional
         lambda, radians, for steps; by default that of the linkage, or any.
+    tolerance : float, optional
+        How well loops of link angles must close together, radians.
 
     Returns
     -------
@@ -194,8 +201,41 @@ def linkage_on_cones(linkage: ConicalLinkage, cone_angle: float | None = None) -
         raise UnsolvableError("link angles tell the cone themselves: leave --lambda out")
     return [
         OnCone(linkage.chain, [cone.places[joint] for joint in linkage.chain.joints], cone.cone_angle)
-        for cone in map_linkage(linkage).cones
+        for cone in map_linkage(linkage, tolerance).cones
     ]
+
+
+def cone_of_number(cones: Sequence[OnCone], number: int | None) -> OnCone:
+    """Return the one of the cones of a linkage that is asked for.
+
+    Parameters
+    ----------
+    cones : sequence of OnCone
+    number : int or None
+        From 1; needed where there are several.
+
+    Raises
+    ------
+    UnsolvableError
+        If there is none, or there are several of which none is asked for, or there is no such one.
+
+    Examples
+    --------
+    >>> cone_of_number(loop_on_cones(np.radians([120, 95, 45, 85])), None)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: the linkage lies on 2 cones, of 13.9984, 29.0445 degrees: expected --cone
+    """
+    if not cones:
+        raise UnsolvableError("the linkage lies on no cone")
+    if number is None and len(cones) > 1:
+        told = ", ".join(f"{degrees(one.cone_angle or 0.0):.6g}" for one in cones)
+        raise UnsolvableError(f"the linkage lies on {len(cones)} cones, of {told} degrees: expected --cone")
+    if number is not None and number > len(cones):
+        raise UnsolvableError(
+            f"the linkage lies on {numbered(len(cones), 'cone')}: there is none of number {number}"
+        )
+    return cones[(number or 1) - 1]
 
 
 def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
@@ -216,7 +256,7 @@ def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
     ['both', 'both']
     """
     return [
-        OnCone(_ring(len(angles)), azimuths(cone.steps).tolist(), cone.size) for cone in map_to_cones(angles).cones
+        OnCone(ring(len(angles)), azimuths(cone.steps).tolist(), cone.size) for cone in map_to_cones(angles).cones
     ]
 
 
@@ -255,10 +295,4 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> On
         given.append(last)
     if len(given) < 3:
         raise InvariantError("step", f"{len(given)} steps", "three or more")
-    return OnCone(_ring(len(given)), azimuths(given).tolist(), cone_angle)
-
-
-def _ring(links: int) -> SCGraph:
-    """Return a loop whose link i lies between joints i and i + 1, counted from 1."""
-    joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}
-    return SCGraph(range(1, links + 1), joints, [Loop(tuple(joints))])
+    return OnCone(ring(len(given)), azimuths(given).tolist(), cone_angle)

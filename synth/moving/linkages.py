@@ -136,7 +136,7 @@ def _of_sheet(sheet: Sheet) -> PosedLinkage:
 def _the_one(on_cones: Sequence[OnCone]) -> OnCone:
     if len(on_cones) != 1:
         told = numbered(len(on_cones), "cone")
-        raise UnsolvableError(f"the linkage lies on {told}: expected one; `synth cone move` takes each")
+        raise UnsolvableError(f"the linkage lies on {told}: expected one (synth cone map --cone K -o one.json)")
     return on_cones[0]
 
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from math import degrees
 from typing import TYPE_CHECKING
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism
-from graphs.errors import UnsolvableError, numbered
+from graphs.errors import UnsolvableError
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
-from synth.conformed.linkages import OnCone, linkage_on_cones
+from synth.conformed.linkages import OnCone, cone_of_number, linkage_on_cones
 from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.moving.linkages import sheet_of
 
@@ -97,14 +96,4 @@ def linkage_on_a_cone(
     """
     if isinstance(thing, OrderOnCircle):
         return OnCone(thing.chain, list(thing.azimuths), cone_angle)
-    cones = linkage_on_cones(thing, cone_angle)
-    if not cones:
-        raise UnsolvableError("the linkage lies on no cone")
-    if number is None and len(cones) > 1:
-        told = ", ".join(f"{degrees(one.cone_angle or 0.0):.6g}" for one in cones)
-        raise UnsolvableError(f"the linkage lies on {len(cones)} cones, of {told} degrees: expected --cone")
-    if number is not None and number > len(cones):
-        raise UnsolvableError(
-            f"the linkage lies on {numbered(len(cones), 'cone')}: there is none of number {number}"
-        )
-    return cones[(number or 1) - 1]
+    return cone_of_number(linkage_on_cones(thing, cone_angle), number)

@@ -8,7 +8,7 @@ from typing import Any
 from enumerate.strings.graphs import chain_scd
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import UnsolvableError, shown
-from graphs.files.formats import mechanism_of_id
+from graphs.files.ids import mechanism_of_id
 from graphs.files.native.documents import dumps
 from synth.conformed.cycles import loops_of_chain
 from synth.drawing.catalogue.rows import order_of_row

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -26,7 +24,7 @@ from synth.drawing.catalogue.writing import write_catalogue
 __all__ = ["write_rows"]
 
 _PICTURES = (".svg", ".png", ".pdf")
-_THROUGH_SINKS = (".jsonl", ".parquet", "")
+_THROUGH_SINKS = (".csv", ".jsonl", ".parquet", "")
 
 
 def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> list[Path]:
@@ -61,9 +59,7 @@ def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> lis
     suffix = place.suffix.lower()
     if suffix in _PICTURES:
         return write_catalogue(catalogue_pages(_entries(rows)), place, force=force)
-    if suffix == ".csv":
-        write_text(place, _csv(rows), force=force)
-    elif suffix == ".json":
+    if suffix == ".json":
         write_text(place, json.dumps(rows.to_json(), indent=1, allow_nan=False) + "\n", force=force)
     elif suffix in _THROUGH_SINKS:
         if not suffix:
@@ -73,17 +69,6 @@ def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> lis
         expected = ", ".join((".csv", ".json", ".jsonl", ".parquet", *_PICTURES))
         raise FileError(place, "", "the extension is not known", f"{expected}, or a folder")
     return [place]
-
-
-def _csv(rows: AtlasRows) -> str:
-    stream = io.StringIO()
-    table = csv.writer(stream, lineterminator="\n")
-    table.writerow(rows.columns)
-    for row in rows:
-        table.writerow(
-            [",".join(map(str, value)) if isinstance(value, tuple) else value for value in row.values()]
-        )
-    return stream.getvalue()
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import numpy as np
 
 from graphs.errors import SynthedraError
-from graphs.files.formats import mechanism_of_id
+from graphs.files.ids import mechanism_of_id
 from graphs.files.patterns.fold import fold_text
 from synth.folding.motion import fold
 from synth.realisation.realised import Kind, Realised, realise

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_output, console, entries, plain, print_json
+from synth.cli.output import FORCE, about, check_output, console, entries, plain, print_json, tell_written
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def build(**options: Any) -> None:
         return
     for kind, number in told["types"].items():
         click.echo(f"{number:>9}  {kind}")
-    click.echo(f"written: {plain(running.output, 4096)}")
+    tell_written(running.output)
 
 
 @atlas_group.command()
@@ -166,8 +166,7 @@ def _print_columns() -> None:
 def _write(rows: AtlasRows, output: str, force: bool) -> None:
     from synth.atlas.asked.written import write_rows
 
-    for place in write_rows(rows, output, force=force):
-        click.echo(f"written: {plain(str(place), 4096)}")
+    tell_written(*write_rows(rows, output, force=force))
 
 
 @atlas_group.command()
@@ -196,8 +195,7 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
     out = console()
     for block in report.blocks():
         out.print(block)
-    if output is not None:
-        click.echo(f"written: {plain(output, 4096)}")
+    tell_written(output)
 
 
 @atlas_group.command()
@@ -218,7 +216,7 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
     site, first = site_of(open_atlas(atlas), condition, title)
     running = RunOptions(folder, workers, None, False, quiet, False)
     run_whole(site, SiteSink(folder, first), running)
-    click.echo(f"written: {plain(str(Path(folder) / 'index.html'), 4096)}")
+    tell_written(Path(folder) / "index.html")
 
 
 @atlas_group.command()

@@ -137,7 +137,8 @@ def _chain(name: str) -> SCGraph:
     from graphs.convert.link_joint import sc_from_link_joint_graph
     from graphs.convert.table import graph_of
     from graphs.errors import FileError
-    from graphs.files.formats import is_id, read
+    from graphs.files.formats import read
+    from graphs.files.ids import is_id
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from synth.cli.output import FORCE, console, plain, print_json, table
+from synth.cli.output import FORCE, console, plain, print_json, table, tell_written
 
 __all__ = ["strings"]
 
@@ -76,6 +76,7 @@ def strings(
     rows = _rows(numbers, limits, modes)
     if output is not None:
         _write(output, rows, force)
+        tell_written(output)
     elif as_json:
         print_json(list(rows))
     else:

@@ -7,7 +7,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, table, tell_lost
+from synth.cli.output import (
+    FORCE,
+    LOSSY,
+    about,
+    check_output,
+    console,
+    plain,
+    print_json,
+    table,
+    tell_lost,
+    tell_written,
+)
 
 if TYPE_CHECKING:
     from graphs.creasing.edits import SheetEdit
@@ -89,7 +100,7 @@ def edit(
         rows.add_row(plain(one.what), one.equation, *map(plain, (one.predicted, one.counted, told["mobility"])))
     console().print(rows)
     if output is not None:
-        click.echo(f"written: {plain(output, 4096)}")
+        tell_written(output)
         tell_lost(lost)
 
 

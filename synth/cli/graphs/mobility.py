@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -98,7 +99,7 @@ def mobility(
     elif len(answers) == 1 and not failures:
         _print_answer(*answers[0])
     elif answers:
-        _print_table(console(), sorted(answers, key=lambda item: item[0]), len(failures))
+        _print_table(console(), sorted(answers, key=lambda item: _in_number_order(item[0])), len(failures))
     for line in failures:
         click.echo(line, err=True)
     if failures:
@@ -113,6 +114,11 @@ def _objects_stay() -> Iterator[None]:
         yield
     finally:
         gc.enable()
+
+
+def _in_number_order(label: str) -> list[str | int]:
+    """Return what sorts names as people do: chains.g6:2 before chains.g6:10."""
+    return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
 
 
 def _print_answer(label: str, answer: JudgedMobility) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, tell_lost
+from synth.cli.output import FORCE, LOSSY, about, check_output, console, print_json, tell_lost, tell_written
 
 __all__ = ["reconstruct"]
 
@@ -40,5 +40,5 @@ def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json
     for block in reconstruction.blocks():
         out.print(block)
     if output is not None:
-        out.print(f"written: {plain(output, 4096)}")
+        tell_written(output)
         tell_lost(lost)

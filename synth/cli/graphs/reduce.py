@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, tell_lost
+from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, tell_lost, tell_written
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -86,7 +86,7 @@ def reduce_command(
     else:
         _print_groups(reduction)
     if output is not None:
-        click.echo(f"written: {plain(output, 4096)}")
+        tell_written(output)
         tell_lost(lost)
 
 

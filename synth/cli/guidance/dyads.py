@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from synth.cli.guidance.order import AXIS, ORIENTATIONS
-from synth.cli.output import FORCE, about, check_picture, console, plain, print_json, table
+from synth.cli.output import FORCE, about, check_picture, console, print_json, table, tell_written
 
 if TYPE_CHECKING:
     from synth.guidance.dyads import Dyad
@@ -87,8 +87,7 @@ def dyads(
     if guiding.all_found is not None:
         largest = f"largest residual {guiding.all_found.residual:.0e}"
         out.print(f"all six solutions found, {guiding.all_found.complex_solutions} of them complex; {largest}")
-    if picture is not None:
-        out.print(f"drawn: {plain(picture, 4096)}")
+    tell_written(picture)
 
 
 def asked_for(

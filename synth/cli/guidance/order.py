@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_picture, console, plain, print_json, table
+from synth.cli.output import FORCE, about, check_picture, console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:
     from synth.guidance.hoop_method import Direction
@@ -134,5 +134,4 @@ def _print(
     if degrees(found.misfit) > _FITS:
         misses = f"the best misses by {degrees(found.misfit):.4f} degrees"
         out.print(f"note: no dyad about this axis takes all orientations; {misses}")
-    if picture is not None:
-        out.print(f"drawn: {plain(picture, 4096)}")
+    tell_written(picture)

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, about, check_picture, print_json
+from synth.cli.output import FORCE, about, check_output, check_picture, print_json, tell_written
 from synth.cli.surfaces.circles import NumberList, in_radians, print_cones
 
 if TYPE_CHECKING:
+    from graphs.mechanism.conical import ConicalLinkage
     from synth.conformed.linkages import LinkageBehaviour, OnCone
     from synth.moving.conical import ConicalMotion
+    from synth.surfaces.cone import ConeMap
+    from synth.surfaces.linkages import LinkageMap
 
 __all__ = ["cone_group"]
 
@@ -37,7 +40,14 @@ def cone_group() -> None:
     help="How well the loops of a FILE must close together.",
 )  # fmt: skip
 @click.option("--by-angles", is_flag=True, help="Of a FILE of steps: every cone on which its link angles lie.")
-@click.option("-o", "--output", metavar="PICTURE", help="Draw (.png, .svg, .pdf): loop sums; of a FILE, the cone.")
+@click.option(
+    "-o", "--output", metavar="OUT",
+    help="Draw (.png, .svg, .pdf): loop sums; of a FILE or with --cone, the linkage. Or write it (.json).",
+)  # fmt: skip
+@click.option(
+    "--cone", "number", type=click.IntRange(min=1), metavar="K",
+    help="Which of the cones to draw, or to write the linkage on; written without it, it has its link angles.",
+)  # fmt: skip
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def map_command(
@@ -46,17 +56,20 @@ def map_command(
     tolerance: float,
     by_angles: bool,
     output: str | None,
+    number: int | None,
     force: bool,
     as_json: bool,
 ) -> None:
     """Say on which right cones a linkage lies, all its joint axes ruling lines.
 
     Give --angles of one loop of any number of links (a four-bar as ground, input, coupler, output), or a FILE of a
-    linkage of several loops: with its link angles, or with the steps between its joint axes.
+    linkage of several loops: with its link angles, or with the steps between its joint axes. The .json that -o
+    writes goes into synth cone move, view, draw and template.
 
     \b
     Examples:
       synth cone map --angles 70,80,120,40
+      synth cone map --angles 120,95,45,85 --cone 1 -o four-bar.json
       synth cone map --angles 120,50,120,50 --json
       synth cone map data/surfaces/fig11-stephenson.json
       synth cone map data/surfaces/fig11-stephenson.json --by-angles
@@ -65,51 +78,77 @@ def map_command(
         raise click.UsageError("--by-angles is for a FILE")
     if (file is None) == (angles is None):
         raise click.UsageError("give --angles of one loop, or a FILE")
-    check_picture(output, force=force)
-    if file is not None:
-        _map_file(file, radians(tolerance), by_angles, output, force, as_json)
-        return
-    from synth.surfaces.cone import map_to_cones
-
-    assert angles is not None
-    found = map_to_cones(in_radians(angles))
-    if output is not None:
-        from synth.drawing.scene.writing import save_scene
-        from synth.drawing.sums import draw_loop_sums
-
-        save_scene(draw_loop_sums(found), output, force=force)
-    if as_json:
-        print_json(found.to_json())
-    else:
-        print_cones(found)
-
-
-def _map_file(
-    file: str, tolerance: float, angles_only: bool, output: str | None, force: bool, as_json: bool
-) -> None:
-    from graphs.files.formats import read_linkage
+    from graphs.mechanism.conical import ConicalLinkage
     from synth.cli.surfaces.conical import print_linkage
-    from synth.surfaces.linkages import by_angles, map_linkage
+    from synth.conformed.linkages import cone_of_number, linkage_on_cones
+    from synth.surfaces.cone import ConeMap, map_to_cones
+    from synth.surfaces.linkages import LinkageMap, map_linkage
+
+    _check_output(output, number, force=force)
+    mapped: ConeMap | LinkageMap
+    if angles is not None:
+        linkage, mapped = None, map_to_cones(in_radians(angles))
+    else:
+        linkage = _linkage(str(file), by_angles)
+        with about(str(file)):
+            mapped = map_linkage(linkage, radians(tolerance))
+    if isinstance(mapped, ConeMap) and output is not None and number is None and not _is_linkage(output):
+        _write(mapped, output, force=force)
+    elif output is not None:
+        with _about(file):
+            linkage = linkage or ConicalLinkage.loop(in_radians(angles or ()))
+            if number is None and _is_linkage(output):
+                _write(linkage, output, force=force)
+            else:
+                cones = linkage_on_cones(linkage, tolerance=radians(tolerance))
+                _write(cone_of_number(cones, number or 1), output, force=force)
+    if as_json:
+        print_json(mapped.to_json())
+        return
+    if isinstance(mapped, LinkageMap):
+        print_linkage(mapped)
+    else:
+        print_cones(mapped)
+    tell_written(output)
+
+
+def _linkage(file: str, angles_only: bool) -> ConicalLinkage:
+    from graphs.files.formats import read_linkage
+    from synth.surfaces.linkages import by_angles
 
     linkage = read_linkage(file)
     with about(file):
-        if angles_only:
-            linkage = by_angles(linkage)
-        found = map_linkage(linkage, tolerance)
-    if output is not None:
-        if not found.cones:
-            raise click.UsageError("there is no cone to draw")
-        from synth.conformed.rates import ConformedChain
-        from synth.drawing.conformed import draw_conformed
-        from synth.drawing.scene.writing import save_scene
+        return by_angles(linkage) if angles_only else linkage
 
-        first = found.cones[0]
-        places = [first.places[joint] for joint in linkage.chain.joints]
-        save_scene(draw_conformed(ConformedChain.of(linkage.chain), places, first.cone_angle), output, force=force)
-    if as_json:
-        print_json(found.to_json())
+
+def _check_output(output: str | None, number: int | None, *, force: bool) -> None:
+    if output is None and number is not None:
+        raise click.UsageError("--cone says what -o draws or writes: expected -o")
+    (check_output if _is_linkage(output) else check_picture)(output, force=force)
+
+
+def _is_linkage(output: str | None) -> bool:
+    return output is not None and output.lower().endswith(".json")
+
+
+def _write(thing: ConicalLinkage | ConeMap | OnCone, output: str, *, force: bool) -> None:
+    """Write a linkage as it was given, or as it lies on a cone; draw loop sums, or a linkage on a cone."""
+    from synth.conformed.linkages import OnCone
+    from synth.conformed.rates import ConformedChain
+    from synth.drawing.conformed import draw_conformed
+    from synth.drawing.scene.writing import save_scene
+    from synth.drawing.sums import draw_loop_sums
+    from synth.surfaces.cone import ConeMap
+
+    if isinstance(thing, ConeMap):
+        save_scene(draw_loop_sums(thing), output, force=force)
+    elif isinstance(thing, OnCone) and not _is_linkage(output):
+        chain = ConformedChain.of(thing.chain)
+        save_scene(draw_conformed(chain, thing.places, thing.cone_angle), output, force=force)
     else:
-        print_linkage(found)
+        from graphs.files.formats import write
+
+        write(thing.linkage() if isinstance(thing, OnCone) else thing, output, force=force)
 
 
 @cone_group.command("behaviour", short_help="Which links leave the cone inward, outward, or both ways.")
@@ -168,8 +207,9 @@ def behaviour_command(
         save_scene(draw_conformed(first.chain, first.places, first.cone_angle), output, force=force)
     if as_json:
         print_json({"linkages": [linkage.to_json() for linkage in found]})
-    else:
-        print_behaviours(found)
+        return
+    print_behaviours(found)
+    tell_written(output)
 
 
 def _behaviours(linkages: list[OnCone], ground: str | None) -> list[LinkageBehaviour]:

@@ -89,7 +89,7 @@ def _print_links(linkage: LinkageBehaviour) -> None:
 
     chain = linkage.chain
     rows = table("link", "joints", "moves", "ICRL (deg)", numbers=["ICRL (deg)"])
-    lines = icrl(linkage.behaviour.motion.motions)
+    lines = icrl(linkage.behaviour.motion.motions) + 0.0  # no minus before a zero
     for number, (link, joints) in enumerate(zip(chain.links, chain.joints_of, strict=True)):
         line = "" if lines[number] != lines[number] else f"{degrees(lines[number]):.6g}"
         way = "fixed" if number == 0 else linkage.way_of(number)

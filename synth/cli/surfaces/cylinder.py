@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, check_picture, print_json
+from synth.cli.output import FORCE, check_picture, print_json, tell_written
 from synth.cli.surfaces.circles import NumberList, print_cylinders
 
 __all__ = ["cylinder_group"]
@@ -48,5 +48,6 @@ def map_command(lengths: tuple[float, ...], output: str | None, force: bool, as_
         save_scene(draw_loop_sums(found), output, force=force)
     if as_json:
         print_json(found.to_json())
-    else:
-        print_cylinders(found)
+        return
+    print_cylinders(found)
+    tell_written(output)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_picture, plain
+from synth.cli.output import FORCE, about, check_picture, plain, tell_written
 from synth.cli.runner import LimitsType
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def draw(
     with about(file):
         scene = pictures.draw(thing, kind, **look)
     save_scene(scene, output, paper=paper, force=force)
-    click.echo(f"written: {plain(output, 4096)}")
+    tell_written(output)
 
 
 def _read(file: str) -> Drawable:
@@ -115,8 +115,7 @@ def _catalogue(
     failures: list[str] = []
     shown = _counted(catalogue_entries(file, where, failures))
     written = write_catalogue(catalogue_pages(shown, Path(file).name, kind), output, paper=paper, force=force)
-    for place in written:
-        click.echo(f"written: {plain(str(place), 4096)}")
+    tell_written(*written)
     if not written:
         click.echo("nothing to draw")
     for failure in failures:

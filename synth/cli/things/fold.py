@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table
+from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table, tell_written
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from graphs.convert.table import Mechanism
     from graphs.ids import JointId
     from graphs.mechanism.sc import SCGraph
@@ -91,7 +89,7 @@ def fold(
                 print_json({"file": file, "output": output, **moved.to_json()})
             else:
                 click.echo(str(moved))
-                _tell_written(drawn)
+                tell_written(*drawn)
             return
         sheet = sheet.frames.first_placed() if sheet.frames is not None else sheet
         graph = mechanism_of_sheet(sheet).sc
@@ -118,12 +116,7 @@ def fold(
         console().print(rows)
     for line in str(found).splitlines():
         click.echo(line)
-    _tell_written(written)
-
-
-def _tell_written(places: list[Path]) -> None:
-    for place in places:
-        click.echo(f"written: {plain(str(place), 4096)}")
+    tell_written(*written)
 
 
 def _moved(thing: Mechanism, asked: _Joints, branch: str | None, frames: int, output: str | None) -> Motion:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from synth.cli.groups import NamedGroup
-from synth.cli.output import FORCE, about, check_output, console, plain, print_json, table, tell_lost
+from synth.cli.output import FORCE, about, check_output, console, print_json, table, tell_lost, tell_written
 
 if TYPE_CHECKING:
     from synth.patterns.generator import Generator, Parameter
@@ -138,8 +138,7 @@ def _run(
         return
     click.echo(str(made))
     tell_lost(lost)
-    if output is not None:
-        click.echo(f"written: {plain(output, 4096)}")
+    tell_written(output)
 
 
 def _written(parameter: Parameter, value: float) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_output, console, plain, print_json
+from synth.cli.output import FORCE, about, check_output, console, print_json, tell_written
 from synth.cli.runner import RunOptions
 from synth.cli.things.given import MODE, given
 from synth.cli.things.realise_many import realise_many
@@ -24,7 +24,10 @@ __all__ = ["realise"]
 @click.argument("file", metavar="FILE")
 @click.option("--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True)
 @click.option("--size", type=float, help="Longer side of the box round the panels.  [default: 1]")
-@click.option("--lambda", "cone_angle", type=float, help="Half the apex angle of the cone.  [default: 30]")
+@click.option(
+    "--lambda", "cone_angle", type=float,
+    help="Of a cone: angle of its ruling lines from the plane across its axis.  [default: 30]",
+)  # fmt: skip
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Another drawing for each.")
 @click.option("--tries", type=click.IntRange(1, 10_000), default=12, show_default=True, help="Drawings at most.")
 @click.option("--flat-foldable", is_flag=True, help="Of a sheet: every other sector sums to 180 degrees.")
@@ -113,8 +116,7 @@ def realise(
         return
     for block in found.blocks():
         console().print(block)
-    if output is not None:
-        click.echo(f"written: {plain(output, 4096)}")
+    tell_written(output)
 
 
 def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import plain, print_json
+from synth.cli.output import plain, print_json, tell_written
 from synth.cli.runner import RunOptions, run_resumable
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def realise_many(source: str, running: RunOptions, options: dict[str, Any], *, a
         click.echo(f"left out: {plain(failure, 4096)}", err=True)
     counts = "{realised} realised, {not_found} not found, {refused} refused".format(**summary)
     click.echo(f"{numbered(len(summary['types']), 'type')}: {counts}")
-    click.echo(f"written: {plain(', '.join(dict.fromkeys((str(running.output), str(store)))), 4096)}")
+    tell_written(*dict.fromkeys((str(running.output), str(store))))
 
 
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, plain
+from synth.cli.output import FORCE, about, plain, tell_written
 from synth.cli.things.given import MODE, ROW, Given, given
 
 if TYPE_CHECKING:
@@ -109,8 +109,7 @@ def template(
         else:
             made, told = _of_panels(asked, kind, look, note=note and not _is_dxf(output))
     made, more = _with_note(made, output, note=note)
-    for place in write_template(made, output, paper=paper, force=force):
-        click.echo(f"written: {plain(str(place), 4096)}")
+    tell_written(*write_template(made, output, paper=paper, force=force))
     for line in (*told, *more):
         click.echo(line, err=True)
 

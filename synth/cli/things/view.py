@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, about, check_output, plain
+from synth.cli.output import FORCE, about, check_output, tell_written
 
 if TYPE_CHECKING:
     from synth.viewer.shown import Shown
@@ -57,7 +57,7 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
     from synth.viewer.pages import page
 
     write_text(Path(output), page(shown), force=force)
-    click.echo(f"written: {plain(output, 4096)}")
+    tell_written(output)
 
 
 def _check_page(output: str, *, force: bool) -> None:

@@ -26,7 +26,7 @@ def taken_off(sc: SCGraph) -> Reduction:
 
     Examples
     --------
-    >>> from graphs.files.formats import mechanism_of_id
+    >>> from graphs.files.ids import mechanism_of_id
     >>> taken_off(mechanism_of_id("k1:Cr")).steps
     ()
     """
@@ -59,7 +59,7 @@ def said_of_ride_alongs(reduction: Reduction) -> list[str]:
 
     Examples
     --------
-    >>> from graphs.files.formats import mechanism_of_id
+    >>> from graphs.files.ids import mechanism_of_id
     >>> said_of_ride_alongs(taken_off(mechanism_of_id("k1:Cr")))
     []
     """

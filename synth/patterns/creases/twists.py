@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from math import cos, log, pi, sin, tan
 
-from scipy.optimize import brentq
-
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Sheet
 from synth.patterns.panels import Place, sheet_of_faces
@@ -119,6 +117,8 @@ def _rigid_twist(other: int) -> float:
     With g = tan(60 degrees) and x = tan((90 degrees - twist) / 2) they are (g x + 1) / (g x - 1) and
     (g - x) / (g + x).
     """
+    from scipy.optimize import brentq  # takes half a second to load
+
     slope = tan(pi / 3)
 
     def product(twist: float) -> float:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from math import cos, pi, sin
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
@@ -60,6 +59,8 @@ def kaleidocycle(solids: int, tilt: float = 0.9) -> HingedSolids:
 
 def _closed_ring(solids: int) -> HingedSolids:
     """Return a ring of solids with right twists and lengths 1, by random angles from which it closes."""
+    from scipy.optimize import least_squares  # takes half a second to load
+
     random = np.random.default_rng(solids)
     for _ in range(_TRIES):
         angles: Floats = least_squares(_off_closing, random.uniform(-pi, pi, solids)).x

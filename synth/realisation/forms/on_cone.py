@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import degrees, isfinite, pi, radians
 from typing import Any
 
@@ -30,7 +29,7 @@ from synth.surfaces.several_loops import link_pairs, loop_steps
 __all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
 
 CONE_ANGLE = radians(30.0)
-"""Half the apex angle, unless one is asked for."""
+"""lambda, unless one is asked for."""
 
 _VARIED = 0.35
 _CLEAR = radians(15.0)
@@ -118,7 +117,7 @@ class OnOneCone:
         rows = [(plain(link_of[pair]), _names(pair), f"{degrees(arc):.6g}") for pair, arc in self.arcs.items()]
         told = "an unknown number of" if self.freedoms is None else str(self.freedoms)
         return [
-            f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees, half its apex angle: {chain}",
+            f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees: {chain}",
             "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
             TableBlock(("link", "joints", "arc (deg)"), rows, numbers=["arc (deg)"]),
             "circuits " + ", ".join(self.circuits) + f"; steps of links {degrees(self.clear):.3g} degrees or more "
@@ -153,7 +152,7 @@ def realise_on_cone(
     mechanism : anything that has an SC graph
         All its loops about one finite centre.
     cone_angle : float, optional
-        lambda, half the apex angle, radians.
+        lambda, the angle between a ruling line and the plane across the axis, radians.
     seed : int, optional
         Other seeds give other linkages; the same gives the same.
     tries : int, optional
@@ -185,7 +184,7 @@ def realise_on_cone(
     for number, places in enumerate(_placements(chain, seed, tries)):
         motion = first_order(conformed, places)
         found = OnOneCone(
-            linkage=_linkage(chain, places, cone_angle),
+            linkage=ConicalLinkage.placed(chain, places.tolist(), cone_angle),
             clear=_clear(chain, places),
             circuits=tuple(str(loop.circuits.names()) for loop in loop_steps(chain, places)),
             mobility=mobility,
@@ -250,16 +249,6 @@ def _clear(chain: SCGraph, places: Floats) -> float:
     at = dict(zip(chain.joints, places.tolist(), strict=True))
     steps = np.abs(wrapped([at[b] - at[a] for a, b in link_pairs(chain)]))
     return float(np.minimum(steps, np.pi - steps).min())
-
-
-def _linkage(chain: SCGraph, places: Floats, cone_angle: float) -> ConicalLinkage:
-    """Return the linkage by the steps from each joint to the next."""
-    joints = list(chain.joints)
-    steps = wrapped(np.diff(places))
-    pairs = pairwise(joints)
-    return ConicalLinkage(
-        chain, steps={pair: float(step) for pair, step in zip(pairs, steps, strict=True)}, cone_angle=cone_angle
-    )
 
 
 def _cones(linkage: ConicalLinkage) -> int | None:

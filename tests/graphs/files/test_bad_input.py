@@ -7,7 +7,7 @@ import re
 import pytest
 
 from graphs.errors import FileError, shown
-from graphs.files.formats import read, write
+from graphs.files.formats import read, read_all, write
 from graphs.mechanism.sc import SCGraph
 
 SC = {"format": "synthedra/sc", "version": 1, "links": 4, "joints": [[0, 1], [1, 2], [2, 3], [3, 0]],
@@ -200,8 +200,15 @@ def test_a_directory_a_missing_file_and_a_closed_one(tmp_path):
 def test_several_mechanisms_in_a_file_are_not_one(tmp_path):
     path = tmp_path / "two.g6"
     path.write_text("C~\nCl\n", encoding="ascii")
-    with pytest.raises(FileError, match="2 mechanisms; expected one"):
+    with pytest.raises(FileError, match=r"2 mechanisms; expected one; name it by its line, .*two\.g6:1"):
         read(path)
+    assert read(f"{path}:2").number_of_edges() == 4
+    assert [entry.label for entry in read_all(f"{path}:2")] == [f"{path}:2"]
+    with pytest.raises(FileError, match=r"two\.g6: line 3: no mechanism; expected one of 2 lines"):
+        read(f"{path}:3")
+    (tmp_path / "two.g6:2").write_text("C~\n", encoding="ascii")  # a name of its own is meant first
+    with pytest.raises(FileError, match=r"files ending in '\.g6:2' are not known"):
+        read(f"{path}:2")
 
 
 def test_nothing_half_written(tmp_path):

@@ -9,7 +9,8 @@ import pytest
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.atomic import FolderBeside
-from graphs.files.formats import READERS, WRITERS, mechanism_of_id, read, write
+from graphs.files.formats import READERS, WRITERS, read, write
+from graphs.files.ids import mechanism_of_id
 from graphs.files.kept_type import change_of_type
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 
@@ -43,6 +44,17 @@ def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys)
     finally:
         notice.on_compiling(None)
     assert capsys.readouterr() == ("", said(tmp_path))
+
+
+def test_compiling_ahead_can_be_stopped(tmp_path):
+    line = [sys.executable, "-m", "synth.cli.ahead"]
+    cache = {**os.environ, "SYNTHEDRA_CACHE": str(tmp_path)}
+    with subprocess.Popen(line, env=cache, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        told = process.communicate(timeout=60)[1]
+    assert (process.returncode, told) == (1, "stopped; what is left is compiled when it is asked for\n")
 
 
 @pytest.mark.slow

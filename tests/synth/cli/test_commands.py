@@ -69,12 +69,19 @@ def test_every_help_text_has_an_example(command):
     assert "--json" in out or command in WITHOUT_JSON
 
 
-def test_help_needs_neither_networkx_nor_rich():
+@pytest.mark.parametrize(
+    ("words", "heavy"),
+    [
+        (["--help"], ["networkx", "numpy", "rich", "graphs.mechanism.sc"]),
+        (["generate", "miura", "--help"], ["scipy.optimize", "numba"]),
+    ],
+)
+def test_help_loads_nothing_heavy(words, heavy):
     code = (
         "import sys; from synth.cli.main import main\n"
-        "try: main(['--help'])\n"
+        f"try: main({words})\n"
         "except SystemExit: pass\n"
-        "heavy = {'networkx', 'numpy', 'rich', 'graphs.mechanism.sc'} & set(sys.modules)\n"
+        f"heavy = set({heavy}) & set(sys.modules)\n"
         "sys.exit(f'imported: {heavy}' if heavy else 0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)

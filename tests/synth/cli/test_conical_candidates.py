@@ -31,8 +31,9 @@ def test_enumerate_conical(tmp_path, data):
     placed = (*base, "--ground", 0, "--slots", 7, "--lambda", 20)
     files = {name: tmp_path / name for name in ("c.jsonl", "c.sqlite", "c.parquet", "folder")}
     for one in files.values():
-        assert run(*placed, "-o", one).output == ""
+        assert f"\nwritten: {one}\n" in run(*placed, "-o", one).output
     found = json.loads(run(*placed, "--json").stdout)
+    assert run(*placed, "--quiet", "--force", "-o", files["c.jsonl"]).output == ""
     assert [json.loads(line) for line in files["c.jsonl"].read_text().splitlines()] == found
     assert [row_as_dict(found[0], row) for row in read_rows(files["c.sqlite"])] == found
     table = pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 
@@ -72,18 +73,25 @@ def test_enumerate_chains(tmp_path):
     many = run("enumerate", "chains", "--links", 12, "--dof", 1).stdout.splitlines()
     assert len(many) == 6857
     assert many[0].startswith("code\tlinks\tjoints")
-    files = {name: tmp_path / name for name in ("c.g6", "c.jsonl", "c.sqlite", "c.parquet", "folder")}
+    files = {name: tmp_path / name for name in ("c.g6", "c.csv", "c.jsonl", "c.sqlite", "c.parquet", "folder")}
     for file in files.values():
-        assert run(*base, "-o", file).output == ""
+        assert run(*base, "-o", file).output == f"16 rows\nwritten: {file}\n"
+    assert run(*base, "-o", files["c.csv"], "--force", "--quiet").output == ""
     codes = [row["code"] for row in rows]
     assert ["k1:" + line for line in files["c.g6"].read_text().splitlines()] == codes
     assert [json.loads(line) for line in files["c.jsonl"].read_text().splitlines()] == rows
+    table = list(csv.DictReader(files["c.csv"].read_text().splitlines()))
+    assert [one["code"] for one in table] == codes
+    assert [json.loads(one["assortment"]) for one in table] == [row["assortment"] for row in rows]
     assert [row[0] for row in read_rows(files["c.sqlite"])] == codes
     assert pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist() == rows
     assert [chain_id(read(file)) for file in sorted(files["folder"].iterdir())] == codes
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(files)
     reports = json.loads(run("mobility", "--json", files["c.g6"]).stdout)
     assert [report["mobility"] for report in reports] == [1] * 16
+    shown = re.findall(r"c\.g6:(\d+) ", run("mobility", "--no-exact", files["c.g6"]).stdout)
+    assert shown == [str(line) for line in range(1, 17)]
+    assert f"{files['c.g6']}:7\n" in run("mobility", f"{files['c.g6']}:7").stdout
 
 
 def test_enumerate_inversions_and_inputs(tmp_path):
@@ -114,7 +122,7 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         ("--links 8 --dof 1 --resume", "--resume needs the store to go on with"),
         ("--links 8 --dof 1 --json -o x.g6", "give -o or --json, not both"),
         ("--links 8 --dof 1 --count -o x.g6", "--count keeps what it has counted in a store: name a .sqlite file"),
-        ("--links 8 --dof 1 -o chains.xyz", "expected one of .g6 .jsonl .parquet .sqlite, or a folder"),
+        ("--links 8 --dof 1 -o chains.xyz", "expected one of .csv .g6 .jsonl .parquet .sqlite, or a folder"),
         ("--links 8 --dof 1 -o no/such/chains.g6", "cannot be written: No such file or directory"),
         ("--links 8 --dof 1 -o /proc/chains.g6", "cannot be written"),
         ("--links 8 --dof 1 -o /proc/chains.sqlite", "unable to open database file"),
@@ -148,7 +156,7 @@ def test_enumerate_sc(tmp_path):
     assert json.loads(run(*base, "--centres", 3, "--json").stdout) == [row for row in rows if row["centres"] == 3]
     files = {name: tmp_path / name for name in ("c.jsonl", "c.sqlite", "c.parquet", "folder")}
     for file in files.values():
-        assert run(*base, "-o", file).output == ""
+        assert run(*base, "-o", file).output == f"54 rows\nwritten: {file}\n"
     assert [json.loads(line) for line in files["c.jsonl"].read_text().splitlines()] == rows
     assert [row_as_dict(rows[0], row) for row in read_rows(files["c.sqlite"])] == rows
     assert pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist() == rows

@@ -145,7 +145,7 @@ def test_without_a_usable_four_bar_there_is_no_motion(corrected, tmp_path):
 def test_pictures_of_the_hoop(printed, tmp_path):
     for name in ("a.svg", "a.png"):
         out = run("order", "--orientations", printed, "--axis", AXIS_1, "-o", tmp_path / name, code=1).stdout
-        assert f"drawn: {tmp_path / name}" in out
+        assert f"written: {tmp_path / name}" in out
         assert (tmp_path / name).stat().st_size > 10_000
     result = run("order", "--orientations", printed, "--axis", AXIS_1, "-o", tmp_path / "a.gif", code=2)
     assert "a.gif: the extension is not known" in result.stderr

@@ -172,6 +172,44 @@ def test_pictures(words, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.svg"]
 
 
+def test_a_loop_is_written_by_its_angles_or_on_a_cone(tmp_path):
+    angles, by_angles = ("--angles", "120,95,45,85"), tmp_path / "angles.json"
+    assert run("cone", "map", *angles, "-o", by_angles).stdout.endswith(f"\nwritten: {by_angles}\n")
+    both = told("cone", "map", by_angles)["cones"]
+    named = told("cone", "map", *angles)["cones"]
+    np.testing.assert_allclose(
+        [one["lambda_deg"] for one in both], [one["lambda_deg"] for one in named], atol=1e-9
+    )
+    moved = told("cone", "move", *angles)["linkages"]
+    for number, given in ((1, angles), (2, angles), (2, (by_angles,))):
+        placed = tmp_path / "placed.json"
+        run("cone", "map", *given, "--cone", number, "--force", "-o", placed)
+        [cone] = told("cone", "map", placed)["cones"]
+        assert cone["lambda_deg"] == pytest.approx(named[number - 1]["lambda_deg"], abs=1e-8)
+        [motion] = told("cone", "move", placed)["linkages"]
+        assert motion["range_deg"] == pytest.approx(moved[number - 1]["range_deg"], abs=1e-6)
+    for number, size in ((1, "14°"), (2, "29.04°")):
+        run("cone", "map", *angles, "--cone", number, "-o", tmp_path / f"{number}.svg")
+        assert f"λ = {size}" in (tmp_path / f"{number}.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["200,100,70,60"], "link angle 1 is 200 degrees; expected the angle between two axes, between 0 and 180"),
+        (["120,95,45,85", "--cone", 3], "the linkage lies on 2 cones: there is none of number 3"),
+        (["170,160,150,145", "--cone", 1], "the linkage lies on no cone"),
+    ],
+)
+def test_what_lies_on_no_such_cone_is_not_written(words, message, tmp_path):
+    assert message in run("cone", "map", "-o", tmp_path / "a.json", "--angles", *words, code=2).stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_minus_before_a_zero():
+    assert not re.search(r"-0\b(?!\.)", run("cone", "behaviour", "--angles", "100,80,60,70").stdout)
+
+
 def test_a_picture_without_matplotlib_names_the_extra(monkeypatch, tmp_path):
     import sys
 
@@ -217,7 +255,7 @@ def test_bad_input_gives_a_line(words, message):
         ["cone", "behaviour"], ["cone", "behaviour", "--steps", "1,2", "--angles", "1,2"], ["cylinder", "map"],
         ["cone", "behaviour", "--angles", "60,60,60", "--lambda", "20"],
         ["cone", "behaviour", "--angles", "170,160,150,145", "-o", "a.png"],
-        ["cone", "map", "--angles", "1,2,3", "--tolerance", "0"],
+        ["cone", "map", "--angles", "1,2,3", "--tolerance", "0"], ["cone", "map", "--angles", "1,2,3", "--cone", "1"],
     ],
 )  # fmt: skip
 def test_usage_errors_keep_clicks_format(words):
@@ -225,8 +263,9 @@ def test_usage_errors_keep_clicks_format(words):
 
 
 @pytest.mark.parametrize("words", ["cone map", "cone behaviour", "cylinder map", "cone", "cylinder"])
-def test_examples_of_the_help_texts_run(words, monkeypatch):
-    monkeypatch.chdir(ROOT)
+def test_examples_of_the_help_texts_run(words, monkeypatch, tmp_path):
+    (tmp_path / "data").symlink_to(ROOT / "data")
+    monkeypatch.chdir(tmp_path)
     out = run(*words.split(), "--help").stdout
     examples = re.findall(r"^ +synth (.*)$", out.partition("Example")[2], re.MULTILINE)
     assert examples
