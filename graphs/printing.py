@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-__all__ = ["Block", "TableBlock", "html_of", "plain", "rich_table", "text_of"]
+__all__ = ["Block", "Printed", "TableBlock", "html_of", "plain", "rich_table", "text_of"]
 
 UNWRAPPED = 10_000
 """Columns of a page whose lines are not to be wrapped: a file, a pipe, a string."""
@@ -161,6 +161,31 @@ def html_of(blocks: Iterable[Block]) -> str:
     return "\n".join(
         _html_table(block) if isinstance(block, TableBlock) else f"<p>{_html_text(block)}</p>" for block in blocks
     )
+
+
+class Printed:
+    """An answer that is printed everywhere as the command line prints it.
+
+    Examples
+    --------
+    >>> class Freedoms(Printed):
+    ...     def blocks(self):
+    ...         return ["one freedom"]
+    >>> print(Freedoms())
+    one freedom
+    """
+
+    __slots__ = ()
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and tables that are printed."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        return text_of(self.blocks())
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks())
 
 
 def _html_text(text: str) -> str:

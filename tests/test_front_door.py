@@ -1,15 +1,22 @@
 """``import synth``: the same answers as the command line, from one call each."""
 
 import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import networkx as nx
+import numpy as np
 import pytest
 from commands import run
 
 import synth
 from graphs.errors import OpenError
+from graphs.reduce.assur import reduce_assur
+from synth.guidance.orientations import read_orientations
+
+ROOT = Path(__file__).resolve().parents[1]
 
 FOUR_BAR = synth.SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [synth.Loop((0, 1, 2, 3))])
 
@@ -52,6 +59,42 @@ def test_an_answer_prints_as_the_command_does(data):
     html = answer._repr_html_()
     assert "<table>" in html
     assert "mobility M = 1" in html
+
+
+ANGLES, ORIENTED = "120,95,45,85", "data/orientations/tipparthi.json"
+PRINTED = [
+    (lambda: synth.map_to_cones(np.radians([120, 95, 45, 85])), "cone map --angles " + ANGLES),
+    (lambda: synth.map_to_cones(np.radians([200, 100, 70, 60])), "cone map --angles 200,100,70,60"),
+    (lambda: synth.map_to_cones(np.radians([120, 50, 120, 50])), "cone map --angles 120,50,120,50"),
+    (lambda: synth.map_to_cylinders([4, 3, 5, 1]), "cylinder map --lengths 4,3,5,1"),
+    (lambda: synth.map_to_cylinders([1, 2, 9, 7]), "cylinder map --lengths 1,2,9,7"),
+    (lambda: synth.map_linkage(read("data/surfaces/fig11-stephenson.json")), "cone map data/surfaces/fig11-stephenson.json"),
+    (lambda: synth.reduce(read("data/wiener/fortune-teller.json")), "reduce data/wiener/fortune-teller.json"),
+    (lambda: synth.reduce(read("data/wiener/six-bar.json")), "reduce data/wiener/six-bar.json"),
+    (lambda: reduce_assur(read("data/wiener/stephenson.json"), 0, [0]),
+     "reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0"),
+    (lambda: synth.guiding_dyads(oriented()), f"dyads --orientations {ORIENTED}"),
+    (lambda: synth.analyse_order(oriented(), (-0.349, -0.144, 0.926), "cw"),
+     f"order --orientations {ORIENTED} --axis -0.349,-0.144,0.926 --direction cw"),
+]  # fmt: skip
+
+
+def read(name):
+    return synth.read(ROOT / name)
+
+
+def oriented():
+    return read_orientations(ROOT / ORIENTED)
+
+
+@pytest.mark.parametrize(("asked", "words"), PRINTED, ids=[words for _, words in PRINTED])
+def test_other_answers_print_as_commands_do(asked, words, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    answer = asked()
+    printed = [line.rstrip() for line in run(*words.split()).stdout.rstrip().splitlines()]
+    assert str(answer).splitlines() == printed
+    assert re.fullmatch(rf"<{type(answer).__name__}: .{{8,200}}>", repr(answer))
+    assert "<p>" in answer._repr_html_()
 
 
 def test_html_escapes_names():

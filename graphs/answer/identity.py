@@ -17,13 +17,13 @@ from graphs.identity.drawings import map_id
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.printing import Block, html_of, text_of
+from graphs.printing import Block, Printed
 
 __all__ = ["Identity", "identify"]
 
 
 @dataclass(frozen=True, slots=True)
-class Identity:
+class Identity(Printed):
     """The canonical ids of a mechanism: equal for mechanisms of one type, and for no others.
 
     Attributes
@@ -56,12 +56,6 @@ class Identity:
         told = [f"chain    {self.chain}"] * (self.chain is not None)
         told += [f"drawing  {self.drawing}"] * (self.drawing is not None)
         return [*told, *(f"note: {note}" for note in self.notes)]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
 
 def identify(mechanism: Mechanism | nx.Graph) -> Identity:

@@ -13,7 +13,7 @@ from graphs.convert.table import Mechanism, to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
-from graphs.printing import Block, TableBlock, html_of, plain, text_of
+from graphs.printing import Block, Printed, TableBlock, plain
 
 __all__ = ["Reconstruction", "reconstruct"]
 
@@ -21,7 +21,7 @@ _TOLD = ("vertices", "implicit_centres", "external_edges", "internal_edges")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Reconstruction:
+class Reconstruction(Printed):
     """A polyhedron model, and how it came about.
 
     Attributes
@@ -76,12 +76,6 @@ class Reconstruction:
             f"V = {counts.vertices}, C = {counts.implicit_centres}, E = {counts.external_edges} external "
             f"+ {counts.internal_edges} internal, M = {self.mobility}",
         ]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Reconstruction: {self.model!r}>"

@@ -8,7 +8,7 @@ from typing import Any
 from graphs.answer.printed import blocks_of
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
-from graphs.printing import Block, html_of, text_of
+from graphs.printing import Block, Printed
 from graphs.rank.generic import ExactMobility
 from graphs.rank.pose import PoseMobility
 
@@ -16,7 +16,7 @@ __all__ = ["MobilityAnswer"]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class MobilityAnswer(MobilityReport):
+class MobilityAnswer(MobilityReport, Printed):
     """The mobility of one mechanism, with its evidence.
 
     It prints as ``synth mobility`` does, and shows itself as a table in a notebook.
@@ -73,12 +73,6 @@ class MobilityAnswer(MobilityReport):
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
         return blocks_of(self)
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<MobilityAnswer: M = {self.mobility}, {self.mechanism_class}>"

@@ -13,7 +13,7 @@ Theory: docs/theory/reduction.md.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,9 +22,10 @@ import networkx as nx
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.count.equations import loop_form
 from graphs.count.report import mechanism_class
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.printing import Block, Printed, plain
 
 __all__ = ["AssurGroup", "AssurReduction", "assur_groups", "reduce_assur"]
 
@@ -57,7 +58,7 @@ class AssurGroup:
 
 
 @dataclass(frozen=True, slots=True)
-class AssurReduction:
+class AssurReduction(Printed):
     """A mechanism without the Assur groups that nothing hangs on.
 
     Attributes
@@ -81,6 +82,22 @@ class AssurReduction:
     graph: SCGraph
     groups: tuple[AssurGroup, ...]
     removed: tuple[AssurGroup, ...]
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed: a line for each group."""
+        lines: list[Block] = [
+            "{:6}  links {links}, joints {joints}, mobility {mobility}".format(when, **_counts(sc))
+            for when, sc in (("before", self.before), ("after", self.graph))
+        ]
+        taken = {group.links for group in self.removed}
+        for number, group in enumerate(self.groups, start=1):
+            words = f"group {number}: links {_listed(group.links)}, joints {_listed(group.joints)}"
+            words += f", input {_listed(group.inputs)}" if group.inputs else ""
+            lines.append(words + ("   (taken off)" if group.links in taken else ""))
+        return lines
+
+    def __repr__(self) -> str:
+        return f"<AssurReduction: {self.before!r} to {self.graph!r}, {numbered(len(self.groups), 'group')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on, and the groups."""
@@ -245,6 +262,10 @@ def _remaining(sc: SCGraph, ground: LinkId, groups: Sequence[AssurGroup]) -> SCG
 def _counts(sc: SCGraph) -> dict[str, int]:
     mobility = loop_form(len(sc.joints), len(sc.centred_loops), sc.spatial_loops)
     return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility}
+
+
+def _listed(names: tuple[Hashable, ...]) -> str:
+    return plain(", ".join(map(str, names)), 200)
 
 
 def _as_json(group: AssurGroup) -> dict[str, Any]:

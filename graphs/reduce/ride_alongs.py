@@ -15,14 +15,17 @@ import networkx as nx
 
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.printing import Block, Printed, plain
 from graphs.reduce.staying import links_of_loops_that_stay
 from graphs.reduce.taking import RULES, Taken, Terms, take_all
 from graphs.reduce.working import Removal, WorkingGraph
 
 __all__ = ["Reduction", "ReductionStep", "reduce"]
+
+_MOST_SHOWN = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +62,7 @@ class ReductionStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Reduction:
+class Reduction(Printed):
     """A reduced mechanism, and how it came about.
 
     Attributes
@@ -124,6 +127,38 @@ class Reduction:
             if step.sits_on is not None:
                 forest.add_edge(step.sits_on, i)
         return [forest.subgraph(sorted(part)).copy() for part in nx.weakly_connected_components(forest)]
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed: a tree of steps for each adjunct addendum."""
+        counts: list[Block] = [
+            f"{when:6}  links {len(sc)}, joints {len(sc.joints)}, mobility {mobility_report(sc).mobility}"
+            for when, sc in (("before", self.original), ("after", self.graph))
+        ]
+        if not self.steps:
+            return [*counts, "nothing to take off"]
+        chains = self.chains()
+        told = f"{len(self.steps)} step(s) in {len(chains)} adjunct addend{'um' if len(chains) == 1 else 'a'}"
+        if len(self.steps) > _MOST_SHOWN:
+            return [*counts, told, f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"]
+        return [*counts, told, *(line for chain in chains for line in self._tree(chain))]
+
+    def _tree(self, chain: nx.DiGraph) -> list[str]:
+        """Draw an adjunct addendum from the mechanism outwards."""
+        (root,) = (step for step in chain if not chain.in_degree(step))
+        lines, waiting = [], [(root, "", "")]
+        while waiting:
+            number, before, under = waiting.pop()
+            step = self.steps[number]
+            u, v, a, b = map(plain, (*step.removed, *step.onto))
+            lines.append(f"{before}step {number + 1}: links {u}, {v} on {a}, {b}")
+            above = sorted(chain.successors(number), reverse=True)
+            for place, one in enumerate(above):  # the last comes first, and is taken last
+                corner, beside = ("└── ", "    ") if place == 0 else ("├── ", "│   ")
+                waiting.append((one, under + corner, under + beside))
+        return lines
+
+    def __repr__(self) -> str:
+        return f"<Reduction: {self.original!r} to {self.graph!r}, {numbered(len(self.steps), 'step')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the reduction as plain data, with the keys that scripts rely on (docs/command-json.md)."""

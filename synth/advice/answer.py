@@ -10,7 +10,7 @@ from typing import Any
 
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
-from graphs.printing import Block, TableBlock, html_of, text_of
+from graphs.printing import Block, Printed, TableBlock
 from synth.advice.diagonals import Diagonal
 
 __all__ = ["Advice", "Creased", "Locked"]
@@ -85,7 +85,7 @@ class Creased:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Advice:
+class Advice(Printed):
     """What to lock or to crease. It prints as ``synth advise`` does.
 
     Attributes
@@ -195,12 +195,6 @@ class Advice:
             told,
             TableBlock(("from vertex to vertex", "flaps", "freedoms"), rows, ["flaps", "freedoms"]),
         ]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Advice: {self.freedoms} to {self.wanted} freedoms, {len(self.locks) + len(self.creases)} sets>"

@@ -12,7 +12,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.ids import JointId
-from graphs.printing import Block, TableBlock, html_of, plain, text_of
+from graphs.printing import Block, Printed, TableBlock, plain
 
 __all__ = ["Position", "Positions"]
 
@@ -36,7 +36,7 @@ class Position:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Positions:
+class Positions(Printed):
     """All positions at given angles of driven joints. It prints as ``synth positions`` does.
 
     Attributes
@@ -125,12 +125,6 @@ class Positions:
             parts.append(f"{self.lost} not known: lost on the way, or together with others")
         counted = f"a general member has {self.general}, counted over {numbered(self.curves, 'closed curve')}"
         return f"{'all' if self.exhaustive else 'not all'} of them followed: {counted}; here {', '.join(parts)}"
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Positions: {len(self.positions)} of {self.general}>"

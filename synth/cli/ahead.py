@@ -106,13 +106,13 @@ def _main() -> None:
             "nothing is compiled ahead: there is no folder to keep it in; name one of yours in SYNTHEDRA_CACHE"
         )
     number = cores()
-    print(
-        f"Compiling once what enumerations need, on {number} core{'s' * (number > 1)}: a minute or two. "
-        "All else is ready: leave this to itself, or stop it with Ctrl-C.",
-        flush=True,
-    )
     begin = monotonic()
     try:
+        print(
+            f"Compiling once what enumerations need, on {number} core{'s' * (number > 1)}: a minute or two. "
+            "All else is ready: leave this to itself, or stop it with Ctrl-C.",
+            flush=True,
+        )
         new = compile_ahead()
     except KeyboardInterrupt:
         sys.exit("stopped; what is left is compiled when it is asked for")

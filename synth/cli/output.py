@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from graphs.files.formats import Entry
+    from graphs.printing import Printed
 
 __all__ = [
     "FORCE",
@@ -30,6 +31,7 @@ __all__ = [
     "console",
     "entries",
     "plain",
+    "print_answer",
     "print_json",
     "table",
     "tell_lost",
@@ -90,6 +92,13 @@ def tell_written(*places: str | Path | None) -> None:
     for place in places:
         if place is not None:
             click.echo(f"written: {plain(str(place), 4096)}")
+
+
+def print_answer(answer: Printed) -> None:
+    """Print the lines and tables of an answer."""
+    out = console()
+    for block in answer.blocks():
+        out.print(block)
 
 
 def print_json(value: Any) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
-from graphs.printing import Block, TableBlock, html_of, text_of
+from graphs.printing import Block, Printed, TableBlock
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.freedoms import State
 from synth.compliance.members import Members
@@ -206,7 +206,7 @@ class Elastic:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class States:
+class States(Printed):
     """The compliance states of a mechanism at its pose. It prints as ``synth states`` does.
 
     Attributes
@@ -270,12 +270,6 @@ class States:
         if len(self.transitions) > _LISTED:
             lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
         return [*lines, *([] if self.elastic is None else self.elastic.blocks())]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<States: {self.now.kind}; {', '.join(self.classes) or 'no class'}>"

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
-from graphs.printing import Block, TableBlock, html_of, text_of
+from graphs.printing import Block, Printed, TableBlock
 
 __all__ = ["End", "Limits", "RideAlong", "Truss"]
 
@@ -110,7 +110,7 @@ class Truss:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Limits:
+class Limits(Printed):
     """What the ride-alongs of a mechanism leave. It prints as ``synth limits`` does.
 
     Attributes
@@ -159,12 +159,6 @@ class Limits:
         parts = f"{numbered(truss.links, 'link')}, {numbered(truss.joints, 'joint')}"
         evidence = f"rank {_number(truss.rank)}, {_number(truss.redundant)} redundant"
         return [*lines, f"with all of them rigid at this pose: {freedoms} ({parts}; {evidence})"]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Limits: {numbered(len(self.ride_alongs), 'ride-along')}>"

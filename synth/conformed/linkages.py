@@ -17,6 +17,7 @@ from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.ids import LinkId
 from graphs.mechanism.conical import ConicalLinkage, ring
 from graphs.mechanism.sc import SCGraph
+from graphs.printing import Block, Printed, TableBlock, plain
 from synth.conformed.behaviours import Behaviour, Way, behaviour, icrl, instant_centres
 from synth.conformed.rates import ConformedChain
 from synth.conformed.twelve_cases import TableRow, table_row
@@ -24,6 +25,7 @@ from synth.surfaces.circuit import azimuths, closing_step
 from synth.surfaces.cone import map_to_cones
 from synth.surfaces.linkages import map_linkage
 from synth.surfaces.mapping import in_degrees
+from synth.surfaces.told import joints_text
 
 __all__ = ["LinkageBehaviour", "OnCone", "cone_of_number", "linkage_on_cones", "loop_of_steps", "loop_on_cones"]
 
@@ -64,7 +66,7 @@ class OnCone:
 
 
 @dataclass(frozen=True, slots=True)
-class LinkageBehaviour:
+class LinkageBehaviour(Printed):
     """What a linkage does in the conformed position, one link fixed.
 
     Attributes
@@ -111,6 +113,41 @@ class LinkageBehaviour:
     def way_of(self, link: int) -> str:
         """Return which way a link, by its number, can go: ``inward``, ``outward``, ..."""
         return Way(int(self.behaviour.ways[link])).name.lower()
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        row, chain = self.table_row(), self.chain
+        blocks: list[Block] = [self._verdict()]
+        if row is not None:
+            special = ", a chord is a diameter" if row.special else ""
+            blocks.append(f"Table 4: case {row.case}, {row.configuration}, {row.column}{special}")
+        lines = icrl(self.behaviour.motion.motions) + 0.0  # no minus before a zero
+        rows = [
+            (
+                plain(link),
+                joints_text([chain.joints[joint] for joint in joints]),
+                "fixed" if number == 0 else self.way_of(number),
+                "" if np.isnan(lines[number]) else f"{degrees(lines[number]):.6g}",
+            )
+            for number, (link, joints) in enumerate(zip(chain.links, chain.joints_of, strict=True))
+        ]
+        return [*blocks, TableBlock(("link", "joints", "moves", "ICRL (deg)"), rows, ["ICRL (deg)"])]
+
+    def _verdict(self) -> str:
+        """Say in a line which way the linkage can go."""
+        where = "any cone" if self.cone_angle is None else f"lambda {degrees(self.cone_angle):.10g} degrees"
+        motion = self.behaviour.motion
+        freedoms = int(motion.freedoms)
+        if motion.undecided:
+            verdict = "indeterminate: a singular value is near the noise"
+        elif freedoms == 1:
+            words = [word for word, so in zip(("intramobile", "extramobile"), self.mobile(), strict=True) if so]
+            verdict = "can be " + " or ".join(words) if words else "transmobile"
+        else:
+            verdict = f"{freedoms} infinitesimal freedoms: no one way"
+        if motion.nearly:
+            verdict += f"; nearly mobile: {int(motion.nearly)} more freedom(s) but for small errors"
+        return f"{where}, link {plain(self.chain.links[0])} fixed: {verdict}"
 
     def to_json(self) -> dict[str, Any]:
         """Return the behaviour as plain data, with the keys that scripts rely on (docs/command-json.md)."""

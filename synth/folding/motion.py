@@ -17,7 +17,7 @@ from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
-from graphs.printing import Block, html_of, text_of
+from graphs.printing import Block, Printed
 from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations
 from synth.folding.driving import Asked, driven_from
@@ -41,7 +41,7 @@ _TOGETHER = 1e-10
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Folding:
+class Folding(Printed):
     """A crease pattern on its way.
 
     It prints as ``synth fold`` does.
@@ -159,12 +159,6 @@ class Folding:
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
         return lines
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Folding: {len(self.path.angles)} frames of {self.sheet!r}>"

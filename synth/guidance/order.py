@@ -8,7 +8,7 @@ Theory: docs/theory/order.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, radians
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,16 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from synth.guidance.hoop_method import DIRECTIONS, Direction, Hoop, hoop, required_sequence
+from graphs.printing import Block, Printed, TableBlock
+from synth.guidance.hoop_method import (
+    DIRECTIONS,
+    Direction,
+    Hoop,
+    direction_words,
+    hoop,
+    pair_name,
+    required_sequence,
+)
 from synth.guidance.orientations import Orientations, unit_vector
 
 __all__ = [
@@ -33,14 +42,18 @@ __all__ = [
 _BLOCK = 1 << 15
 """Axes that are checked together: what they need stays in the processor's cache."""
 _ROUNDING = 1e-15
+_FITS = radians(1e-4)
+"""Axes are printed to six digits or so."""
 
 
 @dataclass(frozen=True, slots=True)
-class OrderAnalysis:
+class OrderAnalysis(Printed):
     """The order of orientations about a fixed axis, with three verdicts.
 
     Attributes
     ----------
+    axis : tuple of float
+        The fixed axis as it was given.
     hoop : Hoop
         The hoop turned in the direction asked for; its verdict is ``in_order``.
     kept : "ccw", "cw" or None
@@ -64,6 +77,7 @@ class OrderAnalysis:
     ('ccw', 'ccw', 'ccw')
     """
 
+    axis: tuple[float, ...]
     hoop: Hoop
     kept: Direction | None
     by_inequalities: Direction | None
@@ -81,6 +95,43 @@ class OrderAnalysis:
     def agree(self) -> bool:
         """Whether the three checks agree; they must where there is no misfit."""
         return self.kept == self.by_inequalities == self.by_crank_angles
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        turned = self.hoop
+        needed = set(turned.required)
+        rows = [("S12", f"{0:.4f}", "starts here")]
+        for crossing in turned.crossings:
+            decides = "yes" if crossing.pair in needed else ""
+            rows.append((pair_name(crossing.pair), f"{degrees(crossing.angle):.4f}", decides))
+        about = f"({', '.join(f'{x:g}' for x in self.axis)}) turning {direction_words(turned.direction)}"
+        angles = ", ".join(f"{degrees(angle):.3f}" for angle in self.crank_angles)
+        misses = f"the best misses by {degrees(self.misfit):.4f} degrees"
+        return [
+            f"{len(self.crank_angles)} orientations, crank about {about}",
+            TableBlock(("crossed", "angle", "decides"), rows, ["angle"]),
+            "needed: " + " => ".join(map(pair_name, turned.required)),
+            self._verdict(),
+            self._checks(),
+            f"crank angles: {angles}",
+            *([f"note: no dyad about this axis takes all orientations; {misses}"] if self.misfit > _FITS else []),
+        ]
+
+    def _verdict(self) -> str:
+        if self.hoop.breaks_at is None:
+            return f"order kept, by a margin of {degrees(self.hoop.margin):.3f} degrees of the hoop"
+        due, crossed = map(pair_name, self.hoop.breaks_at)
+        other = f"; it is kept {direction_words(self.kept)}" if self.kept is not None else ""
+        return f"order defect: {crossed} is crossed where {due} is due{other}"
+
+    def _checks(self) -> str:
+        verdicts = (("hoop", self.kept), ("inequalities", self.by_inequalities), ("crank", self.by_crank_angles))
+        told = ", ".join(f"{name} {direction_words(kept)}" for name, kept in verdicts)
+        return f"kept by: {told}{'' if self.agree else '   (they do not agree)'}"
+
+    def __repr__(self) -> str:
+        order = "kept" if self.in_order else "not kept"
+        return f"<OrderAnalysis: {direction_words(self.hoop.direction)}, order {order}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the analysis as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -139,6 +190,7 @@ def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Di
     angles = crank_angles(orientations, g, moving)
     link_angles = np.arccos(np.clip(orientations.matrices @ moving @ g, -1.0, 1.0))
     return OrderAnalysis(
+        tuple(np.asarray(axis, dtype=float).tolist()),
         turned[direction],
         next((way for way in DIRECTIONS if turned[way].in_order), None),
         order_by_inequalities(orientations, g),

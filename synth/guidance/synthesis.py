@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import degrees
 from typing import Any
 
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
+from graphs.printing import Block, Printed, TableBlock
 from synth.guidance.dyads import Dyad, dyads_of_three
 from synth.guidance.five import DyadsOfFive, dyads_of_five
 from synth.guidance.four import dyads_of_four
+from synth.guidance.hoop_method import direction_words
 from synth.guidance.many import dyads_by_least_squares
 from synth.guidance.orientations import Orientations
 
@@ -20,7 +23,7 @@ __all__ = ["GuidingDyads", "guiding_dyads"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class GuidingDyads:
+class GuidingDyads(Printed):
     """The dyads that guide a body through orientations.
 
     Attributes
@@ -34,6 +37,34 @@ class GuidingDyads:
     orientations: Orientations
     dyads: tuple[Dyad, ...]
     all_found: DyadsOfFive | None = None
+
+    def blocks(self) -> list[Block]:
+        """Return the table, and what shows that no dyad is missing."""
+        heads = ("dyad", "G", "W (body)", "link", "residual", "misfit", "in order")
+        rows = [
+            (
+                str(number),
+                *(" ".join(f"{x:9.6f}" for x in axis) for axis in (one.fixed, one.moving)),
+                f"{degrees(one.link_angle):.3f}",
+                f"{one.residual:.0e}",
+                f"{degrees(one.misfit):.4f}",
+                direction_words(one.direction),
+            )
+            for number, one in enumerate(self.dyads, start=1)
+        ]
+        blocks: list[Block] = [
+            f"{len(self.orientations)} orientations: {len(self.dyads)} dyad(s)",
+            TableBlock(heads, rows, ["dyad", "link", "misfit"]),
+        ]
+        if self.all_found is not None:
+            largest = f"largest residual {self.all_found.residual:.0e}"
+            blocks.append(
+                f"all six solutions found, {self.all_found.complex_solutions} of them complex; {largest}"
+            )
+        return blocks
+
+    def __repr__(self) -> str:
+        return f"<GuidingDyads: {len(self.orientations)} orientations, {numbered(len(self.dyads), 'dyad')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the dyads as plain data, with the keys that scripts rely on (docs/command-json.md)."""

@@ -17,6 +17,7 @@ import numpy as np
 from graphs.edit.named import known
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
+from graphs.printing import Block, Printed
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
 from synth.folding.closure import ClosureEquations
@@ -24,6 +25,7 @@ from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import rates_at
 from synth.moving.circuits import Circuit, circuit_through
 from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense
+from synth.moving.conical_words import blocks_of_motion
 from synth.moving.linkages import linkage_on_cone
 
 __all__ = ["ConicalMotion", "move_on_cone"]
@@ -32,7 +34,7 @@ _STILL = 1e-9
 
 
 @dataclass(frozen=True)
-class ConicalMotion:
+class ConicalMotion(Printed):
     """A linkage of one freedom on its cone, moved from the conformed position.
 
     Attributes
@@ -77,6 +79,13 @@ class ConicalMotion:
             return {}
         whole = np.rint((self.circuit.angles[-1] - self.circuit.angles[0]) / tau).astype(int).tolist()
         return dict(zip(self.linkage.graph.joints, whole, strict=True))
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and tables that are printed."""
+        return blocks_of_motion(self)
+
+    def __repr__(self) -> str:
+        return f"<ConicalMotion: {self.linkage!r}, joint {self.driver!r} driven>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the motion as plain data, with the keys that scripts rely on (docs/command-json.md)."""

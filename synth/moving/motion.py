@@ -15,7 +15,7 @@ import numpy as np
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError, shown
 from graphs.ids import JointId
-from graphs.printing import Block, html_of, text_of
+from graphs.printing import Block, Printed
 from synth.conformed.linkages import OnCone
 from synth.folding.beginning import MOST_JOINTS, search_for
 from synth.folding.branches import Branch, Branches, branches_of
@@ -34,7 +34,7 @@ _FRAMES = 20
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Motion:
+class Motion(Printed):
     """A linkage on its way.
 
     It prints as ``synth fold`` does of what is no crease pattern.
@@ -115,12 +115,6 @@ class Motion:
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
         return lines
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Motion: {len(self.path.angles)} frames of {self.linkage!r}>"

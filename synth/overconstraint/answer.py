@@ -8,7 +8,7 @@ from typing import Any
 
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
-from graphs.printing import Block, TableBlock, html_of, plain, text_of
+from graphs.printing import Block, Printed, TableBlock, plain
 from synth.overconstraint.tolerances import Tolerance
 
 __all__ = ["Explanation", "IdleSet"]
@@ -40,7 +40,7 @@ class IdleSet:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Explanation:
+class Explanation(Printed):
     """Why a mechanism at a pose has more freedoms than equations allow. It prints as ``synth explain`` does.
 
     Attributes
@@ -121,12 +121,6 @@ class Explanation:
             "asks for a play of a hundredth of the motion:"
         )
         return [told, table, *([f"and {more} more axes that may err more"] if more else [])]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Explanation: h = {self.idle}, {numbered(len(self.sets), 'set')} of loops>"

@@ -12,7 +12,7 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.printing import Block, html_of, text_of
+from graphs.printing import Block, Printed
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.folded import folded
 from synth.patterns.generator import FOLD, Generator
@@ -21,7 +21,7 @@ __all__ = ["Generated", "generate"]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Generated:
+class Generated(Printed):
     """A mechanism of a generator.
 
     It prints as ``synth generate`` does.
@@ -85,12 +85,6 @@ class Generated:
         count = "not known" if self.count is None else f"{self.count}, h = {self.overconstraint}"
         lines.append(f"freedoms of finite motion {self.freedoms}, by its source; count of its type M = {count}")
         return [*lines, f"conditions: {self.generator.conditions}", f"source: {self.generator.source}"]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Generated: {self.generator.name}, {self.mechanism!r}>"

@@ -19,7 +19,7 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.printing import Block, html_of, text_of
+from graphs.printing import Block, Printed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
 from synth.folding.beginning import search_for
@@ -55,7 +55,7 @@ Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True)
-class Realised:
+class Realised(Printed):
     """A type with coordinates.
 
     Attributes
@@ -159,12 +159,6 @@ class Realised:
         if self.folds:
             return "folds with every crease turning, as mountains and valleys say"
         return f"no folding drawing found in {self.tries} tries: on each some creases stay flat"
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<Realised: {self.kind}, {self.sheet!r}>"

@@ -16,7 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.printing import Block, Printed
 from synth.fourbar.closing import (
     FourBarKind,
     checked_link_angles,
@@ -26,6 +27,7 @@ from synth.fourbar.closing import (
 from synth.fourbar.joint_lines import minimal_supplementary
 from synth.fourbar.rounding import rounding_of
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, in_degrees, mapped_loop
+from synth.surfaces.told import blocks_of_cones
 
 __all__ = [
     "ConeMap",
@@ -41,7 +43,7 @@ __all__ = [
 
 
 @dataclass(frozen=True, slots=True)
-class ConeMap:
+class ConeMap(Printed):
     """All right cones on which a spherical loop lies.
 
     Attributes
@@ -81,6 +83,13 @@ class ConeMap:
     def cautions(self) -> tuple[str, ...]:
         """Return what of the map rounding decides: of its type and class, its circles and its families."""
         return cautions_of(self.kind, (*self.flat, *self.cones), self.families)
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        return blocks_of_cones(self)
+
+    def __repr__(self) -> str:
+        return f"<ConeMap: {len(self.angles)} links, {numbered(len(self.cones), 'cone')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""

@@ -14,17 +14,19 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
+from graphs.printing import Block, Printed
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
 from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 from synth.surfaces.loop_sums import sign_patterns
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, mapped_loop
+from synth.surfaces.told import blocks_of_cylinders
 
 __all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
 
 
 @dataclass(frozen=True, slots=True)
-class CylinderMap:
+class CylinderMap(Printed):
     """All cylinders on which a planar loop lies.
 
     Attributes
@@ -60,6 +62,13 @@ class CylinderMap:
         """Return what of the map rounding decides: of its type, its circles, its families, and beyond them."""
         large = f"{ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
         return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        return blocks_of_cylinders(self)
+
+    def __repr__(self) -> str:
+        return f"<CylinderMap: {len(self.lengths)} links, {numbered(len(self.cylinders), 'cylinder')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""

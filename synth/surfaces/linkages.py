@@ -11,18 +11,20 @@ from typing import Any
 
 import numpy as np
 
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.conical import ConicalLinkage, Pair
+from graphs.printing import Block, Printed, TableBlock, plain
 from synth.surfaces.cone import link_angles
 from synth.surfaces.linkage_cones import CommonCone, CommonFamily, common_cones
 from synth.surfaces.mapping import in_degrees
 from synth.surfaces.several_loops import link_pairs, loop_steps
+from synth.surfaces.told import joints_text, signs_text
 
 __all__ = ["LinkageMap", "angles_on", "by_angles", "map_linkage"]
 
 
 @dataclass(frozen=True, slots=True)
-class LinkageMap:
+class LinkageMap(Printed):
     """The cones on which a linkage of several loops lies.
 
     Attributes
@@ -36,6 +38,40 @@ class LinkageMap:
     linkage: ConicalLinkage
     cones: tuple[CommonCone, ...]
     families: tuple[CommonFamily, ...]
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and tables that are printed."""
+        blocks = [block for cone in self.cones for block in self._of_cone(cone)]
+        for family in self.families:
+            low, high = (degrees(x) for x in family.interval)
+            told = "; ".join(
+                f"{joints_text(loop.joints)}: {signs_text(signs)}, k {turns}"
+                for loop, signs, turns in zip(self.linkage.chain.loops, family.signs, family.turns, strict=True)
+            )
+            blocks.append(f"every lambda between {low:.10g} and {high:.10g} degrees   ({told})")
+            blocks += [family.caution] if family.caution else []
+        return blocks or ["no cone is common to all loops"]
+
+    def _of_cone(self, cone: CommonCone) -> list[Block]:
+        chain = self.linkage.chain
+        link_of = link_pairs(chain)
+        loops = [
+            (joints_text(loop.joints), circuit, signs_text(signs), str(turns))
+            for loop, circuit, signs, turns in zip(chain.loops, cone.circuits, cone.signs, cone.turns, strict=True)
+        ]
+        angles = [
+            (plain(link_of[a, b]), joints_text((a, b)), f"{angle:.8g}")
+            for (a, b), angle in angles_on(self.linkage, cone).items()
+        ]
+        return [
+            f"lambda {degrees(cone.cone_angle):.10g} degrees",
+            *([cone.caution] if cone.caution else []),
+            TableBlock(("loop", "circuit", "signs", "k"), loops, ["k"]),
+            TableBlock(("link", "joints", "angle (deg)"), angles, ["angle (deg)"]),
+        ]
+
+    def __repr__(self) -> str:
+        return f"<LinkageMap: {self.linkage!r}, {numbered(len(self.cones), 'cone')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return what scripts rely on (docs/command-json.md): circuit, signs and k are lists, an item a loop."""

@@ -20,7 +20,7 @@ from graphs.errors import SynthedraError
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.printing import Block, TableBlock, html_of, text_of
+from graphs.printing import Block, Printed, TableBlock
 from synth.atlas.asked.opened import Atlas
 from synth.atlas.names import NamedType, named_types
 
@@ -48,7 +48,7 @@ class NearType:
 
 
 @dataclass(frozen=True, slots=True)
-class FoundType:
+class FoundType(Printed):
     """Which types of an atlas a mechanism is.
 
     Attributes
@@ -91,12 +91,6 @@ class FoundType:
             near = [(one.edit, one.row["id"], one.row["name"] or "") for one in self.near]
             lines += ["one edit away:", TableBlock(("edit", "id", "name"), near)]
         return lines
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
 
 def find_type(atlas: Atlas, mechanism: Mechanism | nx.Graph) -> FoundType:

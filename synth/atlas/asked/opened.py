@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from enumerate.runner.columns import ListColumn, unstored
 from graphs.edit.named import known
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, shown
-from graphs.printing import Block, TableBlock, html_of, plain, text_of
+from graphs.printing import Block, Printed, TableBlock, plain
 from synth.atlas.asked.expression import condition_of
 from synth.atlas.asked.guarded import Rows, open_guarded, selected
 from synth.atlas.asked.type_report import TypeReport, report_of
@@ -34,7 +34,7 @@ _SHOWN = ("id", "kind", "name", "links", "joints", "dof", "centres", "all_explic
 
 
 @dataclass(frozen=True, slots=True)
-class AtlasRows:
+class AtlasRows(Printed):
     """Types that a query selects.
 
     Attributes
@@ -85,12 +85,6 @@ class AtlasRows:
             tuple(name.replace("_", " ") for name in names), texts, [n.replace("_", " ") for n in numbers]
         )
         return [table, *["there are more"] * self.more]
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<AtlasRows: {len(self.rows)} types{', of more' if self.more else ''}>"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from enumerate.runner.columns import ListColumn, unstored
-from graphs.printing import Block, TableBlock, html_of, plain, text_of
+from graphs.printing import Block, Printed, TableBlock, plain
 from synth.atlas.columns import COLUMNS
 from synth.atlas.names import NamedType, named_types
 
@@ -43,7 +43,7 @@ class Neighbour:
 
 
 @dataclass(frozen=True, slots=True)
-class TypeReport:
+class TypeReport(Printed):
     """A type, and its neighbours.
 
     Attributes
@@ -97,12 +97,6 @@ class TypeReport:
             if listed[one.relation] <= _PRINTED:
                 rows.append((one.relation, one.id, one.name or "", "" if one.there else "no"))
         return rows, len(ranked) - len(rows)
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<TypeReport: {plain(self.values['id'])}>"

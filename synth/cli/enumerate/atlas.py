@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_output, console, entries, plain, print_json, tell_written
+from synth.cli.output import (
+    FORCE,
+    about,
+    check_output,
+    console,
+    entries,
+    plain,
+    print_answer,
+    print_json,
+    tell_written,
+)
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 if TYPE_CHECKING:
@@ -192,9 +202,7 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
     if as_json:
         print_json(report.to_json())
         return
-    out = console()
-    for block in report.blocks():
-        out.print(block)
+    print_answer(report)
     tell_written(output)
 
 
@@ -231,15 +239,13 @@ def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
     opened = open_atlas(atlas)
     failures: list[str] = []
     found_all = []
-    out = console()
     for entry in entries(files, failures):
         with about(entry.label):
             found = find_type(opened, entry.mechanism)
         found_all.append({"file": entry.label, **found.to_json()})
         if not as_json:
             click.echo(plain(entry.label, 4096))
-            for block in found.blocks():
-                out.print(block)
+            print_answer(found)
     if as_json:
         print_json(found_all)
     for failure in failures:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import about, console, print_json
+from synth.cli.output import about, print_answer, print_json
 
 __all__ = ["id_command"]
 
@@ -33,6 +33,4 @@ def id_command(file: str, as_json: bool) -> None:
     if as_json:
         print_json(identity.to_json())
         return
-    out = console()
-    for block in identity.blocks():
-        out.print(block)
+    print_answer(identity)

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, check_output, console, print_json, tell_lost, tell_written
+from synth.cli.output import (
+    FORCE,
+    LOSSY,
+    about,
+    check_output,
+    print_answer,
+    print_json,
+    tell_lost,
+    tell_written,
+)
 
 __all__ = ["reconstruct"]
 
@@ -36,9 +45,7 @@ def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json
     if as_json:
         print_json({"file": file, "output": output, "lost": list(lost), **reconstruction.to_json()})
         return
-    out = console()
-    for block in reconstruction.blocks():
-        out.print(block)
+    print_answer(reconstruction)
     if output is not None:
         tell_written(output)
         tell_lost(lost)

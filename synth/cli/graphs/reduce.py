@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, LOSSY, about, check_output, console, plain, print_json, tell_lost, tell_written
+from synth.cli.output import (
+    FORCE,
+    LOSSY,
+    about,
+    check_output,
+    print_answer,
+    print_json,
+    tell_lost,
+    tell_written,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
-
-    import networkx as nx
-    from rich.tree import Tree
-
     from graphs.mechanism.sc import SCGraph
     from graphs.reduce.assur import AssurReduction
     from graphs.reduce.ride_alongs import Reduction
 
 __all__ = ["reduce_command"]
-
-_MOST_SHOWN = 200
 
 
 @click.command("reduce", short_help="Take off ride-alongs and adjunct addenda.")
@@ -66,7 +68,7 @@ def reduce_command(
     from graphs.convert.table import to_sc
     from graphs.edit.named import link_named
     from graphs.files.formats import read, write
-    from graphs.reduce.ride_alongs import Reduction, reduce
+    from graphs.reduce.ride_alongs import reduce
 
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input belong to --rule assur")
@@ -81,10 +83,7 @@ def reduce_command(
     if as_json:
         print_json({"file": file, "output": output, "lost": list(lost), **reduction.to_json()})
         return
-    if isinstance(reduction, Reduction):
-        _print(reduction)
-    else:
-        _print_groups(reduction)
+    print_answer(reduction)
     if output is not None:
         tell_written(output)
         tell_lost(lost)
@@ -98,62 +97,3 @@ def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurRed
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur needs --ground LINK and an --input JOINT for each freedom")
     return reduce_assur(sc, fixed, [joint_named(sc, name) for name in inputs])
-
-
-def _print_groups(reduction: AssurReduction) -> None:
-    _print_counts(reduction.to_json())
-    taken = {group.links for group in reduction.removed}
-    for number, group in enumerate(reduction.groups, start=1):
-        words = f"group {number}: links {_listed(group.links)}, joints {_listed(group.joints)}"
-        words += f", input {_listed(group.inputs)}" if group.inputs else ""
-        click.echo(words + ("   (taken off)" if group.links in taken else ""))
-
-
-def _listed(names: tuple[Hashable, ...]) -> str:
-    return plain(", ".join(map(str, names)), 200)
-
-
-def _print(reduction: Reduction) -> None:
-    _print_counts(reduction.to_json())
-    if not reduction.steps:
-        click.echo("nothing to take off")
-        return
-    chains = reduction.chains()
-    click.echo(
-        f"{len(reduction.steps)} step(s) in {len(chains)} adjunct addend{'um' if len(chains) == 1 else 'a'}"
-    )
-    if len(reduction.steps) > _MOST_SHOWN:
-        click.echo(f"more than {_MOST_SHOWN} steps: --json lists them")
-        return
-    out = console()
-    for chain in chains:
-        out.print(_tree(reduction, chain))
-
-
-def _print_counts(told: dict[str, Any]) -> None:
-    for when in ("before", "after"):
-        counts = told[when]
-        click.echo(f"{when:6}  links {counts['links']}, joints {counts['joints']}, mobility {counts['mobility']}")
-
-
-def _tree(reduction: Reduction, chain: nx.DiGraph) -> Tree:
-    """Draw an adjunct addendum from the mechanism outwards."""
-    from rich.text import Text
-    from rich.tree import Tree
-
-    def words(step: int) -> Text:
-        one = reduction.steps[step]
-        u, v = map(plain, one.removed)
-        a, b = map(plain, one.onto)
-        return Text(f"step {step + 1}: links {u}, {v} on {a}, {b}")
-
-    (root,) = (step for step in chain if not chain.in_degree(step))
-    tree = Tree(words(root))
-    branches = {root: tree}
-    waiting = [root]
-    while waiting:
-        step = waiting.pop()
-        for above in sorted(chain.successors(step)):
-            branches[above] = branches[step].add(words(above))
-            waiting.append(above)
-    return tree

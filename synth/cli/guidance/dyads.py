@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from synth.cli.guidance.order import AXIS, ORIENTATIONS
-from synth.cli.output import FORCE, about, check_picture, console, print_json, table, tell_written
+from synth.cli.output import FORCE, about, check_picture, print_answer, print_json, tell_written
 
 if TYPE_CHECKING:
     from synth.guidance.dyads import Dyad
@@ -81,12 +81,7 @@ def dyads(
     if as_json:
         print_json({"file": file, **guiding.to_json()})
         return
-    out = console()
-    out.print(f"{len(orientations)} orientations: {len(guiding.dyads)} dyad(s)")
-    out.print(_table(guiding.dyads))
-    if guiding.all_found is not None:
-        largest = f"largest residual {guiding.all_found.residual:.0e}"
-        out.print(f"all six solutions found, {guiding.all_found.complex_solutions} of them complex; {largest}")
+    print_answer(guiding)
     tell_written(picture)
 
 
@@ -111,20 +106,3 @@ def _drawn(orientations: Orientations, found: tuple[Dyad, ...]) -> Any:
 
         return draw_map(orientations, (), centre_axes(orientations, 720))
     return draw_map(orientations, found)
-
-
-def _table(found: tuple[Dyad, ...]) -> Any:
-    from math import degrees
-
-    from synth.guidance.hoop_method import direction_words
-
-    rows = table(
-        "dyad", "G", "W (body)", "link", "residual", "misfit", "in order", numbers=["dyad", "link", "misfit"]
-    )
-    for number, one in enumerate(found, start=1):
-        g, w = (" ".join(f"{x:9.6f}" for x in axis) for axis in (one.fixed, one.moving))
-        rows.add_row(
-            str(number), g, w, f"{degrees(one.link_angle):.3f}", f"{one.residual:.0e}",
-            f"{degrees(one.misfit):.4f}", direction_words(one.direction),
-        )  # fmt: skip
-    return rows

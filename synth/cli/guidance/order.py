@@ -7,12 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_picture, console, plain, print_json, table, tell_written
+from synth.cli.output import (
+    FORCE,
+    about,
+    check_picture,
+    plain,
+    print_answer,
+    print_json,
+    tell_written,
+)
 
 if TYPE_CHECKING:
     from synth.guidance.hoop_method import Direction
-    from synth.guidance.order import OrderAnalysis
-    from synth.guidance.orientations import Orientations
 
 __all__ = ["AXIS", "ORIENTATIONS", "order"]
 
@@ -91,47 +97,7 @@ def order(
     if as_json:
         print_json({"file": file, "axis": list(axis), **found.to_json()})
     else:
-        _print(orientations, found, axis, picture)
+        print_answer(found)
+        tell_written(picture)
     if not found.in_order:
         sys.exit(1)
-
-
-_FITS = 1e-4
-"""Degrees; axes are printed to six digits or so."""
-
-
-def _print(
-    orientations: Orientations, found: OrderAnalysis, axis: tuple[float, float, float], picture: str | None
-) -> None:
-    from math import degrees
-
-    from synth.guidance.hoop_method import direction_words, pair_name
-
-    out, hoop = console(), found.hoop
-    needed = set(hoop.required)
-    rows = table("crossed", "angle", "decides", numbers=["angle"])
-    rows.add_row("S12", f"{0:.4f}", "starts here")
-    for crossing in hoop.crossings:
-        rows.add_row(
-            pair_name(crossing.pair), f"{degrees(crossing.angle):.4f}", "yes" if crossing.pair in needed else ""
-        )
-    out.print(
-        f"{len(orientations)} orientations, crank about ({', '.join(f'{x:g}' for x in axis)}) turning "
-        f"{direction_words(hoop.direction)}"
-    )
-    out.print(rows)
-    out.print("needed: " + " => ".join(map(pair_name, hoop.required)))
-    if hoop.breaks_at is None:
-        out.print(f"order kept, by a margin of {degrees(hoop.margin):.3f} degrees of the hoop")
-    else:
-        due, crossed = map(pair_name, hoop.breaks_at)
-        other = f"; it is kept {direction_words(found.kept)}" if found.kept is not None else ""
-        out.print(f"order defect: {crossed} is crossed where {due} is due{other}")
-    verdicts = (("hoop", found.kept), ("inequalities", found.by_inequalities), ("crank", found.by_crank_angles))
-    told = ", ".join(f"{name} {direction_words(kept)}" for name, kept in verdicts)
-    out.print(f"kept by: {told}{'' if found.agree else '   (they do not agree)'}")
-    out.print("crank angles: " + ", ".join(f"{degrees(angle):.3f}" for angle in found.crank_angles))
-    if degrees(found.misfit) > _FITS:
-        misses = f"the best misses by {degrees(found.misfit):.4f} degrees"
-        out.print(f"note: no dyad about this axis takes all orientations; {misses}")
-    tell_written(picture)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.output import FORCE, about, check_output, check_picture, print_json, tell_written
-from synth.cli.surfaces.circles import NumberList, in_radians, print_cones
+from synth.cli.output import FORCE, about, check_output, check_picture, print_answer, print_json, tell_written
+from synth.cli.surfaces.circles import NumberList, in_radians
 
 if TYPE_CHECKING:
     from graphs.mechanism.conical import ConicalLinkage
@@ -79,10 +79,9 @@ def map_command(
     if (file is None) == (angles is None):
         raise click.UsageError("give --angles of one loop, or a FILE")
     from graphs.mechanism.conical import ConicalLinkage
-    from synth.cli.surfaces.conical import print_linkage
     from synth.conformed.linkages import cone_of_number, linkage_on_cones
     from synth.surfaces.cone import ConeMap, map_to_cones
-    from synth.surfaces.linkages import LinkageMap, map_linkage
+    from synth.surfaces.linkages import map_linkage
 
     _check_output(output, number, force=force)
     mapped: ConeMap | LinkageMap
@@ -105,10 +104,7 @@ def map_command(
     if as_json:
         print_json(mapped.to_json())
         return
-    if isinstance(mapped, LinkageMap):
-        print_linkage(mapped)
-    else:
-        print_cones(mapped)
+    print_answer(mapped)
     tell_written(output)
 
 
@@ -186,7 +182,6 @@ def behaviour_command(
       synth cone behaviour --steps 40,50,50 --ground 2
       synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
     """
-    from synth.cli.surfaces.conical import print_behaviours
     from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:
@@ -208,7 +203,10 @@ def behaviour_command(
     if as_json:
         print_json({"linkages": [linkage.to_json() for linkage in found]})
         return
-    print_behaviours(found)
+    for linkage in found:
+        print_answer(linkage)
+    if not found:
+        click.echo("no cone")
     tell_written(output)
 
 
@@ -251,7 +249,6 @@ def move_command(
       synth cone move --angles 120,95,45,85
       synth cone move data/surfaces/fig11-stephenson.json --at 0.1
     """
-    from synth.cli.surfaces.moving import print_motion
     from synth.surfaces.cone import checked_cone_angle
 
     if sum(one is not None for one in (file, angles, steps)) != 1:
@@ -265,7 +262,7 @@ def move_command(
         print_json({"linkages": [motion.to_json() for motion in found]})
     else:
         for motion in found:
-            print_motion(motion)
+            print_answer(motion)
         if not found:
             click.echo("no cone")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import click
 
-from synth.cli.output import FORCE, check_picture, print_json, tell_written
-from synth.cli.surfaces.circles import NumberList, print_cylinders
+from synth.cli.output import FORCE, check_picture, print_answer, print_json, tell_written
+from synth.cli.surfaces.circles import NumberList
 
 __all__ = ["cylinder_group"]
 
@@ -49,5 +49,5 @@ def map_command(lengths: tuple[float, ...], output: str | None, force: bool, as_
     if as_json:
         print_json(found.to_json())
         return
-    print_cylinders(found)
+    print_answer(found)
     tell_written(output)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import FORCE, about, check_output, console, print_json, tell_written
+from synth.cli.output import FORCE, about, check_output, print_answer, print_json, tell_written
 from synth.cli.runner import RunOptions
 from synth.cli.things.given import MODE, given
 from synth.cli.things.realise_many import realise_many
@@ -114,8 +114,7 @@ def realise(
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})
         return
-    for block in found.blocks():
-        console().print(block)
+    print_answer(found)
     tell_written(output)
 
 

@@ -19,7 +19,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.conical import ConicalLinkage, Pair
 from graphs.mechanism.sc import SCGraph
 from graphs.plain_text import plain
-from graphs.printing import Block, TableBlock, html_of, text_of
+from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.generic import exact_mobility
 from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
@@ -41,7 +41,7 @@ _SAME = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class OnOneCone:
+class OnOneCone(Printed):
     """A type with one centre, its joint axes ruling lines of a cone.
 
     Attributes
@@ -131,12 +131,6 @@ class OnOneCone:
         if self.cones is None:
             return f"not looked for: the cones of the arcs alone, where a loop has more than {_MAPPED} links"
         return f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them"
-
-    def __str__(self) -> str:
-        return text_of(self.blocks())
-
-    def _repr_html_(self) -> str:
-        return html_of(self.blocks())
 
     def __repr__(self) -> str:
         return f"<OnOneCone: lambda {degrees(self.cone_angle):.6g} degrees, {self.linkage.chain!r}>"

@@ -10,6 +10,7 @@ from strategies import randoms, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
+from graphs.edit.sc import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.identity.classes import class_code
@@ -101,6 +102,20 @@ def test_a_strip_is_one_chain():
     (chain,) = reduction.chains()
     assert nx.is_arborescence(chain)
     assert nx.dag_longest_path_length(chain) == len(reduction.steps) - 1
+
+
+def test_an_addendum_is_printed_as_a_tree():
+    sc = SCGraph(4, [(i, (i + 1) % 4) for i in range(4)], [Loop(range(4))])
+    for a, b in ((0, 1), (4, 5), (0, 4), (6, 7), (6, 4)):
+        sc = add_ride_along(sc, a, b).graph
+    assert str(reduce(sc, keep=range(4))).splitlines()[2:] == [
+        "5 step(s) in 1 adjunct addendum",
+        "step 5: links 4, 5 on 0, 1",
+        "├── step 1: links 8, 9 on 0, 4",
+        "└── step 4: links 6, 7 on 4, 5",
+        "    ├── step 2: links 10, 11 on 6, 7",
+        "    └── step 3: links 12, 13 on 6, 4",
+    ]
 
 
 def test_blocks_keep_a_loop_unless_fully():

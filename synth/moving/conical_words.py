@@ -1,34 +1,34 @@
-"""How ``synth cone move`` prints motions."""
+"""How a motion from the conformed position is told: lines and tables."""
 
 from __future__ import annotations
 
 from math import degrees
 from typing import TYPE_CHECKING
 
-import click
-
-from synth.cli.output import console, plain, table
+from graphs.printing import Block, TableBlock, plain
 
 if TYPE_CHECKING:
     from synth.moving.conical import ConicalMotion
     from synth.moving.conical_walk import Sense, Stretch
 
-__all__ = ["print_motion"]
+__all__ = ["blocks_of_motion"]
 
 
-def print_motion(motion: ConicalMotion) -> None:
-    """Print where a linkage goes from its conformed position."""
+def blocks_of_motion(motion: ConicalMotion) -> list[Block]:
+    """Return where a linkage goes from its conformed position."""
     chain, angle = motion.chain, motion.on_cone.cone_angle
     where = "" if angle is None else f"lambda {degrees(angle):.10g} degrees, "
-    click.echo(f"{where}link {plain(chain.links[0])} fixed, joint {plain(motion.driver)} driven")
-    click.echo(f"range {_side(motion.backward)}, {_side(motion.forward)}")
-    click.echo(_circuit(motion))
-    rows = table("link", "backward", "forward")
-    for link in chain.links[1:]:
-        rows.add_row(plain(link), _stretches(motion.backward.ways[link]), _stretches(motion.forward.ways[link]))
-    console().print(rows)
-    if motion.positions:
-        _print_positions(motion)
+    rows = [
+        (plain(link), _stretches(motion.backward.ways[link]), _stretches(motion.forward.ways[link]))
+        for link in chain.links[1:]
+    ]
+    return [
+        f"{where}link {plain(chain.links[0])} fixed, joint {plain(motion.driver)} driven",
+        f"range {_side(motion.backward)}, {_side(motion.forward)}",
+        _circuit(motion),
+        TableBlock(("link", "backward", "forward"), rows),
+        *(_positions(motion) if motion.positions else []),
+    ]
 
 
 def _side(sense: Sense) -> str:
@@ -54,12 +54,17 @@ def _stretches(stretches: tuple[Stretch, ...]) -> str:
     return ", ".join(f"{each.way.name.lower()} to {degrees(each.end):.6g}" for each in stretches)
 
 
-def _print_positions(motion: ConicalMotion) -> None:
+def _positions(motion: ConicalMotion) -> list[Block]:
     joints = list(motion.linkage.graph.joints)
-    rows = table("at", *(f"joint {joint}" for joint in joints), "without turning back", numbers=["at"])
-    for each in motion.positions:
-        turns = [f"{degrees(turn):.8g}" for turn in each.angles]
-        rows.add_row(f"{degrees(each.at):g}", *turns, "yes" if each.direct else "no")
-    console().print(rows)
+    heads = ("at", *(f"joint {joint}" for joint in joints), "without turning back")
+    rows = [
+        (
+            f"{degrees(each.at):g}",
+            *(f"{degrees(turn):.8g}" for turn in each.angles),
+            "yes" if each.direct else "no",
+        )
+        for each in motion.positions
+    ]
     asked = {each.at for each in motion.positions}
-    click.echo(f"{len(motion.positions)} position(s) at {len(asked)} turn(s) that are reached")
+    told = f"{len(motion.positions)} position(s) at {len(asked)} turn(s) that are reached"
+    return [TableBlock(heads, rows, ["at"]), told]
