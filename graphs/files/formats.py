@@ -182,7 +182,8 @@ def write(
         A sheet written as ``.json`` becomes the SC graph of its mechanism.
     path : str or Path
     lossy : bool, optional
-        Write also where the file is of another type: links, joints or centre classes do not correspond.
+        Write also where the file is of another type: links, joints or centre classes do not correspond. What could
+        not be read again is never written.
     force : bool, optional
         Replace a file that is there. Symbolic links and special files are never replaced.
     made_of : Mechanism, optional
@@ -219,8 +220,10 @@ def write(
     beside = Beside(path, force=force)
     try:
         beside.write(text.encode("utf-8"))
-        if not lossy and (made_of is not None or not _holds_all(suffix, mechanism)):
-            _check_type(beside.closed(), suffix, mechanism if made_of is None else made_of, lost)
+        if (made_of is not None and not lossy) or not _holds_all(suffix, mechanism):
+            again = _read_back(beside.closed(), suffix, lost)
+            if not lossy:
+                _check_type(again, suffix, mechanism if made_of is None else made_of, lost)
         beside.commit()
     finally:
         beside.discard()
@@ -232,18 +235,26 @@ def _holds_all(suffix: str, mechanism: Mechanism) -> bool:
     return suffix == ".json" or (suffix == ".fold" and isinstance(mechanism, Sheet))
 
 
-def _check_type(written: Path, suffix: str, mechanism: Mechanism, lost: tuple[str, ...]) -> None:
-    """Read back what was written, and refuse it if it is of another type."""
+def _read_back(written: Path, suffix: str, lost: tuple[str, ...]) -> Mechanism:
+    """Return what was written as it is read; what nobody could read is refused, however much may be lost."""
     try:
         ((_, again),) = READERS[suffix](written)
-        change = change_of_type(mechanism, again)
     except FileError as error:
-        change = f"the file would not be read: {error.found}"
+        raise UnsolvableError(f"a {suffix} file could not be read again: {error.found}{_because(lost)}") from None
+    return again
+
+
+def _because(lost: tuple[str, ...]) -> str:
+    return f", for it cannot hold {', '.join(lost)}" if lost else ""
+
+
+def _check_type(again: Mechanism, suffix: str, mechanism: Mechanism, lost: tuple[str, ...]) -> None:
+    """Refuse what is read back as another type."""
+    change = change_of_type(mechanism, again)
     if change is not None:
-        why = f", for it cannot hold {', '.join(lost)}" if lost else ""
         raise UnsolvableError(
-            f"a {suffix} file would be of another type: {change}{why}; write it all the same with --lossy "
-            "(in Python lossy=True)"
+            f"a {suffix} file would be of another type: {change}{_because(lost)}; write it all the same with "
+            "--lossy (in Python lossy=True)"
         )
 
 

@@ -1,9 +1,11 @@
 """Panels with places: centres across holes, and which boundary is the outer one."""
 
 import numpy as np
+import pytest
 
 from graphs.answer.identity import identify
 from graphs.convert.table import to_scd
+from graphs.errors import InvariantError
 from graphs.loops.loop import Centre
 from graphs.mechanism.sheet import Sheet
 
@@ -42,3 +44,11 @@ def test_the_outer_boundary_is_the_one_round_the_largest_area():
     scd = to_scd(Sheet(12, (), "", tuple(faces), places))
     outer = scd.faces[scd.drawing.outer_face]
     assert outer.open_edges == 4 < max(face.open_edges for face in scd.faces)
+
+
+def test_a_lone_panel_round_the_largest_area_is_no_index_error():
+    places = ((0, 0), (1, 0), (1, 1), (0, 1), (2, 2), (9, 2), (9, 9), (2, 9))
+    sheet = Sheet(8, (), "", ((0, 1, 2), (0, 2, 3), (4, 5, 6, 7)), places)
+    with pytest.raises(InvariantError, match="the graph has 2 parts; expected one"):
+        to_scd(sheet)
+    assert identify(sheet).chain == "k1:BG"

@@ -100,6 +100,14 @@ def test_a_picture_of_nothing_is_refused(suffix, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+def test_what_could_not_be_read_again_is_not_written(tmp_path):
+    folded_over = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (2, 1)))
+    for lossy in (False, True):
+        with pytest.raises(UnsolvableError, match=r"a \.svg file could not be read again: none of 1 crease line"):
+            write(folded_over, tmp_path / "a.svg", lossy=lossy)
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_file_is_replaced_by_force_only(tmp_path):
     path = tmp_path / "a.json"
     write(SCGraph(4, RING), path)
