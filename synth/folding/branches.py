@@ -21,6 +21,7 @@ from graphs.arrays import Floats
 from graphs.ids import JointId
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, largest_only, rates_at, rates_near, spaces_within
 from synth.folding.singular.flat_vertices import FlatVertices
@@ -46,6 +47,8 @@ _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
+_STEPS, _AT_LEAST = 400, 20
+"""All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,6 +263,7 @@ class _Looking:
         self.complete = True
         self.vertices = FlatVertices(linkage)
         self._end = monotonic() + search.seconds
+        self._allowance = Allowance(_STEPS)
         self._tangent = rates_at(closure, linkage.angles, search.zero)
         self._quadrics: list[Quadric] = all_quadrics(linkage, self._tangent, search.zero)
 
@@ -347,7 +351,8 @@ class _Looking:
         elif late:
             came = Followed(None, self.linkage.angles, self.closure.error(self.linkage.angles), 0.0)
         else:
-            came = followed(self.linkage, self.closure, rates, still)
+            self._allowance.left = max(self._allowance.left, _AT_LEAST)
+            came = followed(self.linkage, self.closure, rates, still, self._allowance)
         certainty: Certainty = "numerical" if came.far else "not known"
         freedoms = came.freedoms
         if linear or proved:

@@ -13,6 +13,7 @@ from graphs.lazy import offered
 
 if TYPE_CHECKING:
     from synth.folding.following.event import PathEvent as PathEvent
+    from synth.folding.following.stepping import Allowance as Allowance
     from synth.folding.following.stepping import PathOptions as PathOptions
 else:
-    __getattr__, __dir__, __all__ = offered(__name__, {"event": "PathEvent", "stepping": "PathOptions"})
+    __getattr__, __dir__, __all__ = offered(__name__, {"event": "PathEvent", "stepping": "Allowance PathOptions"})

@@ -54,6 +54,8 @@ class PathOptions:
         Called with the number of frames after each.
     names : sequence of J joint ids, optional
         How joints are told; by default by their places.
+    allowance : Allowance, optional
+        Steps that may be taken, by this path and others that share it.
     """
 
     direction: Floats | None = None
@@ -61,6 +63,31 @@ class PathOptions:
     straight: bool = False
     report: Callable[[int], None] | None = None
     names: Sequence[JointId] | None = None
+    allowance: Allowance | None = None
+
+
+@dataclass(slots=True)
+class Allowance:
+    """Steps that all paths of a search may take together: where panels are all but nothing, ways are endless.
+
+    Attributes
+    ----------
+    left : int
+        Steps.
+
+    Examples
+    --------
+    >>> some = Allowance(1)
+    >>> some.take(), some.take()
+    (True, False)
+    """
+
+    left: int
+
+    def take(self) -> bool:
+        """Take a step, if one is left."""
+        self.left -= 1
+        return self.left >= 0
 
 
 class Stepping:

@@ -8,7 +8,7 @@ nothing is found so, they are freed. Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from math import radians, tan
 
@@ -17,6 +17,7 @@ import scipy.sparse
 
 from graphs.arrays import Floats
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage
 from synth.folding.path import PathOptions, driven_path
 from synth.folding.placement import moved
@@ -86,7 +87,11 @@ class _Locked(ClosureEquations):
 
 
 def followed(
-    linkage: PosedLinkage, closure: ClosureEquations, rates: Floats, still: tuple[int, ...] = ()
+    linkage: PosedLinkage,
+    closure: ClosureEquations,
+    rates: Floats,
+    still: tuple[int, ...] = (),
+    allowance: Allowance | None = None,
 ) -> Followed:
     """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
 
@@ -100,10 +105,12 @@ def followed(
         To begin with, to second order.
     still : tuple of int
         Places of the joints that do not begin to move on it.
+    allowance : Allowance, optional
+        Steps that may be taken.
     """
     ways = [_Locked(linkage, still), closure] if still else [closure]
     for way in ways:
-        end, error = walked(linkage.angles, way, rates)
+        end, error = walked(linkage.angles, way, rates, allowance)
         far = float(np.abs(end - linkage.angles).max())
         if far > MOVED:
             break
@@ -112,11 +119,14 @@ def followed(
     return Followed(freedoms_at(linkage, closure, end), end, error, far)
 
 
-def walked(start: Floats, closure: ClosureEquations, rates: Floats) -> tuple[Floats, float]:
+def walked(
+    start: Floats, closure: ClosureEquations, rates: Floats, allowance: Allowance | None = None
+) -> tuple[Floats, float]:
     """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
     driver = int(np.abs(rates).argmax())
     options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
-    path = driven_path(closure, start, [driver], start[driver] + goal, options=options)
+    first = replace(options, allowance=allowance)  # the part that is taken again has no more steps
+    path = driven_path(closure, start, [driver], start[driver] + goal, options=first)
     reached = float(path.angles[-1][driver] - start[driver])
     if path.stopped and abs(reached) > MOVED:  # the end of a path may be no general pose
         path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)

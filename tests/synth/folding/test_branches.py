@@ -1,6 +1,8 @@
 """Ways to move from a flat state: known numbers of branches, and of their freedoms."""
 
 from collections import Counter
+from dataclasses import replace
+from math import radians
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import pytest
 from graphs.files.formats import read
 from synth.folding.branches import branches_of, first_branch
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import linkage_of_sheet
 from synth.folding.newton import corrected
 from synth.folding.second_order import rates_near
@@ -121,3 +124,17 @@ def test_the_first_branch_that_will_do_is_one_of_all():
     found = first_branch(linkage, lambda rates: bool(np.abs(rates).min() > 1e-7))
     assert found.signs == next(row for row in signs if "0" not in row)
     assert first_branch(linkage, lambda rates: False) is None
+
+
+def test_a_search_takes_so_many_steps_and_no_more(data, monkeypatch):
+    """The bird base with a corner all but in the middle of a side: panels of next to no breadth."""
+    sheet = read(data / "patterns" / "bird-base.fold")
+    corners = list(sheet.coordinates)
+    corners[3] = (-1.0, 1e-5)
+    taken = []
+    take = Allowance.take
+    monkeypatch.setattr(Allowance, "take", lambda some: (took := take(some), taken.append(took))[0])
+    branches = branches_of(linkage_of_sheet(replace(sheet, coordinates=tuple(corners))))
+    assert 16 <= sum(taken) <= 400 + 20 * len(branches.branches)
+    assert not all(taken)
+    assert min(branch.followed for branch in branches.branches) < radians(9)
