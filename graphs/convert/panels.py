@@ -164,15 +164,16 @@ def _with_faces(
     outer_side: tuple[LinkId, int] | None,
     remote: Callable[[list[tuple[JointId, ...]]], Sequence[Loop]] | None,
 ) -> SCDGraph:
-    """Choose the outer face and give every interior vertex its loop; a panel without joints is in no face."""
+    """Choose the outer face, not that round a panel without joints, and give every interior vertex its loop."""
     if not joints:
         return SCDGraph(around, joints, (), rotation=rotation)
     faces, left_of = trace_faces(joints, rotation)
-    outer = max(faces, key=lambda face: face.open_edges).index
+    joined = [face for face in faces if face.corners[0].leaving is not None]
+    outer = max(joined, key=lambda face: face.open_edges).index
     if outer_side is not None and any(joint is not None for joint in rotation[outer_side[0]]):
         outer = _face_of_side(joints, rotation, left_of, *outer_side)
     elif not faces[outer].open_edges:
-        outer = faces[-1].index  # a closed surface
+        outer = joined[-1].index  # a closed surface
     loops: list[Loop] = []
     closing: list[Loop] = []
     holes: list[tuple[JointId, ...]] = []

@@ -46,9 +46,13 @@ def test_the_outer_boundary_is_the_one_round_the_largest_area():
     assert outer.open_edges == 4 < max(face.open_edges for face in scd.faces)
 
 
-def test_a_lone_panel_round_the_largest_area_is_no_index_error():
-    places = ((0, 0), (1, 0), (1, 1), (0, 1), (2, 2), (9, 2), (9, 9), (2, 9))
-    sheet = Sheet(8, (), "", ((0, 1, 2), (0, 2, 3), (4, 5, 6, 7)), places)
+@pytest.mark.parametrize("sides", [4, 32])
+@pytest.mark.parametrize("size", [0.1, 10.0])
+def test_a_lone_panel_is_a_part_of_its_own(sides, size):
+    """It may bound the largest area, or have more open edges than all other panels."""
+    ring = [(20 + size * np.cos(t), size * np.sin(t)) for t in np.linspace(0, 2 * np.pi, sides, endpoint=False)]
+    places = (*((0, 0), (1, 0), (1, 1), (0, 1)), *ring)
+    sheet = Sheet(4 + sides, (), "", ((0, 1, 2), (0, 2, 3), tuple(range(4, 4 + sides))), places)
     with pytest.raises(InvariantError, match="the graph has 2 parts; expected one"):
         to_scd(sheet)
     assert identify(sheet).chain == "k1:BG"

@@ -176,3 +176,10 @@ def test_what_other_peoples_code_writes_is_read(version, tmp_path):
     theirs.saveas(tmp_path / "a.dxf")
     sheet = read(tmp_path / "a.dxf")
     assert sorted(sheet.assignments) == sorted("BBBBVVMM")
+
+
+def test_a_group_code_has_no_control_characters(tmp_path):
+    path = tmp_path / "a.dxf"
+    path.write_bytes(b"0\nSECTION\n6\x1e\nDASHED\n0\nEOF\n")
+    with pytest.raises(FileError, match=r"line 3: '6.*expected a group code of DXF"):
+        read(path)

@@ -15,7 +15,7 @@ from graphs.errors import FileError, shown
 
 __all__ = ["Record", "records"]
 
-_CODE = re.compile(r"\s*-?\d{1,4}\s*")
+_CODE = re.compile(r"[ \t]*-?[0-9]{1,4}[ \t]*")
 _BREAK = re.compile(r"\r\n|\n|\r")
 
 
