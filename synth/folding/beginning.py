@@ -11,6 +11,7 @@ import scipy.linalg
 from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.rank.canonical import canonical_basis
 from synth.folding.branches import Branch, Branches, Search
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
@@ -152,7 +153,7 @@ def _towards(branch: Branch, marks: Floats) -> Floats:
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates
-    return -branch.rates if branch.rates @ marks < 0.0 else branch.rates
+    return -branch.rates if branch.rates @ marks < -_STILL else branch.rates
 
 
 def _rates(branch: Branch, wanted: Wanted) -> Floats:
@@ -173,4 +174,4 @@ def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
     across = scipy.linalg.null_space(wanted.turns[None])
     normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
     turned, sizes, _ = np.linalg.svd(normals)
-    return replace(space, basis=np.asarray(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))
+    return replace(space, basis=canonical_basis(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))

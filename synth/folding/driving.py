@@ -16,6 +16,7 @@ from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
+from graphs.rank.canonical import MARGIN, leading
 from synth.folding.beginning import Wanted, beginning
 from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations
@@ -141,10 +142,10 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
         wanted = _along(joints, asked)
     number, rates = beginning(closure, linkage, found, wanted)
     if not places:
-        places = [int(np.abs(rates).argmax())]
+        places = [leading(rates)]
         goals = asked.whole * np.sign(rates[places])
     start = linkage.angles[places]
-    if (goals - start) @ rates[places] < 0.0:
+    if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
         rates = -rates
     steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
     limited = np.full(len(joints), asked.limited)

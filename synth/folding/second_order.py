@@ -18,6 +18,7 @@ import scipy.linalg
 import scipy.sparse
 
 from graphs.arrays import Floats, Ints
+from graphs.rank.canonical import canonical_basis, canonical_order, signed
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
 from synth.folding.singular.definite import CLEAR, definite_weights
@@ -137,14 +138,14 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = ZERO) -> F
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
     By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
-    third of the time.
+    third of the time. The columns depend on the space alone (`graphs.rank.canonical`).
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:
-        return np.asarray(scipy.linalg.null_space(matrix, rcond=zero))
+        return canonical_basis(np.asarray(scipy.linalg.null_space(matrix, rcond=zero)))
     columns, triangle, _ = scipy.linalg.qr(matrix.T, pivoting=True, overwrite_a=True, check_finite=False)
     sizes = np.abs(np.diag(triangle))
-    return np.asarray(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
+    return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
 
 
 def _within_one(
@@ -196,10 +197,11 @@ def _split(case: _Case) -> Iterator[RateSpace]:
     if not case.basis.shape[1]:
         return
     if factors is not None:
-        for normal in factors:
-            yield from _split(case.across(normal))
+        by_joints = [signed(case.basis @ normal) for normal in factors]
+        for place in canonical_order([one / np.linalg.norm(one) for one in by_joints]):
+            yield from _split(case.across(factors[place]))
     elif len(case.left) < 2 or definite_weights(case.forms, max(case.zero, CLEAR)) is None:
-        yield RateSpace(case.basis, case.left)
+        yield RateSpace(canonical_basis(case.basis), case.left)
 
 
 def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:

@@ -15,6 +15,7 @@ import numpy as np
 from graphs.arrays import Flags, Floats
 from graphs.errors import shown
 from graphs.ids import JointId
+from graphs.rank.canonical import leading, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.between import Step
 from synth.folding.following.event import EventKind, PathEvent, angle_told, joints_told
@@ -76,7 +77,7 @@ class _Following:
         self._legs, self._stepping = legs, legs.stepping
         self._here, self._value = here, value
         left = value - here.angles[legs.drivers]
-        self._lead = int(np.abs(left).argmax())
+        self._lead = leading(left)
         self._joint, self._way = legs.drivers[self._lead], float(np.sign(left[self._lead]))
         self._last: Step | None = None
         self._tops: list[Corrected] = []
@@ -215,7 +216,7 @@ class _Following:
         poses = [*self._tops, self._here]
         if not stopped or not self._tops:
             return Leg(poses, self._events, stopped)
-        best = int(np.argmin([self._left(pose) for pose in poses]))
+        best = trailing(np.array([self._left(pose) for pose in poses]), scale=1.0)
         if best == len(self._tops):
             return Leg(poses, self._events, stopped)
         turns = [place for place, event in enumerate(self._events) if event.kind == "turning point"]

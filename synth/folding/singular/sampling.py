@@ -16,6 +16,7 @@ import numpy as np
 import scipy.sparse
 
 from graphs.arrays import Floats
+from graphs.rank.canonical import leading, signed
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage
@@ -26,6 +27,7 @@ from synth.folding.singular.quadrics import all_quadrics, local_forms
 
 __all__ = [
     "FOLLOWED",
+    "STILL",
     "Followed",
     "followed",
     "freedoms_at",
@@ -41,7 +43,8 @@ FOLLOWED = radians(10.0)
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
 _AGREES = 1e-9
-_STILL = 1e-7
+STILL = 1e-7
+"""Rates below this part of the largest are none."""
 _NEWTON, _ROUNDED = 30, 1e-14
 MOVED, _SHORT_OF = 1e-3, 0.7
 """A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
@@ -123,7 +126,7 @@ def walked(
     start: Floats, closure: ClosureEquations, rates: Floats, allowance: Allowance | None = None
 ) -> tuple[Floats, float]:
     """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
-    driver = int(np.abs(rates).argmax())
+    driver = leading(rates)
     options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
     first = replace(options, allowance=allowance)  # the part that is taken again has no more steps
     path = driven_path(closure, start, [driver], start[driver] + goal, options=first)
@@ -176,27 +179,27 @@ def general_rates(
     most : int
         After so many the search ends.
     towards : float[J], optional
-        If it ends so, the part near to these rates comes first.
+        If it ends so, the part near to these rates is among those returned.
     late : callable, optional
         Whether it is time to end the search, with one part at least if there is one.
     """
-    chance, size = np.random.default_rng(space.basis.shape), space.basis.shape[1]
+    size = space.basis.shape[1]
     if not space.left:
+        chance = np.random.default_rng(space.basis.shape)
         x = chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)
-        return [_scaled(space.basis @ x)], True
+        return [signed(_scaled(space.basis @ x))], True
     forms = local_forms(space.basis, space.left)
     halves = _halves(space)
     parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
-    for _ in range(_STARTS * 2 ** min(len(halves), 6)):
+    for number in range(_STARTS * 2 ** min(len(halves), 6)):
+        chance = np.random.default_rng((*space.basis.shape, number))
         x = _on_equations(forms, np.asarray(chance.normal(size=size)))
         if x is None:
             continue
-        rates = space.basis @ x
+        rates = signed(_scaled(space.basis @ x))
         signs = _side(halves, rates)
-        if signs and signs[0] < 0:
-            rates, signs = -rates, tuple(-one for one in signs)
-        found.setdefault(signs, _scaled(rates))
+        found.setdefault(max(signs, tuple(-one for one in signs)), rates)
         if len(found) == parts or len(found) == most or late():
             break
     others = [found[signs] for signs in sorted(found, reverse=True)]
@@ -216,7 +219,9 @@ def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
 
 
 def _scaled(rates: Floats) -> Floats:
-    return np.asarray(rates / np.abs(rates).max())
+    """Return rates the largest of which is 1 or -1; those that are none but for rounding are zero."""
+    scaled = rates / np.abs(rates).max()
+    return np.where(np.abs(scaled) > STILL, scaled, 0.0)
 
 
 def _on_equations(forms: Floats, x: Floats) -> Floats | None:
@@ -243,5 +248,5 @@ def _halves(space: RateSpace) -> list[Floats]:
         values, vectors = np.linalg.eigh(form)
         there = np.abs(values) > _AGREES * np.abs(values).max()
         singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
-        found += [space.basis @ vectors[:, single[0]] for single in singles if len(single) == 1][:1]
+        found += [signed(space.basis @ vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
     return found
