@@ -9,13 +9,14 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow test-web page check data pictures docs examples release clean help
+.PHONY: demo test test-slow test-web test-machines page check data pictures docs examples release clean help
 
 help:
 	@echo "make demo       install into $(VENV), ask some mechanisms for their mobility, and compile what enumerations need"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
 	@echo "make test-web   what is shown in a notebook, which is run, and the tests of the page of synth view, in node and in Chromium"
+	@echo "make test-machines  commands, examples and tests as other processors run them: BLAS kernels, threads, hash seeds"
 	@echo "make page       build the script of that page, if its sources have changed"
 	@echo "make check      ruff and mypy"
 	@echo "make data       make the files under data/ anew"
@@ -64,6 +65,10 @@ test: $(STAMP) $(COMPILED)
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest $(PARALLEL)
+
+# Kernels that this processor lacks are left out, and named.
+test-machines: $(STAMP) $(COMPILED)
+	$(BIN)/python -m tests.machines
 
 # Tests skip with a message where there is no Chromium, and in `make test-slow` where there is no playwright.
 .PHONY: browser

@@ -1,0 +1,1 @@
+"""Other machines, as far as one machine can be them: `make test-machines`."""
