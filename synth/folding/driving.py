@@ -6,7 +6,7 @@ Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from sys import float_info
 
@@ -25,6 +25,9 @@ from synth.folding.newton import CLOSED
 from synth.folding.path import DrivenPath, PathOptions, driven_path
 
 __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
+
+_FARTHER = 1e-3
+"""Radians: a path that leads on by less is not longer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,9 +155,25 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
     by_least_rates = found is not None and found.regular and len(asked.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     options = PathOptions(direction, limited, straight=bool(asked.along), report=asked.report, names=joints)
-    path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    values = start + steps * (goals - start)
+    still = () if number is None or found is None else found.branches[number].still
+    path = _path(closure, linkage.angles, places, values, replace(options, locked=still))
     told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, told, path)
+
+
+def _path(
+    closure: ClosureEquations, start: Floats, places: list[int], values: Floats, options: PathOptions
+) -> DrivenPath:
+    """Return the path on which joints that do not begin to move are locked, or if it ends before, a longer one."""
+    if not options.locked or set(options.locked) & set(places):
+        return driven_path(closure, start, places, values, options=replace(options, locked=()))
+    path = driven_path(closure, start, places, values, options=options)
+    if not path.stopped:
+        return path
+    free = driven_path(closure, start, places, values, options=replace(options, locked=()))
+    lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]
+    return free if lead[1] > lead[0] + _FARTHER or not free.stopped else path
 
 
 def _along(joints: tuple[JointId, ...], asked: Asked) -> Wanted:

@@ -62,7 +62,9 @@ class Legs:
     def __init__(self, closure: ClosureEquations, drivers: list[int], options: PathOptions) -> None:
         self.drivers, self.options = drivers, options
         self.names: Sequence[JointId] = range(closure.joints) if options.names is None else options.names
-        self.stepping = Stepping(closure, drivers, options)
+        self.closure = closure
+        self.moving = closure.locked(options.locked) if options.locked else closure
+        self.stepping = Stepping(self.moving, drivers, options)
         self.watch = RankWatch(closure) if 0 < closure.joints <= WATCHED and closure.rows else None
 
     def to(self, here: Corrected, value: Floats) -> Leg:
@@ -126,8 +128,10 @@ class _Following:
         stopped, step = "", self._flattened(step)
         if self._beyond(step.after.angles).any():
             over = step.after.angles
-            step = step.up_to(step.last(lambda angles: not self._beyond(angles).any()))
+            step = self._flattened(step.up_to(step.last(lambda angles: not self._beyond(angles).any())))
             joints = tuple(np.flatnonzero(self._beyond(over)).tolist())
+            if np.abs(step.after.angles - step.before.angles).max() <= _FLAT:
+                step = step.up_to(step.before)  # they lie on each other here, but for what loops tell of it
             stopped = f"panels lie on each other at joint(s) {joints_told(joints, self._legs.names)}"
         if len(self._legs.drivers) == 1 and self._left(step.after) < 0.0:
             landed = step.landing(self._joint, float(self._value[0]))
@@ -170,7 +174,7 @@ class _Following:
         flat = bool(self._at_limit(step))
         found = None if watch is None else watch.dropped(step, flat=flat)
         if found is not None:
-            ways = other_ways(step.closure, found[0])
+            ways = other_ways(self._legs.closure, found[0])
             self._events.append(
                 PathEvent("rank drop", len(self._tops), self._joint, (self._joint,), found[0], found[1], ways)
             )

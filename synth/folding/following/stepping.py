@@ -56,6 +56,9 @@ class PathOptions:
         How joints are told; by default by their places.
     allowance : Allowance, optional
         Steps that may be taken, by this path and others that share it.
+    locked : sequence of int, optional
+        Places of joints that keep their angles: those that do not move on the branch. Their closure equations may
+        be squares there, which tell angles to the root of their error only.
     """
 
     direction: Floats | None = None
@@ -64,6 +67,7 @@ class PathOptions:
     report: Callable[[int], None] | None = None
     names: Sequence[JointId] | None = None
     allowance: Allowance | None = None
+    locked: Sequence[int] = ()
 
 
 @dataclass(slots=True)

@@ -13,10 +13,9 @@ from itertools import islice
 from math import radians, tan
 
 import numpy as np
-import scipy.sparse
 
 from graphs.arrays import Floats
-from graphs.rank.canonical import leading, signed
+from graphs.rank.canonical import leading, signed, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage
@@ -46,6 +45,11 @@ _AGREES = 1e-9
 STILL = 1e-7
 """Rates below this part of the largest are none."""
 _NEWTON, _ROUNDED = 30, 1e-14
+_APEX = 1e-4
+"""Slope of an equation, as part of its size, below which rates are at the apex of its cone: Newton's method ends
+with the root of its error."""
+_BESIDE, _ASIDE = 8, 0.3
+"""So many starts beside wanted rates, so far from them as part of their size."""
 MOVED, _SHORT_OF = 1e-3, 0.7
 """A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
 _SPACES = 64
@@ -74,21 +78,6 @@ class Followed:
     far: float
 
 
-class _Locked(ClosureEquations):
-    """Closure equations of a linkage some joints of which are locked: its derivatives by them are zero."""
-
-    def __init__(self, linkage: PosedLinkage, still: tuple[int, ...]) -> None:
-        super().__init__(linkage)
-        self._free = np.ones(self.joints)
-        self._free[list(still)] = 0.0
-
-    def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return what does not close at joint angles, and its derivatives by those that are free."""
-        residual, jacobian = super().at(angles)
-        jacobian.data *= self._free[jacobian.indices]
-        return residual, jacobian
-
-
 def followed(
     linkage: PosedLinkage,
     closure: ClosureEquations,
@@ -111,7 +100,7 @@ def followed(
     allowance : Allowance, optional
         Steps that may be taken.
     """
-    ways = [_Locked(linkage, still), closure] if still else [closure]
+    ways = [closure.locked(still), closure] if still else [closure]
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)
         far = float(np.abs(end - linkage.angles).max())
@@ -157,11 +146,26 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
 
 
 def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
-    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
-    start = space.basis.T @ wanted
-    if np.linalg.norm(start) <= _AGREES * np.linalg.norm(wanted):
+    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none.
+
+    By symmetry the way from wanted rates onto an equation's cone may lead to its apex, where its parts meet and
+    Newton's method finds rates to half their digits only. Then starts beside the wanted ones are tried, and of
+    what they come to the rates that point along these best are taken.
+    """
+    start = np.asarray(space.basis.T @ wanted)
+    size = float(np.linalg.norm(start))
+    if size <= _AGREES * np.linalg.norm(wanted):
         return np.zeros_like(wanted)
-    x = _on_equations(local_forms(space.basis, space.left), np.asarray(start))
+    forms = local_forms(space.basis, space.left)
+    x = _on_equations(forms, start)
+    if x is not None and _at_apex(forms, x):
+        beside = [
+            np.random.default_rng((*space.basis.shape, number)).normal(size=len(start))
+            for number in range(_BESIDE)
+        ]
+        found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
+        general = [one for one in found if one is not None and not _at_apex(forms, one)]
+        x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
     return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
 
 
@@ -234,6 +238,11 @@ def _on_equations(forms: Floats, x: Floats) -> Floats | None:
             return x
         x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
     return None
+
+
+def _at_apex(forms: Floats, x: Floats) -> bool:
+    """Tell whether some of the forms float[n, s, s] has no slope at a unit vector at which it vanishes."""
+    return bool((np.linalg.norm(forms @ x, axis=1) <= _APEX * np.abs(forms).max(axis=(1, 2))).any())
 
 
 def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:

@@ -38,7 +38,7 @@ def answers(sheet):
     ways = [(one.signs, one.freedoms, one.certainty, one.still, one.modes) for one in found.branches]
     try:
         folding = fold(sheet, frames=1)
-        taken = (folding.branch, tuple(folding.driven), bool(folding.path.stopped))
+        taken = (folding.branch, tuple(folding.driven))
     except SynthedraError as error:
         taken = str(error)
     said = mobility(sheet).verdict
