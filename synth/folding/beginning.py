@@ -24,8 +24,9 @@ __all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "search_for"]
 MOST_JOINTS = 600
 """Of larger linkages the branches are not looked for: matrices are dense."""
 
-MOST_BRANCHES, MOST_SECONDS = 128, 120.0
-"""So many are looked for at most, and for so long: there may be twice as many for each row of panels more."""
+MOST_BRANCHES, MOST_WORK = 128, 1e10
+"""So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
+row of panels more."""
 
 _FOLLOWED = 2500
 """Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
@@ -38,7 +39,7 @@ _DIGITS = 6
 
 def search_for(joints: int, towards: Floats | None) -> Search:
     """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
-    return Search(MOST_BRANCHES, MOST_SECONDS, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
+    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from math import degrees, inf
-from time import monotonic
 from typing import Any, Literal
 
 import numpy as np
@@ -48,6 +47,8 @@ _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
+_START = 2e5
+"""Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
 
@@ -60,8 +61,8 @@ class Search:
     ----------
     most : int
         After so many spaces of rates the search ends.
-    seconds : float
-        After so long it ends too, and what was found by then is told.
+    work : float
+        After so much work, in products of numbers, it ends too, and what was found by then is reported.
     zero : float
         Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     follow : int, optional
@@ -71,7 +72,7 @@ class Search:
     """
 
     most: int = 4096
-    seconds: float = inf
+    work: float = inf
     zero: float = ZERO
     follow: int | None = None
     towards: Floats | None = None
@@ -266,7 +267,7 @@ class _Looking:
         self.linkage, self.closure, self.search = linkage, closure, search
         self.complete = True
         self.vertices = FlatVertices(linkage)
-        self._end = monotonic() + search.seconds
+        self._work = Allowance(search.work)
         self._allowance = Allowance(_STEPS)
         self._tangent = rates_at(closure, linkage.angles, search.zero)
         self._quadrics: list[Quadric] = all_quadrics(linkage, self._tangent, search.zero)
@@ -274,17 +275,19 @@ class _Looking:
     def spaces(self) -> list[RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
         found: list[RateSpace] = []
-        for space in spaces_within(self._tangent, self._quadrics, self.search.zero):
-            if len(found) == self.search.most or self._late():
+        for space in spaces_within(self._tangent, self._quadrics, self.search.zero, self._work):
+            if len(found) == self.search.most:
                 self.complete = False
                 break
             found.append(space)
+        self.complete = self.complete and not self._work.used_up
         if not self.complete:
             found = [*self._towards(), *found]
         return largest_only(found, self.search.zero)
 
     def _late(self) -> bool:
-        return monotonic() > self._end
+        """Tell whether there is no work left for a start of Newton's method."""
+        return not self._work.take(_START)
 
     def _towards(self) -> list[RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -331,7 +334,7 @@ class _Looking:
         nearest = self._nearest(parts)
         begun = 0
         for number, (space, rates) in enumerate(parts):
-            late = number != nearest and (self._late() or begun == self.search.follow)
+            late = number != nearest and (self._work.used_up or begun == self.search.follow)
             begun += not late
             self.complete = self.complete and not late
             yield self.branch(space, rates, proved=proved, late=late)

@@ -218,8 +218,8 @@ def test_tubes_of_miura_strips_have_one_freedom(columns):
     assert found.branches[0].error < 1e-12
 
 
-def test_a_search_that_runs_out_of_time_says_so():
-    found = branches_of(linkage(miura(5, 5, np.radians(60))), search=Search(seconds=0.0))
+def test_a_search_that_uses_up_its_work_says_so():
+    found = branches_of(linkage(miura(5, 5, np.radians(60))), search=Search(work=0.0))
     assert not found.complete
     assert not found.exhaustive
     assert found.no_motion == "not known"
