@@ -219,7 +219,7 @@ class ClosureEquations:
         residual = np.concatenate([np.zeros(0), *(off.ravel() for off, _ in evaluated)])
         values = np.concatenate([np.zeros(0), *(twists.ravel() for _, twists in evaluated)])
         matrix = scipy.sparse.csr_matrix(
-            (values[self._places], self._columns, self._starts), shape=(self.rows, self.joints)
+            (values[self._places], self._columns, self._starts), shape=(len(self._starts) - 1, self.joints)
         )
         return residual, matrix
 
