@@ -197,3 +197,43 @@ def test_a_quadrilateral_that_is_none_is_refused():
         GENERATORS["huffman-grid"].make(2, 2, 1.3, 0.6, 3.0)
     with pytest.raises(InvariantError, match="links of 170, 20, 30, 40 degrees do not close"):
         generate("four-bar", **{f"arc{i + 1}": radians(x) for i, x in enumerate((170, 20, 30, 40))})
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "told", "relation"),
+    [
+        ("four-bar", (175, 175, 175, 10), "too long for the sphere; .* no three", "no three by more than 360"),
+        ("five-bar", (175, 175, 175, 175, 170), "too long for the sphere; .* no five", "no five by more than 720"),
+        ("six-bar", (5, 175, 5, 5, 5, 5), "the longest is longer than the others", "longer than the others"),
+    ],
+)
+def test_links_that_do_not_close_on_the_sphere_are_told_why(name, given, told, relation):
+    with pytest.raises(InvariantError, match=told):
+        generate(name, **{f"arc{i + 1}": radians(arc) for i, arc in enumerate(given)})
+    assert relation in GENERATORS[name].relations
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("huffman-grid", {"first": radians(70), "second": radians(58), "side": 1.09, "holds": False}),
+        ("huffman-grid", {"first": radians(70), "second": radians(58), "side": 1.06, "holds": True}),
+        ("deployable-cylinder", {"pleats": 3, "short": radians(41), "slack": radians(10), "holds": False}),
+        ("deployable-cylinder", {"pleats": 3, "short": radians(39), "slack": radians(10), "holds": True}),
+        (
+            "parallel-pop-up",
+            {"left": 2.5, "right": 1.5, "opening": radians(10), "second": 4.0, "first": 2.6, "holds": False},
+        ),
+        ("parallel-pop-up", {"left": 2.5, "right": 1.5, "opening": radians(60), "first": 4.0, "holds": True}),
+        ("goldberg", {"other": radians(100), "shared": radians(80), "holds": False}),
+        ("3-uuu", {"base": 2.0, "top": 2.0, "holds": False}),
+    ],
+)
+def test_relations_are_those_that_are_checked(name, values):
+    given = {key: value for key, value in values.items() if key != "holds"}
+    assert GENERATORS[name].relations
+    if values["holds"]:
+        generate(name, **given)
+    else:
+        with pytest.raises(InvariantError, match="expected"):
+            generate(name, **given)
