@@ -11,6 +11,7 @@ import scipy.linalg
 from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.rank.canonical import canonical_basis
 from synth.folding.branches import Branch, Branches, Search
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
@@ -23,8 +24,9 @@ __all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "search_for"]
 MOST_JOINTS = 600
 """Of larger linkages the branches are not looked for: matrices are dense."""
 
-MOST_BRANCHES, MOST_SECONDS = 128, 120.0
-"""So many are looked for at most, and for so long: there may be twice as many for each row of panels more."""
+MOST_BRANCHES, MOST_WORK = 128, 1e10
+"""So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
+row of panels more."""
 
 _FOLLOWED = 2500
 """Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
@@ -37,7 +39,7 @@ _DIGITS = 6
 
 def search_for(joints: int, towards: Floats | None) -> Search:
     """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
-    return Search(MOST_BRANCHES, MOST_SECONDS, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
+    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +154,7 @@ def _towards(branch: Branch, marks: Floats) -> Floats:
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates
-    return -branch.rates if branch.rates @ marks < 0.0 else branch.rates
+    return -branch.rates if branch.rates @ marks < -_STILL else branch.rates
 
 
 def _rates(branch: Branch, wanted: Wanted) -> Floats:
@@ -173,4 +175,4 @@ def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
     across = scipy.linalg.null_space(wanted.turns[None])
     normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
     turned, sizes, _ = np.linalg.svd(normals)
-    return replace(space, basis=np.asarray(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))
+    return replace(space, basis=canonical_basis(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))

@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from math import degrees, inf
-from time import monotonic
 from typing import Any, Literal
 
 import numpy as np
 
 from graphs.arrays import Floats
 from graphs.ids import JointId
+from graphs.rank.canonical import canonical_order
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance
@@ -29,6 +29,7 @@ from synth.folding.singular.nearest import spaces_near
 from synth.folding.singular.quadrics import ZERO, Quadric, all_quadrics
 from synth.folding.singular.rigidity import Rigidity, rigidity_of
 from synth.folding.singular.sampling import (
+    STILL,
     Followed,
     followed,
     general_rates,
@@ -42,11 +43,12 @@ __all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of", "first_br
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
-_STILL = 1e-7
 _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
 _ERROR = 1e-10
 """Of the derivatives at a pose that closes to 1e-12."""
+_START = 2e5
+"""Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
 
@@ -59,18 +61,18 @@ class Search:
     ----------
     most : int
         After so many spaces of rates the search ends.
-    seconds : float
-        After so long it ends too, and what was found by then is told.
+    work : float
+        After so much work, in products of numbers, it ends too, and what was found by then is reported.
     zero : float
         Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     follow : int, optional
         So many branches are followed; of others it is told that they may begin.
     towards : float[J], optional
-        Signs of rates: if the search ends before it is through, the branch near to these comes first.
+        Signs of rates: if the search ends before it is through, the branch near to these is among the listed.
     """
 
     most: int = 4096
-    seconds: float = inf
+    work: float = inf
     zero: float = ZERO
     follow: int | None = None
     towards: Floats | None = None
@@ -128,7 +130,7 @@ class Branch:
     @property
     def signs(self) -> str:
         """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-        return "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in self.rates)
+        return _signs(self.rates)
 
     def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
         """Return plain data, joints by their ids: those of the linkage, in order."""
@@ -150,6 +152,8 @@ class Branches:
     Attributes
     ----------
     branches : tuple of Branch
+        Those on which most joints move first; of these, those with most rates; then by their signs in the order of
+        the joints.
     exhaustive : bool
         Whether there are no others: every choice of modes was tried, and rates that agree to second order are
         all there are; the pose is regular, and the one branch has as many freedoms as there are rates; or nothing
@@ -232,7 +236,8 @@ def first_branch(
     linkage : PosedLinkage
         Closed at its pose.
     admitted : callable
-        Takes rates, float[J], the largest 1 or -1; tells whether they will do.
+        Takes rates, float[J], the largest 1 or -1, zero where a joint does not begin to move; tells whether they
+        will do.
     search : Search, optional
         Where it ends.
 
@@ -246,7 +251,7 @@ def first_branch(
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
     >>> linkage = linkage_of_sheet(Sheet(5, (), "", faces, corners))
     >>> first_branch(linkage, lambda rates: rates[0] * rates[1] > 0.0).signs
-    '--+-'
+    '++-+'
     >>> first_branch(linkage, lambda rates: abs(rates).min() > 1.0)
     """
     looking = _Looking(linkage, ClosureEquations(linkage), search or Search())
@@ -262,7 +267,7 @@ class _Looking:
         self.linkage, self.closure, self.search = linkage, closure, search
         self.complete = True
         self.vertices = FlatVertices(linkage)
-        self._end = monotonic() + search.seconds
+        self._work = Allowance(search.work)
         self._allowance = Allowance(_STEPS)
         self._tangent = rates_at(closure, linkage.angles, search.zero)
         self._quadrics: list[Quadric] = all_quadrics(linkage, self._tangent, search.zero)
@@ -270,17 +275,19 @@ class _Looking:
     def spaces(self) -> list[RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
         found: list[RateSpace] = []
-        for space in spaces_within(self._tangent, self._quadrics, self.search.zero):
-            if len(found) == self.search.most or self._late():
+        for space in spaces_within(self._tangent, self._quadrics, self.search.zero, self._work):
+            if len(found) == self.search.most:
                 self.complete = False
                 break
             found.append(space)
+        self.complete = self.complete and not self._work.used_up
         if not self.complete:
             found = [*self._towards(), *found]
         return largest_only(found, self.search.zero)
 
     def _late(self) -> bool:
-        return monotonic() > self._end
+        """Tell whether there is no work left for a start of Newton's method."""
+        return not self._work.take(_START)
 
     def _towards(self) -> list[RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -312,20 +319,22 @@ class _Looking:
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), _ERROR).rank == self.closure.rows
 
-    def parts(self, spaces: list[RateSpace]) -> Iterator[tuple[RateSpace, Floats]]:
-        """Yield general rates of each part of all spaces, with the space."""
+    def parts(self, spaces: list[RateSpace]) -> list[tuple[RateSpace, Floats]]:
+        """Return general rates of each part of all spaces, with the space, in the order of branches."""
+        found: list[tuple[RateSpace, Floats]] = []
         for space in spaces:
             here, whole = general_rates(space, self.search.most, self.search.towards, self._late)
             self.complete = self.complete and whole
-            yield from ((space, rates) for rates in here)
+            found += [(space, rates) for rates in here]
+        return [found[place] for place in canonical_order([_rank_of(*part) for part in found])]
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
-        parts = list(self.parts(spaces))
+        parts = self.parts(spaces)
         nearest = self._nearest(parts)
         begun = 0
         for number, (space, rates) in enumerate(parts):
-            late = number != nearest and (self._late() or begun == self.search.follow)
+            late = number != nearest and (self._work.used_up or begun == self.search.follow)
             begun += not late
             self.complete = self.complete and not late
             yield self.branch(space, rates, proved=proved, late=late)
@@ -339,12 +348,12 @@ class _Looking:
         for space, rates in parts:
             near = rates_towards(space, towards)
             there = near if near.any() and same_part(space, near, rates) else rates
-            agree.append(abs(float(np.sign(np.where(np.abs(there) > _STILL, there, 0.0)) @ towards)))
+            agree.append(abs(float(np.sign(np.where(np.abs(there) > STILL, there, 0.0)) @ towards)))
         return int(np.argmax(agree))
 
     def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
-        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= _STILL).tolist())
+        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= STILL).tolist())
         linear = self.vertices.linear and not space.left
         if linear:
             came = in_half_tangents(self.closure, space, rates)
@@ -359,3 +368,14 @@ class _Looking:
             freedoms, certainty = space.basis.shape[1], "proved"
         modes = self.vertices.modes(rates)
         return Branch(freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far)
+
+
+def _signs(rates: Floats) -> str:
+    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
+    return "".join("0" if abs(rate) <= STILL else "+-"[int(rate < 0)] for rate in rates)
+
+
+def _rank_of(space: RateSpace, rates: Floats) -> Floats:
+    """Return what branches are listed by: most joints that move, most rates, signs in order of joints, rates."""
+    signs = [" +-0".index(sign) for sign in _signs(rates)]
+    return np.array([signs.count(3), -space.basis.shape[1], *signs, *rates], dtype=float)

@@ -8,6 +8,8 @@ now. Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -157,6 +159,20 @@ class ClosureEquations:
         self.joints = len(linkage.angles)
         self.rows = sum(group.equations * len(group.joints) for group in self._groups)
         self._places, self._columns, self._starts = self._pattern()
+        self._free: Floats | None = None
+
+    def locked(self, joints: Sequence[int]) -> ClosureEquations:
+        """Return the equations of the same linkage with some joints locked: derivatives by these are zero.
+
+        Parameters
+        ----------
+        joints : sequence of int
+            Places of the joints that keep their angles.
+        """
+        made = copy(self)
+        made._free = np.ones(self.joints)
+        made._free[list(joints)] = 0.0
+        return made
 
     def by_axes(self, angles: Floats) -> scipy.sparse.csr_matrix:
         """Return the derivatives of what does not close by small motions of the axes.
@@ -217,10 +233,10 @@ class ClosureEquations:
         """
         evaluated = [group.evaluated(angles - self._zero) for group in self._groups]
         residual = np.concatenate([np.zeros(0), *(off.ravel() for off, _ in evaluated)])
-        values = np.concatenate([np.zeros(0), *(twists.ravel() for _, twists in evaluated)])
-        matrix = scipy.sparse.csr_matrix(
-            (values[self._places], self._columns, self._starts), shape=(self.rows, self.joints)
-        )
+        values = np.concatenate([np.zeros(0), *(twists.ravel() for _, twists in evaluated)])[self._places]
+        if self._free is not None:
+            values = values * self._free[self._columns]
+        matrix = scipy.sparse.csr_matrix((values, self._columns, self._starts), shape=(self.rows, self.joints))
         return residual, matrix
 
     def error(self, angles: Floats) -> float:

@@ -6,7 +6,7 @@ Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from sys import float_info
 
@@ -16,6 +16,7 @@ from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
+from graphs.rank.canonical import MARGIN, leading
 from synth.folding.beginning import Wanted, beginning
 from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations
@@ -24,6 +25,9 @@ from synth.folding.newton import CLOSED
 from synth.folding.path import DrivenPath, PathOptions, driven_path
 
 __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
+
+_FARTHER = 1e-3
+"""Radians: a path that leads on by less is not longer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,19 +145,35 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
         wanted = _along(joints, asked)
     number, rates = beginning(closure, linkage, found, wanted)
     if not places:
-        places = [int(np.abs(rates).argmax())]
+        places = [leading(rates)]
         goals = asked.whole * np.sign(rates[places])
     start = linkage.angles[places]
-    if (goals - start) @ rates[places] < 0.0:
+    if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
         rates = -rates
     steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
     limited = np.full(len(joints), asked.limited)
     by_least_rates = found is not None and found.regular and len(asked.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     options = PathOptions(direction, limited, straight=bool(asked.along), report=asked.report, names=joints)
-    path = driven_path(closure, linkage.angles, places, start + steps * (goals - start), options=options)
+    values = start + steps * (goals - start)
+    still = () if number is None or found is None else found.branches[number].still
+    path = _path(closure, linkage.angles, places, values, replace(options, locked=still))
     told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, told, path)
+
+
+def _path(
+    closure: ClosureEquations, start: Floats, places: list[int], values: Floats, options: PathOptions
+) -> DrivenPath:
+    """Return the path on which joints that do not begin to move are locked, or if it ends before, a longer one."""
+    if not options.locked or set(options.locked) & set(places):
+        return driven_path(closure, start, places, values, options=replace(options, locked=()))
+    path = driven_path(closure, start, places, values, options=options)
+    if not path.stopped:
+        return path
+    free = driven_path(closure, start, places, values, options=replace(options, locked=()))
+    lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]
+    return free if lead[1] > lead[0] + _FARTHER or not free.stopped else path
 
 
 def _along(joints: tuple[JointId, ...], asked: Asked) -> Wanted:

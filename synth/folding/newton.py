@@ -53,7 +53,7 @@ class TangentSpace:
     def __init__(self, jacobian: scipy.sparse.csr_matrix, regular: float = _REGULAR) -> None:
         self._jacobian = jacobian
         self._transposed = jacobian.T.tocsr()
-        self._solve = _solver(jacobian, self._transposed, regular)
+        self._solve, self._added = _solver(jacobian, self._transposed, regular)
         self._moves: dict[int, Floats] = {}
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
@@ -65,7 +65,7 @@ class TangentSpace:
         held : sequence of int
             Places of joints that are not to move, if they need not.
         """
-        change = self._solve(-(self._transposed @ residual))
+        change = self._least(-residual)
         if not held:
             return change
         moves = np.stack([self._move(joint) for joint in held])
@@ -77,7 +77,7 @@ class TangentSpace:
         """Return the rates nearest to given ones at which all loops stay closed to first order: float[J]."""
         kept = rates
         for _ in range(2):  # the second takes off what regularisation left
-            kept = kept - self._solve(self._transposed @ (self._jacobian @ kept))
+            kept = kept - self._least(self._jacobian @ kept)
         return kept
 
     def sharpened(self, across: Floats) -> Floats:
@@ -97,6 +97,16 @@ class TangentSpace:
         """Return by what loops part at some rates: float[rows]."""
         return np.asarray(self._jacobian @ rates)
 
+    def _least(self, off: Floats) -> Floats:
+        """Return the least rates at which loops part by float[rows]: none of them along freedoms.
+
+        The solution x of (J' J + e) x = J' b is J' (b - J x) / e too. Solved for, it has rounding along freedoms
+        that was divided by e, and paths with several freedoms would go where that leads; a sum of rows of J has
+        no part along freedoms.
+        """
+        rates = self._solve(self._transposed @ off)
+        return np.asarray(self._transposed @ ((off - self._jacobian @ rates) / self._added))
+
     def _move(self, joint: int) -> Floats:
         if joint not in self._moves:
             self._moves[joint] = self.projected(np.eye(1, self._jacobian.shape[1], joint)[0])
@@ -114,20 +124,22 @@ class TangentSpace:
 
 def _solver(
     jacobian: scipy.sparse.csr_matrix, transposed: scipy.sparse.csr_matrix, regular: float
-) -> Callable[[Floats], Floats]:
-    """Return what solves the normal equations."""
+) -> tuple[Callable[[Floats], Floats], float]:
+    """Return what solves the normal equations, and what is added to their diagonal."""
     if jacobian.shape[1] <= _DENSE:
         full = jacobian.toarray()
         normal = full.T @ full
         diagonal = np.einsum("ii->i", normal)
-        diagonal += regular * max(float(diagonal.max(initial=0.0)), 1.0)
+        added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
+        diagonal += added
         factor = scipy.linalg.cho_factor(normal, lower=True, overwrite_a=True, check_finite=False)
-        return lambda given: np.asarray(scipy.linalg.cho_solve(factor, given, check_finite=False))
+        return lambda given: np.asarray(scipy.linalg.cho_solve(factor, given, check_finite=False)), added
     sparse = (transposed @ jacobian).tocsc()
     diagonal = sparse.diagonal()
-    sparse.setdiag(diagonal + regular * max(float(diagonal.max(initial=0.0)), 1.0))
+    added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
+    sparse.setdiag(diagonal + added)
     factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    return lambda given: np.asarray(factors.solve(given))
+    return lambda given: np.asarray(factors.solve(given)), added
 
 
 @dataclass(frozen=True)

@@ -85,7 +85,7 @@ def driven_path(
     """
     options = options or PathOptions()
     legs = Legs(closure, list(drivers), options)
-    frames, events, stopped = [corrected(closure, start)], list[PathEvent](), ""
+    frames, events, stopped = [corrected(legs.moving, start)], list[PathEvent](), ""
     for value in np.asarray(values, dtype=float).reshape(-1, len(drivers)):
         leg = legs.to(frames[-1], value)
         events += [replace(event, frame=event.frame + len(frames) - 1) for event in leg.events]

@@ -12,13 +12,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
+from math import inf
 
 import numpy as np
 import scipy.linalg
 import scipy.sparse
 
 from graphs.arrays import Floats, Ints
+from graphs.rank.canonical import canonical_basis, canonical_order, signed
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.stepping import Allowance
 from synth.folding.newton import TangentSpace
 from synth.folding.singular.definite import CLEAR, definite_weights
 from synth.folding.singular.quadrics import ZERO, Quadric, local_forms
@@ -27,6 +30,8 @@ __all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near",
 
 _CLOSED, _STEPS = 1e-11, 40
 _MANY = 600
+_CASE = 3e4
+"""Work on a case besides that on its matrices, in products of numbers."""
 _SAME, _LOST = 1e-6, 10.0
 """Spaces that are this close are one, or this many times closer than what counts as zero."""
 
@@ -67,7 +72,9 @@ def rate_spaces(
     return largest_only(found[:most], zero), len(found) <= most
 
 
-def spaces_within(tangent: Floats, quadrics: Sequence[Quadric], zero: float = ZERO) -> Iterator[RateSpace]:
+def spaces_within(
+    tangent: Floats, quadrics: Sequence[Quadric], zero: float = ZERO, allowance: Allowance | None = None
+) -> Iterator[RateSpace]:
     """Yield spaces that hold all rates which agree to second order, depth first; some may be part of others.
 
     Parameters
@@ -77,9 +84,12 @@ def spaces_within(tangent: Floats, quadrics: Sequence[Quadric], zero: float = ZE
     quadrics : sequence of Quadric
     zero : float, optional
         Eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    allowance : Allowance, optional
+        Work that may be done, in products of numbers; where it is used up the search ends.
     """
     quadrics = tuple(quadrics)
-    yield from _split(_Case(tangent, quadrics, local_forms(tangent, quadrics), zero))
+    case = _Case(tangent, quadrics, local_forms(tangent, quadrics), zero)
+    yield from _split(case, allowance or Allowance(inf))
 
 
 def largest_only(spaces: Sequence[RateSpace], zero: float = ZERO) -> list[RateSpace]:
@@ -137,14 +147,14 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = ZERO) -> F
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
     By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
-    third of the time.
+    third of the time. The columns depend on the space alone (`graphs.rank.canonical`).
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:
-        return np.asarray(scipy.linalg.null_space(matrix, rcond=zero))
+        return canonical_basis(np.asarray(scipy.linalg.null_space(matrix, rcond=zero)))
     columns, triangle, _ = scipy.linalg.qr(matrix.T, pivoting=True, overwrite_a=True, check_finite=False)
     sizes = np.abs(np.diag(triangle))
-    return np.asarray(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
+    return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
 
 
 def _within_one(
@@ -190,16 +200,19 @@ class _Case:
         return replace(self, basis=self.basis @ part, forms=part.T @ self.forms @ part)
 
 
-def _split(case: _Case) -> Iterator[RateSpace]:
-    """Yield the spaces of solutions within a space, depth first."""
+def _split(case: _Case, allowance: Allowance) -> Iterator[RateSpace]:
+    """Yield the spaces of solutions within a space, depth first, until an allowance of work is used up."""
+    if not allowance.take(_CASE + (len(case.left) + 1) * case.basis.shape[1] ** 3):
+        return
     case, factors = _simplified(case)
     if not case.basis.shape[1]:
         return
     if factors is not None:
-        for normal in factors:
-            yield from _split(case.across(normal))
+        by_joints = [signed(case.basis @ normal) for normal in factors]
+        for place in canonical_order([one / np.linalg.norm(one) for one in by_joints]):
+            yield from _split(case.across(factors[place]), allowance)
     elif len(case.left) < 2 or definite_weights(case.forms, max(case.zero, CLEAR)) is None:
-        yield RateSpace(case.basis, case.left)
+        yield RateSpace(canonical_basis(case.basis), case.left)
 
 
 def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:

@@ -13,6 +13,7 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre
+from graphs.rank.canonical import canonical_basis
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, PosedLoop
@@ -76,7 +77,8 @@ def first_order(linkage: PosedLinkage) -> FirstOrder:
         raise NumericalError("the rank of the closure equations at the pose cannot be told")
     left, values, right = np.linalg.svd(matrix)
     smallest = float(values[found.rank - 1]) if found.rank else 0.0
-    return FirstOrder(matrix, loop_of, right[found.rank :].T, left[:, found.rank :], smallest, found.gap)
+    rates, stresses = canonical_basis(right[found.rank :].T), canonical_basis(left[:, found.rank :])
+    return FirstOrder(matrix, loop_of, rates, stresses, smallest, found.gap)
 
 
 def smallest_sets(linkage: PosedLinkage, order: FirstOrder) -> list[tuple[tuple[int, ...], int]]:

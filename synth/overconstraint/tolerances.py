@@ -14,6 +14,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.ids import JointId
+from graphs.rank.canonical import canonical_order
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.overconstraint.idle import FirstOrder, loop_alone
@@ -44,7 +45,7 @@ class Tolerance:
 
 
 def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
-    """Return how far each axis may err, least first.
+    """Return how far each axis may err, least first; axes that may err alike in the order of the joints.
 
     Examples
     --------
@@ -69,7 +70,8 @@ def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
                 _allowed(order.smallest, shifted @ across) * linkage.extent,
             )
         )
-    return sorted(found, key=lambda one: (min(one.turn, one.shift / linkage.extent), str(one.joint)))
+    least = np.array([[min(one.turn, one.shift / linkage.extent)] for one in found]).reshape(-1, 1)
+    return [found[place] for place in canonical_order(list(np.log(np.clip(least, 1e-300, 1e300))))]
 
 
 def growths(linkage: PosedLinkage, order: FirstOrder) -> Floats:

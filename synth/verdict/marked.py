@@ -61,7 +61,7 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedW
     >>> from synth.patterns.creases.tessellations import miura
     >>> pattern = prepared(miura(2, 2, 1.0))
     >>> marked_way(pattern.branches, pattern.linkage, pattern.marks)
-    MarkedWay(number=1, marked='has')
+    MarkedWay(number=0, marked='has')
     >>> marked_way(pattern.branches, pattern.linkage, abs(pattern.marks))
     MarkedWay(number=None, marked='none has')
     """
@@ -88,12 +88,11 @@ def _marked_rates(space: RateSpace, marks: Floats, starts: int) -> list[Floats]:
     inside = _rates_with(space.basis, marks)
     if inside is None or not space.left:
         return [] if inside is None else [inside]
-    chance = np.random.default_rng(len(marks))
     marked, largest, found = marks != 0.0, np.abs(inside).max(), list[Floats]()
     for number in range(starts):
         start = (marks * largest, inside)[number % 2]
         if number > 1:  # other sizes, the same signs
-            start = start * chance.uniform(0.0, 2.0, len(marks))
+            start = start * np.random.default_rng((len(marks), number)).uniform(0.0, 2.0, len(marks))
         rates = rates_towards(space, start)
         turned = (rates * marks)[marked]
         if (turned > _STILL).all() or (turned < -_STILL).all():
@@ -102,10 +101,11 @@ def _marked_rates(space: RateSpace, marks: Floats, starts: int) -> list[Floats]:
 
 
 def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
-    """Return rates within a space, columns of float[J, s], that have all marks; None if there are none."""
+    """Return rates within a space, columns of float[J, s], that have all marks; None if there are none.
+
+    Each marked joint has a rate of 1 at least, their sum is least.
+    """
     marked = marks != 0.0
     rows = -marks[marked, None] * basis[marked]
-    inside = linprog(
-        np.zeros(rows.shape[1]), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs"
-    )
+    inside = linprog(-rows.sum(axis=0), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs")
     return np.asarray(basis @ inside.x) if inside.status == 0 else None

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats, Ints
+from graphs.rank.canonical import leading
 from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations
@@ -156,14 +157,14 @@ def _ways(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | No
 
 def _nearest(linkage: PosedLinkage, closure: ClosureEquations, rates: Floats) -> Beginning:
     """Return the one way of a linkage whose branches are not looked for."""
-    first, end = int(np.abs(rates).argmax()), walked(linkage.angles, closure, rates)[0]
+    first, end = leading(rates), walked(linkage.angles, closure, rates)[0]
     moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
     freedoms, drivers = _driven(closure, end, moving, first)
     return Beginning(_NEAREST, rates, drivers, freedoms=freedoms)
 
 
 def _beginning(number: int, branch: Branch, rates: Floats, closure: ClosureEquations) -> Beginning:
-    freedoms, first = branch.freedoms, int(np.abs(rates).argmax())
+    freedoms, first = branch.freedoms, leading(rates)
     told = "freedoms not known" if freedoms is None else f"{freedoms} freedom{'s' * (freedoms != 1)}"
     moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.still, dtype=np.int64))
     # rates that close to first order may be more than the freedoms, which are those to second order

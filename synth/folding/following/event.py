@@ -16,6 +16,11 @@ __all__ = ["EventKind", "PathEvent", "angle_told", "joints_told"]
 EventKind = Literal["turning point", "limit", "rank drop", "collision"]
 
 
+_DIGITS: dict[EventKind, int] = {"turning point": 6, "limit": 4, "rank drop": 4, "collision": 6}
+"""Decimals of a degree: a singular value of zero, and panels that lie flat on each other, are found to the root of
+rounding."""
+
+
 @dataclass(frozen=True, slots=True)
 class PathEvent:
     """Something that a path met.
@@ -58,16 +63,21 @@ class PathEvent:
             "kind": self.kind,
             "frame": self.frame,
             "driver": names[self.driver],
-            "at_deg": degrees(float(self.angles[self.driver])),
+            "at_deg": self._at_deg,
             "joints": [names[joint] for joint in self.joints],
             "drop": self.drop,
             "other_ways": self.other_ways,
             "panels": list(self.panels),
         }
 
+    @property
+    def _at_deg(self) -> float:
+        """The angle of the driver in degrees, to the digits that the place of the event is known to."""
+        return round(degrees(float(self.angles[self.driver])), _DIGITS[self.kind]) + 0.0
+
     def told(self, names: Sequence[JointId]) -> str:
         """Return one line, joints called by names: sequence of J ids."""
-        at = f"joint {shown(names[self.driver])} at {angle_told(float(self.angles[self.driver]))}"
+        at = f"joint {shown(names[self.driver])} at {self._at_deg:.6g} degrees"
         if self.kind == "turning point":
             return f"turning point: {at}"
         if self.kind == "limit":
@@ -87,7 +97,7 @@ def angle_told(angle: float) -> str:
     >>> angle_told(1.0471975511966)
     '60 degrees'
     """
-    return f"{degrees(angle):.6g} degrees"
+    return f"{round(degrees(angle), 6) + 0.0:.6g} degrees"
 
 
 def joints_told(joints: Sequence[int], names: Sequence[JointId]) -> str:

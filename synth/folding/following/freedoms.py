@@ -6,9 +6,9 @@ Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 
 from graphs.arrays import Floats, Ints
+from graphs.rank.canonical import canonical_basis, pivots
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
 
@@ -58,7 +58,7 @@ def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = 
         _, sizes, rows = np.linalg.svd(np.array(found), full_matrices=False)
         rank = int((sizes > _FREE * np.sqrt(size)).sum())
         if rank < len(found):
-            return np.asarray(rows[:rank].T)
+            return canonical_basis(rows[:rank].T)
     return None
 
 
@@ -84,9 +84,4 @@ def independent_joints(basis: Floats, first: int) -> list[int]:
     if basis.size and np.linalg.norm(own) > _DEPENDS:
         chosen = [first]
         left = basis - np.outer(basis @ own, own) / (own @ own)
-    if not left.size:
-        return chosen
-    triangle, order = scipy.linalg.qr(left.T, mode="r", pivoting=True)
-    sizes = np.abs(np.diag(triangle))
-    kept = order[: len(sizes)][sizes > _DEPENDS]
-    return [*chosen, *(int(joint) for joint in kept)]
+    return [*chosen, *pivots(left)]

@@ -15,6 +15,7 @@ import numpy as np
 from graphs.arrays import Flags, Floats
 from graphs.errors import shown
 from graphs.ids import JointId
+from graphs.rank.canonical import leading, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.between import Step
 from synth.folding.following.event import EventKind, PathEvent, angle_told, joints_told
@@ -61,7 +62,9 @@ class Legs:
     def __init__(self, closure: ClosureEquations, drivers: list[int], options: PathOptions) -> None:
         self.drivers, self.options = drivers, options
         self.names: Sequence[JointId] = range(closure.joints) if options.names is None else options.names
-        self.stepping = Stepping(closure, drivers, options)
+        self.closure = closure
+        self.moving = closure.locked(options.locked) if options.locked else closure
+        self.stepping = Stepping(self.moving, drivers, options)
         self.watch = RankWatch(closure) if 0 < closure.joints <= WATCHED and closure.rows else None
 
     def to(self, here: Corrected, value: Floats) -> Leg:
@@ -76,7 +79,7 @@ class _Following:
         self._legs, self._stepping = legs, legs.stepping
         self._here, self._value = here, value
         left = value - here.angles[legs.drivers]
-        self._lead = int(np.abs(left).argmax())
+        self._lead = leading(left)
         self._joint, self._way = legs.drivers[self._lead], float(np.sign(left[self._lead]))
         self._last: Step | None = None
         self._tops: list[Corrected] = []
@@ -125,8 +128,10 @@ class _Following:
         stopped, step = "", self._flattened(step)
         if self._beyond(step.after.angles).any():
             over = step.after.angles
-            step = step.up_to(step.last(lambda angles: not self._beyond(angles).any()))
+            step = self._flattened(step.up_to(step.last(lambda angles: not self._beyond(angles).any())))
             joints = tuple(np.flatnonzero(self._beyond(over)).tolist())
+            if np.abs(step.after.angles - step.before.angles).max() <= _FLAT:
+                step = step.up_to(step.before)  # they lie on each other here, but for what loops tell of it
             stopped = f"panels lie on each other at joint(s) {joints_told(joints, self._legs.names)}"
         if len(self._legs.drivers) == 1 and self._left(step.after) < 0.0:
             landed = step.landing(self._joint, float(self._value[0]))
@@ -169,7 +174,7 @@ class _Following:
         flat = bool(self._at_limit(step))
         found = None if watch is None else watch.dropped(step, flat=flat)
         if found is not None:
-            ways = other_ways(step.closure, found[0])
+            ways = other_ways(self._legs.closure, found[0])
             self._events.append(
                 PathEvent("rank drop", len(self._tops), self._joint, (self._joint,), found[0], found[1], ways)
             )
@@ -215,7 +220,7 @@ class _Following:
         poses = [*self._tops, self._here]
         if not stopped or not self._tops:
             return Leg(poses, self._events, stopped)
-        best = int(np.argmin([self._left(pose) for pose in poses]))
+        best = trailing(np.array([self._left(pose) for pose in poses]), scale=1.0)
         if best == len(self._tops):
             return Leg(poses, self._events, stopped)
         turns = [place for place, event in enumerate(self._events) if event.kind == "turning point"]

@@ -56,6 +56,9 @@ class PathOptions:
         How joints are told; by default by their places.
     allowance : Allowance, optional
         Steps that may be taken, by this path and others that share it.
+    locked : sequence of int, optional
+        Places of joints that keep their angles: those that do not move on the branch. Their closure equations may
+        be squares there, which tell angles to the root of their error only.
     """
 
     direction: Floats | None = None
@@ -64,16 +67,20 @@ class PathOptions:
     report: Callable[[int], None] | None = None
     names: Sequence[JointId] | None = None
     allowance: Allowance | None = None
+    locked: Sequence[int] = ()
 
 
 @dataclass(slots=True)
 class Allowance:
-    """Steps that all paths of a search may take together: where panels are all but nothing, ways are endless.
+    """Work that a search may do altogether, such as the steps of all its paths.
+
+    Where panels are all but nothing ways are endless. Work is counted, not timed, so that answers are the same on
+    slow and on fast machines.
 
     Attributes
     ----------
-    left : int
-        Steps.
+    left : float
+        Steps, or other units of work.
 
     Examples
     --------
@@ -82,12 +89,17 @@ class Allowance:
     (True, False)
     """
 
-    left: int
+    left: float
 
-    def take(self) -> bool:
-        """Take a step, if one is left."""
-        self.left -= 1
+    def take(self, work: float = 1) -> bool:
+        """Take a step, or some work, if it is left."""
+        self.left -= work
         return self.left >= 0
+
+    @property
+    def used_up(self) -> bool:
+        """Whether more was asked for than there was."""
+        return self.left < 0
 
 
 class Stepping:

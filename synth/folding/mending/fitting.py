@@ -15,6 +15,7 @@ import numpy as np
 import scipy.sparse
 
 from graphs.arrays import Floats
+from graphs.rank.canonical import leading
 from synth.folding.closure import ClosureEquations
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.places import VertexPlaces
@@ -98,7 +99,7 @@ class Fitting:
         most : float
             How far a coordinate may be moved, in units of the extent.
         """
-        driver = int(np.abs(rates).argmax())
+        driver = leading(rates)
         way = float(np.sign(rates[driver]))
         state = _State(self._by, np.zeros((0, len(self._start))))
         here, direction = self._start, rates

@@ -10,6 +10,7 @@ from math import radians
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.rank.canonical import leading
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
 
@@ -54,7 +55,7 @@ def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> flo
     >>> round(least_misfit(ClosureEquations(linkage), linkage.angles, np.array([1.0, 0.5, 0.5])), 2)
     0.01
     """
-    driver = int(np.abs(rates).argmax())
+    driver = leading(rates)
     free = np.ones(closure.joints)
     free[driver] = 0.0
     angles = start + TURNED / abs(float(rates[driver])) * rates

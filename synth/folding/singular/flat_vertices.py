@@ -14,6 +14,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.loops.loop import Centre
+from graphs.rank.canonical import trailing
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["FlatVertices"]
@@ -78,7 +79,7 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
         return None
     folds = rates[list(loop.joints)] * ways
     alike = folds[:2] * folds[2:]
-    same = int(alike.argmax())
+    same = trailing(-alike)
     first, second = sorted(loop.joints[same::2])
     return (first, second) if alike[same] > _STILL**2 else None
 

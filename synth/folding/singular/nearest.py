@@ -14,6 +14,7 @@ import numpy as np
 import scipy.linalg
 
 from graphs.arrays import Floats, Ints
+from graphs.rank.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, rates_at, rates_near
@@ -110,7 +111,8 @@ def spaces_near(
     """
     stack = _Stack(quadrics, zero)
     for basis, left in stack.split(tangent, np.arange(len(quadrics)), wanted):
-        yield RateSpace(basis, tuple(quadrics[number] for number in left)) if basis.shape[1] else None
+        left_there = tuple(quadrics[number] for number in left)
+        yield RateSpace(canonical_basis(basis), left_there) if basis.shape[1] else None
 
 
 class _Stack:
@@ -145,7 +147,7 @@ class _Stack:
             if not len(products):
                 yield basis, left
                 return
-            for normal in _clearest(values[products], axes[products], basis.T @ wanted):
+            for normal in _clearest(values[products], axes[products], basis.T @ wanted, basis):
                 yield from self.split(self._part(basis, normal[:, None]), left, wanted)
             return
         yield basis, left
@@ -168,7 +170,7 @@ class _Stack:
         return np.asarray(basis @ scipy.linalg.null_space(normals.T, rcond=self._zero))
 
 
-def _clearest(values: Floats, axes: Floats, wanted: Floats) -> tuple[Floats, Floats]:
+def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tuple[Floats, Floats]:
     """Return the normals of the factors between which wanted rates decide most clearly, the nearer one first.
 
     Parameters
@@ -176,6 +178,8 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats) -> tuple[Floats, Flo
     values, axes : float[n, k], float[n, s, k]
         Eigenvalues and eigenvectors of products: one value is positive, one negative.
     wanted : float[s]
+    basis : float[J, s]
+        Of the space: where the wanted rates are as near to both factors, the order of the joints decides.
     """
     each = np.arange(len(values))
     first, last = values.argmin(axis=1), values.argmax(axis=1)
@@ -184,6 +188,9 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats) -> tuple[Floats, Flo
     factors = np.stack([up + down, up - down], axis=1)
     factors /= np.linalg.norm(factors, axis=2, keepdims=True)
     off = np.abs(factors @ wanted)
-    best = int((off.min(axis=1) / np.maximum(off.max(axis=1), _EVEN)).argmin())
-    near, far = factors[best][np.argsort(off[best], kind="stable")]
-    return near, far
+    best = trailing(off.min(axis=1) / np.maximum(off.max(axis=1), _EVEN), scale=1.0)
+    first, second = (
+        factors[best][place] for place in canonical_order([signed(basis @ one) for one in factors[best]])
+    )
+    swapped = abs(float(second @ wanted)) < abs(float(first @ wanted)) - MARGIN * float(np.linalg.norm(wanted))
+    return (second, first) if swapped else (first, second)

@@ -17,6 +17,7 @@ import scipy.linalg
 
 from graphs.arrays import Floats
 from graphs.loops.loop import Centre
+from graphs.rank.canonical import canonical_basis
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
 __all__ = [
@@ -72,7 +73,7 @@ def quadrics_of(linkage: PosedLinkage) -> list[Quadric]:
     quadrics = []
     for loop in linkage.loops:
         twists = _twists(linkage, loop)
-        stresses = scipy.linalg.null_space(twists.T, rcond=ZERO)
+        stresses = canonical_basis(scipy.linalg.null_space(twists.T, rcond=ZERO))
         if not stresses.shape[1]:
             continue
         for form in np.moveaxis(_second_order(twists) @ stresses, -1, 0):
@@ -161,7 +162,9 @@ def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
         right = right[values > zero * values.max(initial=0.0)]
         rows = rows - (rows @ right.T) @ right
     _, values, right = np.linalg.svd(rows, full_matrices=False)
-    return np.asarray(right[values > zero])  # stresses and rates are unit vectors, brackets of the size of one
+    return canonical_basis(
+        right[values > zero].T
+    ).T  # stresses and rates are unit vectors, brackets of the size of one
 
 
 def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:

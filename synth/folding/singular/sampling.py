@@ -13,9 +13,9 @@ from itertools import islice
 from math import radians, tan
 
 import numpy as np
-import scipy.sparse
 
 from graphs.arrays import Floats
+from graphs.rank.canonical import leading, signed, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage
@@ -26,6 +26,7 @@ from synth.folding.singular.quadrics import all_quadrics, local_forms
 
 __all__ = [
     "FOLLOWED",
+    "STILL",
     "Followed",
     "followed",
     "freedoms_at",
@@ -41,8 +42,14 @@ FOLLOWED = radians(10.0)
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
 _AGREES = 1e-9
-_STILL = 1e-7
+STILL = 1e-7
+"""Rates below this part of the largest are none."""
 _NEWTON, _ROUNDED = 30, 1e-14
+_APEX = 1e-4
+"""Slope of an equation, as part of its size, below which rates are at the apex of its cone: Newton's method ends
+with the root of its error."""
+_BESIDE, _ASIDE = 8, 0.3
+"""So many starts beside wanted rates, so far from them as part of their size."""
 MOVED, _SHORT_OF = 1e-3, 0.7
 """A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
 _SPACES = 64
@@ -71,21 +78,6 @@ class Followed:
     far: float
 
 
-class _Locked(ClosureEquations):
-    """Closure equations of a linkage some joints of which are locked: its derivatives by them are zero."""
-
-    def __init__(self, linkage: PosedLinkage, still: tuple[int, ...]) -> None:
-        super().__init__(linkage)
-        self._free = np.ones(self.joints)
-        self._free[list(still)] = 0.0
-
-    def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return what does not close at joint angles, and its derivatives by those that are free."""
-        residual, jacobian = super().at(angles)
-        jacobian.data *= self._free[jacobian.indices]
-        return residual, jacobian
-
-
 def followed(
     linkage: PosedLinkage,
     closure: ClosureEquations,
@@ -108,7 +100,7 @@ def followed(
     allowance : Allowance, optional
         Steps that may be taken.
     """
-    ways = [_Locked(linkage, still), closure] if still else [closure]
+    ways = [closure.locked(still), closure] if still else [closure]
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)
         far = float(np.abs(end - linkage.angles).max())
@@ -123,7 +115,7 @@ def walked(
     start: Floats, closure: ClosureEquations, rates: Floats, allowance: Allowance | None = None
 ) -> tuple[Floats, float]:
     """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
-    driver = int(np.abs(rates).argmax())
+    driver = leading(rates)
     options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
     first = replace(options, allowance=allowance)  # the part that is taken again has no more steps
     path = driven_path(closure, start, [driver], start[driver] + goal, options=first)
@@ -154,11 +146,26 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
 
 
 def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
-    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none."""
-    start = space.basis.T @ wanted
-    if np.linalg.norm(start) <= _AGREES * np.linalg.norm(wanted):
+    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none.
+
+    By symmetry the way from wanted rates onto an equation's cone may lead to its apex, where its parts meet and
+    Newton's method finds rates to half their digits only. Then starts beside the wanted ones are tried, and of
+    what they come to the rates that point along these best are taken.
+    """
+    start = np.asarray(space.basis.T @ wanted)
+    size = float(np.linalg.norm(start))
+    if size <= _AGREES * np.linalg.norm(wanted):
         return np.zeros_like(wanted)
-    x = _on_equations(local_forms(space.basis, space.left), np.asarray(start))
+    forms = local_forms(space.basis, space.left)
+    x = _on_equations(forms, start)
+    if x is not None and _at_apex(forms, x):
+        beside = [
+            np.random.default_rng((*space.basis.shape, number)).normal(size=len(start))
+            for number in range(_BESIDE)
+        ]
+        found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
+        general = [one for one in found if one is not None and not _at_apex(forms, one)]
+        x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
     return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
 
 
@@ -176,27 +183,27 @@ def general_rates(
     most : int
         After so many the search ends.
     towards : float[J], optional
-        If it ends so, the part near to these rates comes first.
+        If it ends so, the part near to these rates is among those returned.
     late : callable, optional
         Whether it is time to end the search, with one part at least if there is one.
     """
-    chance, size = np.random.default_rng(space.basis.shape), space.basis.shape[1]
+    size = space.basis.shape[1]
     if not space.left:
+        chance = np.random.default_rng(space.basis.shape)
         x = chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)
-        return [_scaled(space.basis @ x)], True
+        return [signed(_scaled(space.basis @ x))], True
     forms = local_forms(space.basis, space.left)
     halves = _halves(space)
     parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
-    for _ in range(_STARTS * 2 ** min(len(halves), 6)):
+    for number in range(_STARTS * 2 ** min(len(halves), 6)):
+        chance = np.random.default_rng((*space.basis.shape, number))
         x = _on_equations(forms, np.asarray(chance.normal(size=size)))
         if x is None:
             continue
-        rates = space.basis @ x
+        rates = signed(_scaled(space.basis @ x))
         signs = _side(halves, rates)
-        if signs and signs[0] < 0:
-            rates, signs = -rates, tuple(-one for one in signs)
-        found.setdefault(signs, _scaled(rates))
+        found.setdefault(max(signs, tuple(-one for one in signs)), rates)
         if len(found) == parts or len(found) == most or late():
             break
     others = [found[signs] for signs in sorted(found, reverse=True)]
@@ -216,7 +223,9 @@ def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
 
 
 def _scaled(rates: Floats) -> Floats:
-    return np.asarray(rates / np.abs(rates).max())
+    """Return rates the largest of which is 1 or -1; those that are none but for rounding are zero."""
+    scaled = rates / np.abs(rates).max()
+    return np.where(np.abs(scaled) > STILL, scaled, 0.0)
 
 
 def _on_equations(forms: Floats, x: Floats) -> Floats | None:
@@ -231,6 +240,11 @@ def _on_equations(forms: Floats, x: Floats) -> Floats | None:
     return None
 
 
+def _at_apex(forms: Floats, x: Floats) -> bool:
+    """Tell whether some of the forms float[n, s, s] has no slope at a unit vector at which it vanishes."""
+    return bool((np.linalg.norm(forms @ x, axis=1) <= _APEX * np.abs(forms).max(axis=(1, 2))).any())
+
+
 def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
     """Return on which half of each equation's solutions rates are."""
     return tuple(int(np.sign(half @ rates)) for half in halves)
@@ -243,5 +257,5 @@ def _halves(space: RateSpace) -> list[Floats]:
         values, vectors = np.linalg.eigh(form)
         there = np.abs(values) > _AGREES * np.abs(values).max()
         singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
-        found += [space.basis @ vectors[:, single[0]] for single in singles if len(single) == 1][:1]
+        found += [signed(space.basis @ vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
     return found

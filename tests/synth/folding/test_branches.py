@@ -133,7 +133,14 @@ def test_a_search_takes_so_many_steps_and_no_more(data, monkeypatch):
     corners[3] = (-1.0, 1e-5)
     taken = []
     take = Allowance.take
-    monkeypatch.setattr(Allowance, "take", lambda some: (took := take(some), taken.append(took))[0])
+
+    def watched(some, work=1):
+        took = take(some, work)
+        if work == 1:  # a step of a path
+            taken.append(took)
+        return took
+
+    monkeypatch.setattr(Allowance, "take", watched)
     branches = branches_of(linkage_of_sheet(replace(sheet, coordinates=tuple(corners))))
     assert 16 <= sum(taken) <= 400 + 20 * len(branches.branches)
     assert not all(taken)

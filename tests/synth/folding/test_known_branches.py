@@ -179,15 +179,18 @@ def test_sheets_with_more_branches_than_are_told_fold_as_they_are_marked():
     start = linkage(miura(5, 3, np.radians(60)))
     every = branches_of(start).branches
     assert len(every) == 16
-    for wanted in every[-3:]:
+    unseen = {one.signs for one in every} - {
+        one.signs for one in branches_of(start, search=Search(most=2)).branches
+    }
+    for wanted in [one for one in every if one.signs in unseen][-3:]:
         found = branches_of(start, search=Search(most=2, towards=wanted.rates))
         assert (len(found.branches), found.complete, found.exhaustive) == (3, False, False)
-        assert found.branches[0].signs in (wanted.signs, wanted.signs.translate(str.maketrans("+-", "-+")))
-        assert (found.branches[0].freedoms, found.branches[0].certainty) == (wanted.freedoms, "proved")
+        [near] = [one for one in found.branches if one.signs == wanted.signs]
+        assert (near.freedoms, near.certainty) == (wanted.freedoms, "proved")
 
 
 def test_vertices_pop_up_or_down_each(rng):
-    """Of two vertices with six creases: alike or not. The part near to what is wanted comes first."""
+    """Of two vertices with six creases: alike or not. The part near to what is wanted is among them in any case."""
     sheet = triangulated(2, 3, rng)
     start = linkage(sheet)
     found = branches_of(start)
@@ -196,7 +199,7 @@ def test_vertices_pop_up_or_down_each(rng):
     assert not same_part(found.branches[0].space, *(branch.rates for branch in found.branches))
     for wanted in found.branches:
         first = branches_of(start, search=Search(most=1, towards=wanted.rates))
-        assert same_part(wanted.space, first.branches[0].rates, wanted.rates)
+        assert any(same_part(wanted.space, one.rates, wanted.rates) for one in first.branches)
         assert not first.complete
         given = with_all_edges(sheet)
         joint = dict(enumerate(start.graph.joints))
@@ -215,8 +218,8 @@ def test_tubes_of_miura_strips_have_one_freedom(columns):
     assert found.branches[0].error < 1e-12
 
 
-def test_a_search_that_runs_out_of_time_says_so():
-    found = branches_of(linkage(miura(5, 5, np.radians(60))), search=Search(seconds=0.0))
+def test_a_search_that_uses_up_its_work_says_so():
+    found = branches_of(linkage(miura(5, 5, np.radians(60))), search=Search(work=0.0))
     assert not found.complete
     assert not found.exhaustive
     assert found.no_motion == "not known"

@@ -1,0 +1,88 @@
+"""Noise a hundred times above rounding changes no answer: ids and order of ways, chosen joints, verdicts."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from graphs.errors import SynthedraError
+from graphs.files.formats import read
+from synth.folding.branches import branches_of, first_branch
+from synth.folding.motion import fold
+from synth.folding.prepared import prepared
+from synth.verdict.judged import mobility
+
+_NOISE = 1e-13
+_SMALL = (
+    "realised/chain-RUS",
+    "realised/six-bar-with-chain",
+    "realised/stephenson",
+    "realised/two-centres",
+    "realised/watt",
+    "wiener/miura-3x3",
+    "wiener/square-twist",
+)
+_HEAVY = ("realised/mesh-4x4-inner-creases", "realised/adjunct-chain")
+
+
+def noisy(sheet, chance):
+    """Return a sheet whose coordinates are off by some 1e-13 of its size; one drawn in the plane stays there."""
+    places = np.array(sheet.coordinates)
+    off = _NOISE * np.abs(places).max() * chance.uniform(-1.0, 1.0, places.shape)
+    return replace(sheet, coordinates=tuple(map(tuple, (places + off).tolist())))
+
+
+def answers(sheet):
+    """Return what is asked of a sheet, without figures: ways in their order, the way and joint taken, verdict."""
+    found = prepared(sheet).branches
+    ways = [(one.signs, one.freedoms, one.certainty, one.still, one.modes) for one in found.branches]
+    try:
+        folding = fold(sheet, frames=1)
+        taken = (folding.branch, tuple(folding.driven))
+    except SynthedraError as error:
+        taken = str(error)
+    said = mobility(sheet).verdict
+    verdict = (said.freedoms, said.basis, said.certainty, said.exhaustive, said.stiff_joints, said.clusters)
+    return ways, found.exhaustive, found.method, taken, verdict
+
+
+def differences(path, copies):
+    """Return how many noisy copies of a file get another answer, the first of them shown by `assert`."""
+    sheet = read(path)
+    exact = answers(sheet)
+    for number in range(copies):
+        chance = np.random.default_rng((sum(path.name.encode()), number))
+        assert answers(noisy(sheet, chance)) == exact, f"{path.name}, copy {number}"
+
+
+@pytest.mark.parametrize("name", _SMALL)
+def test_noise_changes_no_answer(data, name):
+    differences(data / f"{name}.fold", copies=2)
+
+
+@pytest.mark.slow
+def test_a_thousand_noisy_copies_get_the_answers_of_the_exact_files(data):
+    files = [
+        path
+        for path in sorted(data.glob("*/*.fold"))
+        if not any(path.match(f"{name}.fold") for name in _HEAVY) and read(path).coordinates is not None
+    ]
+    assert len(files) >= 60
+    for path in files:
+        differences(path, copies=-(-1000 // len(files)))
+
+
+def test_a_predicate_is_asked_of_rates_without_noise():
+    """Signs of rates that are rounding alone made `first_branch` admit a way on which a joint is still."""
+    corners = ((0, 0), (1, 0), (0.5, 0.9), (-1, 0), (-0.5, -0.7))
+    from graphs.mechanism.sheet import Sheet
+    from synth.folding.linkage import linkage_of_sheet
+
+    linkage = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    seen = []
+    first_branch(linkage, lambda rates: seen.append(rates) or False)
+    assert len(seen) == len(branches_of(linkage).branches) == 2
+    for rates in seen:
+        assert all(rate == 0.0 or abs(rate) > 1e-7 for rate in rates)
+        assert next(rate for rate in rates if rate) > 0.0
+    assert first_branch(linkage, lambda rates: rates[0] * rates[1] > 0.0).signs == "++-+"
