@@ -12,15 +12,13 @@ from graphs.convert.table import Mechanism
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.patterns.panels import rounded, sheet_of_faces
+from synth.patterns.panels import sheet_of_faces
 from synth.patterns.platforms.legs import platform
 from synth.patterns.rings.axes import ring
 from synth.patterns.rings.bennett import bennett
 from synth.patterns.rings.bennett import sarrus as sarrus_panels
 from synth.patterns.rings.bricard import line_symmetric, plane_symmetric, trihedral
 from synth.patterns.rings.kaleidocycles import kaleidocycle
-
-_DIGITS = 14
 
 
 def sarrus() -> HingedSolids:
@@ -61,7 +59,7 @@ def fig_1(opening: float, flap: float = 0.0) -> Sheet:
     ]
     a, b, c, d, e, f, g, h = range(8)
     faces = ((b, c, h, g), (f, e, h, g), (a, g, b), (a, g, f), (d, h, c), (d, h, e))
-    return rounded(sheet_of_faces(points, faces, "Wampler 2007, Fig. 1"), _DIGITS)
+    return sheet_of_faces(points, faces, "Wampler 2007, Fig. 1")
 
 
 def locked_cube() -> PolyhedronModel:
@@ -80,7 +78,7 @@ LINKAGES: dict[str, Mechanism] = {
     "kaleidocycle-7.json": kaleidocycle(7),
     "kaleidocycle-8.json": kaleidocycle(8),
     "sarrus.json": sarrus(),
-    "sarrus-panels.fold": rounded(sarrus_panels(), _DIGITS),
+    "sarrus-panels.fold": sarrus_panels(),
     "stewart.json": platform("UPS", 6, 1.0, 0.6, 1.0, gap=0.5),
     "wampler-fig1-open.fold": fig_1(0.5),
     "wampler-fig1-folded.fold": fig_1(0.0, 0.7),

@@ -17,6 +17,7 @@ import patterns
 import surfaces
 import wampler_2007
 import wiener_2016
+from decimals import with_few_decimals
 
 from graphs.files.formats import write
 from graphs.files.native.orientations import orientations_document
@@ -33,14 +34,14 @@ def main(folder: Path = HERE) -> None:
     index = []
     for entry in ENTRIES:
         (folder / entry.file).parent.mkdir(exist_ok=True)
-        write(entry.make(), folder / entry.file, force=True)
+        write(with_few_decimals(entry.make()), folder / entry.file, force=True)
         index.append(entry.row())
     (folder / "patterns").mkdir(exist_ok=True)
     for name, sheet in {"bird-base": patterns.bird_base(), "four-bar-vertex": patterns.fourbar_vertex()}.items():
-        write(sheet, folder / "patterns" / f"{name}.fold", force=True)
+        write(with_few_decimals(sheet), folder / "patterns" / f"{name}.fold", force=True)
     (folder / "linkages").mkdir(exist_ok=True)
     for name, linkage in hinged_linkages.LINKAGES.items():
-        write(linkage, folder / "linkages" / name, force=True)
+        write(with_few_decimals(linkage), folder / "linkages" / name, force=True)
     surfaces.write_surfaces(folder / "surfaces")
     (folder / "orientations").mkdir(exist_ok=True)
     for name, quaternions in orientation_tasks.TASKS.items():

@@ -6,27 +6,25 @@ from math import cos, pi, sin, sqrt
 
 from graphs.mechanism.sheet import Sheet
 from synth.patterns.creases import bases, tessellations, twists
-from synth.patterns.panels import rounded, sheet_of_faces
+from synth.patterns.panels import sheet_of_faces
 
 Point = tuple[float, ...]
-
-_DIGITS = 12
 
 
 def miura(rows: int, columns: int, fold_deg: float = 40.0, title: str = "") -> Sheet:
     """Return a folded Miura mesh of rows x columns parallelograms (sides 1 and 1.3, acute angle 65 degrees)."""
     mesh = tessellations.folded_miura(rows, columns, fold_deg * pi / 180, 65 * pi / 180, 1.0, 1.3, title)
-    return rounded(mesh, _DIGITS)
+    return mesh
 
 
 def bird_base() -> Sheet:
     """Return the crease pattern of the bird base: 16 triangles, flat."""
-    return rounded(bases.bird_base(), _DIGITS)
+    return bases.bird_base()
 
 
 def square_twist(twist_deg: float = 22.5) -> Sheet:
     """Return a square twist: a central square, four pleats and four corners, flat; all vertices marked alike."""
-    return rounded(twists.polygon_twist(4, twist_deg * pi / 180, title="Square twist"), _DIGITS)
+    return twists.polygon_twist(4, twist_deg * pi / 180, title="Square twist")
 
 
 def fourbar_vertex() -> Sheet:
@@ -37,7 +35,7 @@ def fourbar_vertex() -> Sheet:
     faces = [(0, 1 + k, 1 + (k + 1) % 4) for k in range(4)]
     letters = {frozenset((0, 1 + k)): letter for k, letter in enumerate("VMVV")}
     title = "A flat-foldable vertex of degree four, partly folded"
-    return rounded(sheet_of_faces(points, faces, title, letters), _DIGITS)
+    return sheet_of_faces(points, faces, title, letters)
 
 
 def _folded_vertex(sectors: list[float], rise: float) -> list[Point]:

@@ -1,7 +1,6 @@
 """Make data/realised: the mechanisms of the papers that come without coordinates, as flat sheets, or in space.
 
-``make data`` runs it. Coordinates are solved for, so their last digits may be others on another machine; a test
-compares types and numbers, another one the coordinates of sheets to nine digits.
+``make data`` runs it. Coordinates are solved for; nine decimals of them are the same on every machine.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ from pathlib import Path
 
 import wampler_2007
 import wiener_2016
+from decimals import with_few_decimals
 from entries import Entry
 
 from graphs.files.formats import write
@@ -64,7 +64,7 @@ def main(folder: Path = HERE) -> None:
     for entry in sources():
         found = realise(entry.make(), kind="space", tries=60) if entry.file in IN_SPACE else realise(entry.make())
         rows.append(row(entry, found))
-        write(found.sheet, folder / str(rows[-1]["file"]), force=True)
+        write(with_few_decimals(found.sheet), folder / str(rows[-1]["file"]), force=True)
     lines = ",\n".join("  " + json.dumps(one) for one in rows)
     (folder / "index.json").write_text(f"[\n{lines}\n]\n", encoding="utf-8")
 

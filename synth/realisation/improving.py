@@ -36,6 +36,13 @@ _SEEN = np.radians(6.0)
 _CLOSED = 1e-14
 _ENOUGH = 1e-3
 """A step that gains less than this part is the last, where creases are near to their centres."""
+_LEAST = 1e-9
+"""A step that gains less than this part may gain by rounding alone: it is none."""
+_DIGITS = 6
+"""Decimals that each step keeps, edges being about 1 long: where a symmetric drawing leaves its symmetry, steps
+would make more of the rounding errors of the step before than of anything else."""
+_IDLE = 1e-6
+"""Motions of the whole plane of length 1 by which conditions are off by less than this change nothing."""
 _NEAR = 1e-4
 _NOTHING = 1e-5
 """Where they are not, a step that gains less than this is the last."""
@@ -122,9 +129,10 @@ def improved(
             return None
         better, lower = None, 10.0
         while better is None and damping < 1e8:
-            trial = _tried(unknowns, cost, damping, exactly)
+            step = _tried(unknowns, cost, damping, exactly) - unknowns
+            trial = np.round(unknowns + _held(pattern, unknowns, cost, step), _DIGITS)
             found = _cost(pattern, trial, wanted)
-            if found is not None and found.merit < cost.merit:
+            if found is not None and found.merit < (1.0 - _LEAST) * cost.merit:
                 better = found
             else:
                 damping, lower = damping * 6.0, 2.0
@@ -169,15 +177,45 @@ def _tried(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) ->
     return trial
 
 
+def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floats:
+    """Return a step without the motions of the whole plane that change nothing.
+
+    There are none in it but for rounding, which the damping alone keeps small: it would turn the drawing by more
+    in each round.
+    """
+    points = np.ones(len(unknowns))
+    points[pattern.directions] = 0.0
+    middle = points[:, None] * (points @ unknowns / points.sum())
+    motions = np.zeros((3, *unknowns.shape))
+    motions[0, :, 0] = motions[1, :, 1] = points
+    motions[2] = (unknowns - middle)[:, ::-1] * (-1.0, 1.0)
+    rows = motions.reshape(3, -1)
+    rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    idle = rows[np.abs(cost.off_by @ rows.T).max(axis=0, initial=0.0) < _IDLE]
+    along = np.linalg.qr(idle.T)[0]
+    return step - (along @ (along.T @ step.ravel())).reshape(step.shape)
+
+
 def _least(by: Floats, residuals: Floats, damping: float) -> Floats:
-    """Return the damped solution of least squares."""
-    matrix = by.T @ by + damping * np.eye(by.shape[1])
-    return np.asarray(np.linalg.solve(matrix, by.T @ residuals), dtype=np.float64)
+    """Return the damped solution of least squares.
+
+    It is found by a QR decomposition: where corners are sharp derivatives are large, and squares of them would
+    square the rounding errors too.
+    """
+    size = by.shape[1]
+    q, r = np.linalg.qr(np.vstack([by, damping**0.5 * np.eye(size)]))
+    return np.asarray(np.linalg.solve(r, q[: len(by)].T @ residuals), dtype=np.float64)
 
 
 def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
-    """Return what a drawing costs; None where a panel is turned over or the border is not as it should be."""
+    """Return what a drawing costs.
+
+    None where vertices coincide, a panel is turned over or the border is not as it should be.
+    """
     places = unknowns[: pattern.vertices]
+    points = np.concatenate([places, unknowns[len(unknowns) - int(pattern.bent.sum()) :]])
+    if len(np.unique(points, axis=0)) < len(points):
+        return None
     angles, by = opened_angles(pattern, places)
     if not is_drawn(pattern, angles):
         return None

@@ -20,6 +20,7 @@ from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
+from graphs.rank.canonical import MARGIN, signed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
 from synth.folding.beginning import search_for
@@ -42,6 +43,9 @@ Kind = Literal["sheet", "space"]
 _TRIES = 12
 _LEAST, _MOST = 1e-50, 1e50
 """Of sizes: their squares, and the squares of these, are numbers."""
+_HEIGHTS = (0.6, 0.3)
+"""Parts of its heights to which a pose in space is flattened where its shape is not good. The map is affine, so
+panels stay planar, and axes that meet go on meeting."""
 _STILL = 1e-7
 """Creases that begin to fold no faster than this, by the fastest, do not fold."""
 
@@ -286,20 +290,38 @@ def _best_of(asked: _Asked, wishes: Wishes, tried: Iterable[Drawn], reasons: dic
     best: Realised | None = None
     for drawn in tried:
         try:
-            found = replace(_realised(asked, drawn), kept=wishes.kept(asked.pattern, drawn.places))
+            found = replace(_shaped(asked, drawn), kept=wishes.kept(asked.pattern, drawn.places))
         except UnsolvableError as error:
             reasons[str(error)] = None
             continue
-        if best is None or found.rank > best.rank:
+        if best is None or _is_better(found, best):
             best = found
         if best.good:
             break
     return best
 
 
-def _realised(asked: _Asked, drawn: Drawn) -> Realised:
+def _is_better(one: Realised, other: Realised) -> bool:
+    """Tell whether one ranks above another: of those that are as good but for rounding neither does."""
+    *said, quality = one.rank
+    *before, least = other.rank
+    return said > before or (said == before and quality > least + MARGIN)
+
+
+def _shaped(asked: _Asked, drawn: Drawn) -> Realised:
+    """Return what a drawing gives; in space the first pose of good shape, or else the best, steep ones first."""
+    best = _realised(asked, drawn, 1.0)
+    for height in _HEIGHTS:
+        if best.good or asked.kind == "sheet" or asked.raised is folded_strip:
+            break
+        found = _realised(asked, drawn, height)
+        best = found if _is_better(found, best) else best
+    return best
+
+
+def _realised(asked: _Asked, drawn: Drawn, height: float) -> Realised:
     """Return what a drawing gives; refuse one that is of another type when it is read back."""
-    sheet = _placed(asked, drawn)
+    sheet = _placed(asked, drawn, height)
     if map_id(to_scd(sheet)) != asked.code:
         raise UnsolvableError("the axes of a loop meet that the type does not ask to")
     sheet, folds = _folded(sheet) if asked.kind == "sheet" else (sheet, None)
@@ -329,14 +351,15 @@ def _check(kind: str, size: float, seed: int, tries: int) -> None:
         raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
 
 
-def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
-    """Return the panels with coordinates of the size that is asked for."""
+def _placed(asked: _Asked, drawn: Drawn, height: float) -> Sheet:
+    """Return the panels with coordinates of the size that is asked for; in space, heights times a number."""
     pattern = asked.pattern
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (1.0 / places.max())
     creases, turns = len(pattern.creases), None
     if asked.kind == "space":
         places, turns = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+        places[:, 2] *= height
     sheet = Sheet(
         pattern.vertices,
         tuple((int(a), int(b)) for a, b in pattern.edges),
@@ -348,11 +371,14 @@ def _placed(asked: _Asked, drawn: Drawn) -> Sheet:
 
 
 def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
-    """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any."""
+    """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any.
+
+    It folds as well to the other side: the first crease is a valley.
+    """
     linkage = linkage_of_sheet(sheet)
     joints = len(linkage.graph.joints)
     way = first_branch(linkage, _turns_all, search_for(joints, np.ones(joints)))
-    return (sheet, False) if way is None else (_lettered(sheet, way.rates), True)
+    return (sheet, False) if way is None else (_lettered(sheet, signed(way.rates)), True)
 
 
 def _turns_all(rates: Floats) -> bool:

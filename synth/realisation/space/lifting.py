@@ -13,6 +13,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, shown
+from graphs.rank.canonical import MARGIN, canonical_basis
 from synth.realisation.pattern import Pattern
 
 __all__ = ["evenly_folded", "folds_of", "lifted", "planes_over"]
@@ -70,7 +71,7 @@ def planes_over(pattern: Pattern, places: Floats) -> Floats:
     level = np.eye(3, matrix.shape[1])
     _, singular, vt = np.linalg.svd(np.vstack([matrix, level]))
     rank = int((singular > _ZERO * singular[0]).sum())
-    return vt[rank:].T
+    return canonical_basis(vt[rank:].T)
 
 
 def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
@@ -88,7 +89,8 @@ def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
 def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
     """Return weights of the lifts with which the crease folded least is folded most, of some that are tried.
 
-    From random weights the folds are brought near to 1 or -1, as their signs are, in the mean of squares.
+    From random weights the folds are brought near to 1 or -1, as their signs are, in the mean of squares. Folds
+    that are 0 but for rounding are valleys, and of weights that are as good the first are taken.
     """
     best: Floats = np.zeros(folds.shape[1])
     weights: Floats
@@ -96,10 +98,11 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
     for _ in range(_STARTS):
         weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
         for _ in range(_ROUNDS):
-            least = _evenness(folds @ weights)
-            if least > most:
+            turns = folds @ weights
+            least = _evenness(turns)
+            if least > most + MARGIN:
                 best, most = weights, least
-            signs = np.where(folds @ weights < 0.0, -1.0, 1.0)
+            signs = np.where(turns < -MARGIN * np.abs(turns).max(initial=0.0), -1.0, 1.0)
             weights = np.asarray(inverse @ signs, dtype=np.float64)
     return best
 

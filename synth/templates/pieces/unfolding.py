@@ -18,6 +18,7 @@ import shapely
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
+from graphs.rank.canonical import leading
 from synth.templates.pieces.overlaps import lies_over
 from synth.templates.pieces.planes import Plane, plane_of_panel
 
@@ -150,11 +151,12 @@ def nets_of(panels: Panels) -> list[Net]:
     for edge, faces in panels.joins.items():
         for face in faces:
             edges_at[face].append(edge)
-    areas = [shapely.Polygon(plane.flat).area for plane in panels.planes]
+    areas = np.array([shapely.Polygon(plane.flat).area for plane in panels.planes])
     left = set(range(len(panels.planes)))
     nets = []
     while left:
-        root = max(left, key=lambda face: (areas[face], -face))
+        faces_left = sorted(left)
+        root = faces_left[leading(areas[faces_left])]
         net = _grown(panels, root, left, edges_at)
         left -= set(net.corners)
         nets.append(net)
