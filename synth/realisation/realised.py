@@ -16,6 +16,7 @@ from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.extent import LEAST, MOST
 from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
@@ -40,8 +41,6 @@ __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
-_LEAST, _MOST = 1e-50, 1e50
-"""Of sizes: their squares, and the squares of these, are numbers."""
 _STILL = 1e-7
 """Creases that begin to fold no faster than this, by the fastest, do not fold."""
 
@@ -323,8 +322,8 @@ def _realised(asked: _Asked, drawn: Drawn) -> Realised:
 def _check(kind: str, size: float, seed: int, tries: int) -> None:
     if kind not in get_args(Kind):
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
-    if not _LEAST <= size <= _MOST:
-        raise InvariantError("size", f"the size is {size:g}", f"a number from {_LEAST:g} to {_MOST:g}")
+    if not LEAST <= size <= MOST:
+        raise InvariantError("size", f"the size is {size:g}", f"a number from {LEAST:g} to {MOST:g}")
     if seed < 0 or tries < 1:
         raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
 
