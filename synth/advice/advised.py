@@ -16,6 +16,7 @@ from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.given import check_given
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet
@@ -110,6 +111,7 @@ def advise(
     >>> advice, advice.locks[0].joints, advice.locks[0].weight
     (<Advice: 3 to 0 freedoms, 1 sets>, (1, 4, 5), 3.0)
     """
+    check_given("advise", thing, Mechanism)
     kept = _Kept(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)

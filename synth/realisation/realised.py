@@ -17,6 +17,7 @@ from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.extent import LEAST, MOST
+from graphs.given import check_given
 from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
@@ -220,6 +221,7 @@ def realise(
     >>> vertex.sheet, vertex.folds, vertex.mobility
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
+    check_given("realise", mechanism, Mechanism | ChainString)
     _check(kind, size, seed, tries)
     if kind == "space" and (flat_foldable or symmetric):
         raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
