@@ -15,6 +15,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError, shown
+from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
@@ -215,6 +216,7 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
+    check_given("fold", sheet, Sheet)
     pattern = prepared(sheet)
     linkage = pattern.linkage
     if not linkage.graph.joints:

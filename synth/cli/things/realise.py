@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from synth.cli.lengths import LENGTH
 from synth.cli.output import FORCE, about, check_output, print_answer, print_json, tell_written
 from synth.cli.runner import RunOptions
 from synth.cli.things.given import MODE, given
@@ -23,7 +24,7 @@ __all__ = ["realise"]
 @click.command(short_help="Give a type coordinates: a flat sheet of panels, a pose in space, a place on a cone.")
 @click.argument("file", metavar="FILE")
 @click.option("--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True)
-@click.option("--size", type=float, help="Longer side of the box round the panels.  [default: 1]")
+@click.option("--size", type=LENGTH, help="Longer side of the box round the panels.  [default: 1]")
 @click.option(
     "--lambda", "cone_angle", type=float,
     help="Of a cone: angle of its ruling lines from the plane across its axis.  [default: 30]",
