@@ -29,8 +29,8 @@ _FOLDER = re.compile(r"([\w.]+)-[0-9a-f]{32}")
 def bases() -> Iterator[Path]:
     """Yield the folders that may hold machine code, best first; none has to exist.
 
-    ``$SYNTHEDRA_CACHE``; ``synthedra`` in ``$XDG_CACHE_HOME``, or in ``~/.cache`` where that is not set, if this user
-    owns it or the home; one in the temporary folder.
+    ``$SYNTHEDRA_CACHE``; ``synthedra`` in ``$XDG_CACHE_HOME``, or in ``~/.cache`` where that is not set,
+    if this user owns that, or the home; one in the temporary folder.
     """
     named = os.environ.get("SYNTHEDRA_CACHE")
     if named:
