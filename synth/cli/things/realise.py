@@ -61,8 +61,8 @@ def realise(
 ) -> None:
     """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
 
-    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder every type is realised: OUT is a folder
-    of .fold files, with a store of what became of each beside it, or a store alone.
+    Of a store or an atlas (.sqlite), of rows (.jsonl), of a graph6 file or of a folder every type is realised: OUT
+    is a folder of .fold files, with a store of what became of each beside it, or a store alone.
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
     to the same type. Of a graph without a drawing the simplest is taken, which is told; of a string a strip of
