@@ -65,7 +65,7 @@ class TangentSpace:
         held : sequence of int
             Places of joints that are not to move, if they need not.
         """
-        change = self._least(-residual)
+        change = self._least_exactly(-residual)
         if not held:
             return change
         moves = np.stack([self._move(joint) for joint in held])
@@ -102,9 +102,18 @@ class TangentSpace:
 
         The solution x of (J' J + e) x = J' b is J' (b - J x) / e too. Solved for, it has rounding along freedoms
         that was divided by e, and paths with several freedoms would go where that leads; a sum of rows of J has
-        no part along freedoms.
+        no part along freedoms. Across them half the digits are lost.
         """
+        return self._sum_of_rows(off, self._solve(self._transposed @ off))
+
+    def _least_exactly(self, off: Floats) -> Floats:
+        """Return the same with all digits: what two solutions differ by has the lost ones across freedoms."""
         rates = self._solve(self._transposed @ off)
+        least = self._sum_of_rows(off, rates)
+        return least + self._least(self._jacobian @ (rates - least))
+
+    def _sum_of_rows(self, off: Floats, rates: Floats) -> Floats:
+        """Return a solution of the normal equations, float[J], as a sum of the rows of J."""
         return np.asarray(self._transposed @ ((off - self._jacobian @ rates) / self._added))
 
     def _move(self, joint: int) -> Floats:

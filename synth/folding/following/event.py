@@ -16,7 +16,7 @@ __all__ = ["EventKind", "PathEvent", "angle_told", "joints_told"]
 EventKind = Literal["turning point", "limit", "rank drop", "collision"]
 
 
-_DIGITS: dict[EventKind, int] = {"turning point": 6, "limit": 4, "rank drop": 4, "collision": 6}
+_DIGITS: dict[EventKind, int] = {"turning point": 6, "limit": 4, "rank drop": 3, "collision": 6}
 """Decimals of a degree: a singular value of zero, and panels that lie flat on each other, are found to the root of
 rounding."""
 

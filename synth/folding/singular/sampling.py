@@ -45,9 +45,8 @@ _AGREES = 1e-9
 STILL = 1e-7
 """Rates below this part of the largest are none."""
 _NEWTON, _ROUNDED = 30, 1e-14
-_APEX = 1e-4
-"""Slope of an equation, as part of its size, below which rates are at the apex of its cone: Newton's method ends
-with the root of its error."""
+_NO_SLOPE = 1e-4
+"""Of equations, as part of their size: where they have none Newton's method ends with the root of its error."""
 _BESIDE, _ASIDE = 8, 0.3
 """So many starts beside wanted rates, so far from them as part of their size."""
 MOVED, _SHORT_OF = 1e-3, 0.7
@@ -148,9 +147,9 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
 def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none.
 
-    By symmetry the way from wanted rates onto an equation's cone may lead to its apex, where its parts meet and
-    Newton's method finds rates to half their digits only. Then starts beside the wanted ones are tried, and of
-    what they come to the rates that point along these best are taken.
+    By symmetry the way from wanted rates onto the equations may lead to where parts of their solutions meet, at
+    the apex of a cone for instance: there Newton's method finds rates to half their digits only. Then starts
+    beside the wanted ones are tried, and of what they come to the rates that point along these best are taken.
     """
     start = np.asarray(space.basis.T @ wanted)
     size = float(np.linalg.norm(start))
@@ -158,13 +157,13 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
         return np.zeros_like(wanted)
     forms = local_forms(space.basis, space.left)
     x = _on_equations(forms, start)
-    if x is not None and _at_apex(forms, x):
+    if x is not None and (rank := _slopes(forms, x)) < len(forms):
         beside = [
             np.random.default_rng((*space.basis.shape, number)).normal(size=len(start))
             for number in range(_BESIDE)
         ]
         found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
-        general = [one for one in found if one is not None and not _at_apex(forms, one)]
+        general = [one for one in found if one is not None and _slopes(forms, one) > rank]
         x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
     return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
 
@@ -174,8 +173,9 @@ def general_rates(
 ) -> tuple[list[Floats], bool]:
     """Return general rates of a space, one for each part that its equations leave, up to sign.
 
-    Where two equations or more are left the parts are looked for from random starts: there may be others. Told too
-    is whether no limit ended the search.
+    Where two equations or more are left the parts are looked for from random starts: there may be others. Rates at
+    which the equations have fewer independent slopes than at others, where parts meet, are left out. The second
+    value is whether no limit ended the search.
 
     Parameters
     ----------
@@ -196,11 +196,14 @@ def general_rates(
     halves = _halves(space)
     parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
+    highest = 0
     for number in range(_STARTS * 2 ** min(len(halves), 6)):
         chance = np.random.default_rng((*space.basis.shape, number))
         x = _on_equations(forms, np.asarray(chance.normal(size=size)))
-        if x is None:
+        if x is None or (rank := _slopes(forms, x)) < highest:
             continue
+        if rank > highest:
+            found, highest = {}, rank
         rates = signed(_scaled(space.basis @ x))
         signs = _side(halves, rates)
         found.setdefault(max(signs, tuple(-one for one in signs)), rates)
@@ -240,9 +243,9 @@ def _on_equations(forms: Floats, x: Floats) -> Floats | None:
     return None
 
 
-def _at_apex(forms: Floats, x: Floats) -> bool:
-    """Tell whether some of the forms float[n, s, s] has no slope at a unit vector at which it vanishes."""
-    return bool((np.linalg.norm(forms @ x, axis=1) <= _APEX * np.abs(forms).max(axis=(1, 2))).any())
+def _slopes(forms: Floats, x: Floats) -> int:
+    """Return how many independent slopes forms float[n, s, s] have at a unit vector at which they vanish."""
+    return int((np.linalg.svd(forms @ x, compute_uv=False) > _NO_SLOPE * np.abs(forms).max(initial=0.0)).sum())
 
 
 def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
