@@ -11,6 +11,7 @@ from pathlib import Path
 from graphs.plain_text import plain, shown
 
 __all__ = [
+    "ArgumentError",
     "FileError",
     "InvariantError",
     "NumericalError",
@@ -161,6 +162,20 @@ class UnsolvableError(SynthedraError):
     Traceback (most recent call last):
     ...
     graphs.errors.UnsolvableError: the order of the sides of the links is not known: write an SCD graph or a sheet
+    """
+
+
+class ArgumentError(SynthedraError, TypeError):
+    """A function was given something of another kind than it takes.
+
+    Parameters
+    ----------
+    message : str
+
+    Examples
+    --------
+    >>> issubclass(ArgumentError, TypeError)
+    True
     """
 
 

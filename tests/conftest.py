@@ -9,6 +9,9 @@ from pathlib import Path
 # Many small matrices: more threads of BLAS than one wait for each other three times as long as they work, and
 # every core has a process of tests already. numpy reads this when it is imported.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# Commands that are run as processes have numpy's warnings as errors too; those that end with a fault say where.
+os.environ["PYTHONWARNINGS"] = "error::RuntimeWarning"
+os.environ["SYNTHEDRA_DEBUG"] = "1"
 
 import numpy as np
 import pytest

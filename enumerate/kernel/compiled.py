@@ -26,8 +26,9 @@ kernels: list[Callable[..., object]] = []
 def compiled(function: F) -> F:
     """Compile a function of numbers and arrays when it is first called, and keep the machine code on disk.
 
-    The code is kept for this user in ``~/.cache/synthedra``, or where ``SYNTHEDRA_CACHE`` says, and is renewed
-    when the function's module changes or any own module that it imports. Other threads run meanwhile.
+    The code is kept for this user in ``~/.cache/synthedra``, or where ``SYNTHEDRA_CACHE`` or ``XDG_CACHE_HOME``
+    says, and is renewed when the function's module changes or any own module that it imports. Other threads run
+    meanwhile.
     """
     made: Any = numba.njit(nogil=True)(function)
     if fingerprint(function.__module__) and hasattr(made, "enable_caching"):  # without, numba compiles nothing

@@ -29,17 +29,30 @@ _FOLDER = re.compile(r"([\w.]+)-[0-9a-f]{32}")
 def bases() -> Iterator[Path]:
     """Yield the folders that may hold machine code, best first; none has to exist.
 
-    ``$SYNTHEDRA_CACHE``; ``~/.cache/synthedra``, where the home is this user's own; one in the temporary folder.
+    ``$SYNTHEDRA_CACHE``; ``synthedra`` in ``$XDG_CACHE_HOME``, or in ``~/.cache`` where that is not set,
+    if this user owns that, or the home; one in the temporary folder.
     """
     named = os.environ.get("SYNTHEDRA_CACHE")
     if named:
         yield Path(named).absolute()
     with suppress(RuntimeError, OSError):  # no home, or one that is not there
-        home = Path.home()
-        if _by_us(home.stat()):
-            yield home / ".cache" / "synthedra"
+        caches = _caches()
+        if caches is not None:
+            yield caches / "synthedra"
     with suppress(OSError):  # no temporary folder
         yield Path(tempfile.gettempdir()) / f"synthedra-{_user()}"
+
+
+def _caches() -> Path | None:
+    """Return where programs of this user keep what they can make again; None if that is another user's.
+
+    A relative path in ``XDG_CACHE_HOME`` counts as none, says the XDG Base Directory Specification.
+    """
+    named = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if named.is_absolute():
+        return named if not named.exists() or _by_us(named.stat()) else None
+    home = Path.home()
+    return home / ".cache" if _by_us(home.stat()) else None
 
 
 def _user() -> int:

@@ -34,8 +34,8 @@ _PATIENCE = 3
 """How often workers may die on one unit before the run gives up."""
 
 
-_LOOK = 1.0
-"""Seconds between two looks whether a unit that is waited for can still come."""
+_LOOK = 0.1
+"""Seconds between two looks whether a unit that is waited for can still come, and is still wanted."""
 
 
 def run(

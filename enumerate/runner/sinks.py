@@ -244,7 +244,8 @@ class ParquetSink(_FileSink):
         super().start(job)
         assert self._file is not None
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
-        self._mixed = {i for i, kind in enumerate(job.columns.values()) if _is_mixed(kind)}
+        kinds = enumerate(job.columns.values())
+        self._mixed = {i for i, kind in kinds if isinstance(kind, ListColumn) and kind.kind is None}
         self._writer = parquet.ParquetWriter(self._file.stream, self._schema)
         return ()
 
@@ -272,9 +273,11 @@ class ParquetSink(_FileSink):
         self._writer.close()
         super().finish()
 
-
-def _is_mixed(kind: Column) -> bool:
-    return isinstance(kind, ListColumn) and kind.kind is None
+    def abort(self) -> None:
+        """Remove what was written; the writer would still want to write its footer when it is let go."""
+        if self._writer is not None:
+            self._writer.is_open = False
+        super().abort()
 
 
 def _arrow_type(kind: Column) -> Any:

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 
 from enumerate.machine_code.notice import heard_by, to_workers
 from enumerate.runner.job import Job, Row
+from enumerate.runner.stopping import heard_again, unheard
 
 __all__ = ["LocalWorkers", "Workers", "timed"]
 
@@ -72,7 +73,8 @@ class LocalWorkers:
 
     def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
         """Give a unit to a process."""
-        return self._executor.submit(timed, job, payload)
+        with unheard():  # the processes, which start with the first units, have our handlers for a moment
+            return self._executor.submit(timed, job, payload)
 
     def check(self) -> None:
         """Look whether all processes live.
@@ -117,6 +119,7 @@ def _become_worker(parent: int, shared: Any) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(signal, "SIGHUP"):  # a terminal tells all processes that it closes
         signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    heard_again()
     heard_by(shared)
 
     def watch() -> None:

@@ -37,6 +37,7 @@ from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
+from graphs.given import check_given
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import flattened
@@ -211,6 +212,7 @@ def write(
     ...     write(four_bar, Path(folder, "four-bar.json")), write(four_bar, Path(folder, "bare.g6"), lossy=True)
     ((), ('1 loop and its centre',))
     """
+    check_given("write", mechanism, Mechanism)
     path = Path(path)
     suffix = path.suffix.lower()
     writer = WRITERS.get(suffix)

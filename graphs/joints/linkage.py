@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import hypot, isfinite
+from math import hypot
 from types import MappingProxyType
 
 from graphs.errors import InvariantError, numbered, shown
+from graphs.extent import LEAST, MOST, check_extent, in_reach
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind, kind_named
 from graphs.mechanism.sc import SCGraph
@@ -19,8 +20,6 @@ from graphs.mechanism.sc import SCGraph
 __all__ = ["JointPlace", "JointedLinkage", "Leg", "legs"]
 
 Vector = tuple[float, float, float]
-_LONGEST = 1e100
-"""Squares of longer and of much shorter vectors are no numbers."""
 _RIGHT = 1e-6
 """Cosine between the axes of a universal joint, at most."""
 
@@ -84,6 +83,7 @@ class JointedLinkage:
                     told = f"joint {shown(joint)} of {loop.label}, which has a centre, is {whole[joint].word}"
                     raise InvariantError("kinds", told, "a revolute", ("joints", joint))
         places = {joint: _checked(joint, whole[joint], self.places) for joint in whole} if self.places else {}
+        check_extent([place.point for place in places.values()])
         object.__setattr__(self, "kinds", MappingProxyType(whole))
         object.__setattr__(self, "places", MappingProxyType(places))
 
@@ -184,7 +184,7 @@ def _checked(joint: JointId, kind: JointKind, places: Mapping[JointId, JointPlac
         raise InvariantError("place", told, str(kind.axes), part)
     vectors = tuple(_vector(joint, one) for one in (place.point, *place.axes))
     for axis in vectors[1:]:
-        if not 1 / _LONGEST < hypot(*axis) < _LONGEST:
+        if not LEAST <= hypot(*axis) <= MOST:
             told = f"an axis of joint {shown(joint)} is {shown(list(axis))}"
             raise InvariantError("place", told, "a vector that is not zero", part)
     if kind is JointKind.UNIVERSAL:
@@ -197,7 +197,7 @@ def _checked(joint: JointId, kind: JointKind, places: Mapping[JointId, JointPlac
 
 
 def _vector(joint: JointId, given: Sequence[float]) -> Vector:
-    if len(given) != 3 or not all(isfinite(x) and abs(x) < _LONGEST for x in given):
+    if len(given) != 3 or not in_reach(given):
         told = f"the place of joint {shown(joint)} has {shown(list(given))}"
-        raise InvariantError("place", told, "three numbers, none beyond 1e100", ("joints", joint))
+        raise InvariantError("place", told, f"three numbers, none beyond {MOST:g}", ("joints", joint))
     return (float(given[0]), float(given[1]), float(given[2]))

@@ -15,6 +15,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
+from graphs.extent import check_extent
 
 __all__ = ["GROUND", "PointConstraint", "PolyhedronModel", "RemoteCentre"]
 
@@ -190,6 +191,7 @@ class PolyhedronModel(nx.Graph):
                     "coordinates", f"vertex {shown(vertex)} is at {shown(place)}", "three finite numbers"
                 )
             self._coordinates[vertex] = (float(place[0]), float(place[1]), float(place[2]))
+        check_extent([*self._coordinates.values()])
 
     def _known(self, vertices: Iterable[VertexId], who: str) -> tuple[VertexId, ...]:
         listed = tuple(vertices)

@@ -13,6 +13,7 @@ from itertools import chain
 from typing import Protocol, TypeVar
 
 from graphs.errors import InvariantError, shown
+from graphs.extent import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
@@ -91,7 +92,8 @@ class Sheet:
     Raises
     ------
     InvariantError
-        For an edge or face that names an unknown vertex, or an edge from a vertex to itself.
+        For an edge or face that names an unknown vertex, an edge from a vertex to itself, coordinates out of the
+        range of `graphs.extent`, or faces whose vertices all lie in one line.
 
     Examples
     --------
@@ -126,6 +128,10 @@ class Sheet:
                     "three or more, each once",
                     ("faces", i),
                 )
+        if self.coordinates is not None:
+            check_extent(self.coordinates)
+            if self.faces:
+                check_area(self.coordinates)
 
     def with_frames(self, frames: Frames) -> Sheet:
         """Return the sheet with the frames of its file; what was checked is not checked again."""

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot, isfinite
+from math import hypot
 from types import MappingProxyType
 
 from graphs.errors import InvariantError, shown
+from graphs.extent import LEAST, MOST, check_extent, in_reach
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 
@@ -19,8 +20,6 @@ __all__ = ["Axis", "HingedSolids"]
 Vector = tuple[float, float, float]
 Axis = tuple[Vector, Vector]
 """A point of a joint axis and its direction."""
-_LONGEST = 1e100
-"""Squares of longer and of much shorter vectors are no numbers."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -60,10 +59,11 @@ class HingedSolids:
             if joint not in self.axes:
                 raise InvariantError("axis", f"joint {shown(joint)} has no axis", "one for each joint")
             point, direction = (_vector(joint, one) for one in self.axes[joint])
-            if not 1 / _LONGEST < hypot(*direction) < _LONGEST:
+            if not LEAST <= hypot(*direction) <= MOST:
                 told = f"the axis of joint {shown(joint)} has the direction {shown(list(direction))}"
                 raise InvariantError("axis", told, "a vector that is not zero", ("axes", joint))
             checked[joint] = (point, direction)
+        check_extent([point for point, _ in checked.values()])
         object.__setattr__(self, "axes", MappingProxyType(checked))
 
     def __repr__(self) -> str:
@@ -71,7 +71,7 @@ class HingedSolids:
 
 
 def _vector(joint: JointId, given: Sequence[float]) -> Vector:
-    if len(given) != 3 or not all(isfinite(x) and abs(x) < _LONGEST for x in given):
+    if len(given) != 3 or not in_reach(given):
         told = f"the axis of joint {shown(joint)} has {shown(list(given))}"
-        raise InvariantError("axis", told, "three numbers, none beyond 1e100", ("axes", joint))
+        raise InvariantError("axis", told, f"three numbers, none beyond {MOST:g}", ("axes", joint))
     return (float(given[0]), float(given[1]), float(given[2]))

@@ -16,6 +16,7 @@ import networkx as nx
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, numbered, shown
+from graphs.given import check_given
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
@@ -229,8 +230,9 @@ def reduce(
     >>> len(reduction.graph), [step.removed for step in reduction.steps]
     (4, [(0, 1)])
     """
+    check_given("reduce", mechanism, Mechanism)
     if rule not in RULES:
-        raise ValueError(f"the rule {rule!r} is not one of {', '.join(RULES)}")
+        raise InvariantError("rule", f"the rule {shown(rule)}", "one of " + ", ".join(RULES))
     sc = to_sc(mechanism)
     protected = set(keep)
     for link in protected:

@@ -9,6 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from math import inf, isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.given import check_given
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet
@@ -26,11 +28,16 @@ from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, gene
 from synth.advice.locks import Cost, cheapest_sets, held
 from synth.advice.search import Bounds, Candidates, freedoms_when_left_out, smallest_sets
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.stepping import Allowance
 from synth.moving.linkages import linkage_of, sheet_of
 
 __all__ = ["advise"]
 
 _LIMIT = 20
+_WORK = 2_000_000_000
+"""Numbers of matrices that a search goes through, be they few large or many small ones: some seconds."""
+_STEPS = 300_000
+"""Steps of a search, however small the matrices."""
 _ONE_MORE = 1
 """Diagonals beyond the fewest that are looked for if nothing is said."""
 _STILL = 1e-7
@@ -48,6 +55,14 @@ class _Kept:
     links: Collection[LinkId] = ()
     flaps: bool = False
     weights: Mapping[JointId, float] = field(default_factory=dict)
+
+
+class _Locks(NamedTuple):
+    """Sets of joints to lock, whether there are or may be more, and whether the search was ended."""
+
+    sets: tuple[Locked, ...]
+    more: bool
+    used_up: bool
 
 
 def advise(
@@ -110,6 +125,7 @@ def advise(
     >>> advice, advice.locks[0].joints, advice.locks[0].weight
     (<Advice: 3 to 0 freedoms, 1 sets>, (1, 4, 5), 3.0)
     """
+    check_given("advise", thing, Mechanism)
     kept = _Kept(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)
@@ -125,19 +141,27 @@ def advise(
     every = list(pose.linkage.graph.joints)
     flapping = tuple(every[place] for place in pose.flaps)
     if freedoms <= pose.freedoms:
-        locks, more = _locks(pose, pose.freedoms - freedoms, kept, limit)
-        if leave_out:
-            locks = tuple(_with_left_out(lock, sheet) for lock in locks)
-        return Advice(pose.freedoms, freedoms, pose.branch, flapping, locks, more=more, mended=pose.mended)
+        found = _locks(pose, pose.freedoms - freedoms, kept, limit)
+        locks = tuple(_with_left_out(lock, sheet) for lock in found.sets) if leave_out else found.sets
+        return Advice(
+            pose.freedoms,
+            freedoms,
+            pose.branch,
+            flapping,
+            locks,
+            more=found.more,
+            used_up=found.used_up,
+            mended=pose.mended,
+        )
     largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
     _check_number("size", largest, freedoms - pose.freedoms)
     return _creased(pose, freedoms, kept, (largest, limit), sheet)
 
 
-def _locks(pose: GeneralPose, size: int, kept: _Kept, limit: int) -> tuple[tuple[Locked, ...], bool]:
-    """Return the cheapest sets of joints to lock, and whether there are more."""
+def _locks(pose: GeneralPose, size: int, kept: _Kept, limit: int) -> _Locks:
+    """Return the cheapest sets of joints to lock."""
     if not size:
-        return (), False
+        return _Locks((), False, False)
     allowed = _free_joints(pose, kept)
     most = held(pose.rates, allowed)
     if most < size:
@@ -152,8 +176,15 @@ def _locks(pose: GeneralPose, size: int, kept: _Kept, limit: int) -> tuple[tuple
         (kept.weights.get(joint, 1.0), float(place in flaps), -float(moves[place]))
         for place, joint in enumerate(pose.linkage.graph.joints)
     ]
-    first = list(islice(cheapest_sets(pose.rates, size, costs, allowed), limit + 1))
-    return tuple(_locked(pose, places, costs) for places in first[:limit]), len(first) > limit
+    allowance = _allowance(pose.rates)
+    first = list(islice(cheapest_sets(pose.rates, size, costs, allowed, allowance), limit + 1))
+    more = len(first) > limit or allowance.left < 0
+    return _Locks(tuple(_locked(pose, places, costs) for places in first[:limit]), more, allowance.left < 0)
+
+
+def _allowance(matrix: Floats) -> Allowance:
+    """Return the steps that a search may take, each of which goes through a matrix."""
+    return Allowance(min(_STEPS, _WORK // max(matrix.size, 1)))
 
 
 def _with_left_out(lock: Locked, sheet: Sheet | None) -> Locked:
@@ -209,7 +240,7 @@ def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int
     diagonals = diagonals_of(pose, kept.links)
     loads, flaps = loads_on_stresses(pose, diagonals)
     chosen = [place for place, flap in enumerate(flaps) if not (flap and kept.flaps)]
-    candidates = Candidates([diagonals[place] for place in chosen], loads[:, chosen])
+    candidates = Candidates([diagonals[place] for place in chosen], loads[:, chosen], _allowance(loads))
     bounds = Bounds(pose.freedoms, pose.rates.shape[1], freedoms, largest)
     found = smallest_sets(pose.sheet, candidates, bounds, limit)
     creases = tuple(
@@ -228,6 +259,7 @@ def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int
         tuple(every[place] for place in pose.flaps),
         creases=creases,
         more=found.more,
+        used_up=found.used_up,
         searched=found.searched,
         refused=found.refused,
         mended=pose.mended,

@@ -15,6 +15,7 @@ from synth.advice.diagonals import Diagonal
 
 __all__ = ["Advice", "Creased", "Locked"]
 
+_USED_UP = "; the search ended, its allowance of work was used up"
 _LOOSE = 1e4
 """Play that is made so many times larger is told as more."""
 
@@ -105,6 +106,8 @@ class Advice(Printed):
         Where there are too few: the smallest sets of diagonals.
     more : bool
         Whether there are, or may be, more sets as small.
+    used_up : bool
+        Whether the search ended because its allowance of work was used up.
     searched : int or None
         The largest number of diagonals that was looked through.
     refused : int
@@ -120,6 +123,7 @@ class Advice(Printed):
     locks: tuple[Locked, ...] = ()
     creases: tuple[Creased, ...] = ()
     more: bool = False
+    used_up: bool = False
     searched: int | None = None
     refused: int = 0
     mended: tuple[str, ...] = ()
@@ -134,6 +138,7 @@ class Advice(Printed):
             "locks": [one.to_json() for one in self.locks],
             "creases": [one.to_json() for one in self.creases],
             "more": self.more,
+            "used_up": self.used_up,
             "searched": self.searched,
             "refused": self.refused,
             "mended": list(self.mended),
@@ -168,7 +173,7 @@ class Advice(Printed):
         columns: tuple[str, ...] = ("lock", "weight", "flaps", "still then", "play", "freedoms", "left out")
         if all(one.left_out is None for one in self.locks):
             columns, rows = columns[:-1], [row[:-1] for row in rows]
-        told = f"lock {size}: " + _how_many(len(self.locks), self.more)
+        told = f"lock {size}: " + self._how_many(len(self.locks))
         return [told, TableBlock(columns, rows, ["weight", "play", "freedoms", "left out"])]
 
     def _creasing(self) -> list[Block]:
@@ -178,7 +183,9 @@ class Advice(Printed):
                 f"{numbered(self.refused, 'set')} of diagonals could begin to move so, and when folded did not"
             )
         if not self.creases:
-            ended = "the search ended at a limit" if self.more else "all were looked through"
+            ended = "all were looked through"
+            if self.more:
+                ended = "the search ended at a limit" + (_USED_UP if self.used_up else "")
             return [*lines, f"no set of {numbered(self.searched or 0, 'diagonal')} or fewer was found: {ended}"]
         size = numbered(len(self.creases[0].diagonals), "diagonal")
         rows = [
@@ -189,21 +196,21 @@ class Advice(Printed):
             )
             for made in self.creases
         ]
-        told = f"crease {size}: " + _how_many(len(self.creases), self.more)
+        told = f"crease {size}: " + self._how_many(len(self.creases))
         return [
             *lines,
             told,
             TableBlock(("from vertex to vertex", "flaps", "freedoms"), rows, ["flaps", "freedoms"]),
         ]
 
+    def _how_many(self, listed: int) -> str:
+        ended = _USED_UP if self.used_up else ""
+        if self.more:
+            return ("the first set" if listed == 1 else f"the first {listed} sets") + ended
+        return f"{numbered(listed, 'set')}, all there are"
+
     def __repr__(self) -> str:
         return f"<Advice: {self.freedoms} to {self.wanted} freedoms, {len(self.locks) + len(self.creases)} sets>"
-
-
-def _how_many(listed: int, more: bool) -> str:
-    if more:
-        return "the first set" if listed == 1 else f"the first {listed} sets"
-    return f"{numbered(listed, 'set')}, all there are"
 
 
 def _names(joints: tuple[JointId, ...]) -> str:

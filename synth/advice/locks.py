@@ -15,6 +15,7 @@ from heapq import heappop, heappush
 import numpy as np
 
 from graphs.arrays import Floats
+from synth.folding.following.stepping import Allowance
 
 __all__ = ["HOLDS", "Cost", "cheapest_sets", "held"]
 
@@ -57,7 +58,7 @@ def held(rates: Floats, joints: Collection[int]) -> int:
 
 
 def cheapest_sets(
-    rates: Floats, size: int, costs: Sequence[Cost], allowed: Collection[int]
+    rates: Floats, size: int, costs: Sequence[Cost], allowed: Collection[int], allowance: Allowance | None = None
 ) -> Iterator[tuple[int, ...]]:
     """Yield all sets of joints of a size that take a freedom each, cheapest first; of equal cost by their places.
 
@@ -74,6 +75,8 @@ def cheapest_sets(
         Of each joint.
     allowed : collection of int
         Joints that may be locked.
+    allowance : Allowance, optional
+        Joints that may be looked at for the sets after the first; the sets end where it is used up.
 
     Examples
     --------
@@ -85,27 +88,40 @@ def cheapest_sets(
     queue: list[tuple[Cost, tuple[int, ...], int, _Choices]] = []
     made = 0
 
-    def enter(kept: tuple[int, ...], left_out: frozenset[int]) -> None:
+    def enter(kept: tuple[int, ...], left_out: frozenset[int], allowance: Allowance | None) -> None:
         nonlocal made
-        chosen = _greedy(rates, kept, [joint for joint in order if joint not in left_out], size)
+        if len(order) - len(left_out) < size:
+            return
+        chosen = _greedy(rates, kept, [joint for joint in order if joint not in left_out], size, allowance)
         if len(chosen) == size:
             cost = tuple(map(sum, zip(*(costs[joint] for joint in chosen), strict=True)))
             made += 1
             heappush(queue, (cost, tuple(sorted(chosen)), made, _Choices(cost, chosen, kept, left_out)))
 
-    enter((), frozenset())
+    enter((), frozenset(), None)
     while queue:
         _, joints, _, best = heappop(queue)
         yield joints
         for place in range(len(best.kept), size):
-            enter(best.chosen[:place], best.left_out | {best.chosen[place]})
+            enter(best.chosen[:place], best.left_out | {best.chosen[place]}, allowance)
+            if allowance is not None and allowance.left < 0:
+                return
 
 
-def _greedy(rates: Floats, kept: tuple[int, ...], order: Sequence[int], size: int) -> tuple[int, ...]:
-    """Return joints that take a freedom each: those kept, then each in order that adds to them, up to a size."""
+def _greedy(
+    rates: Floats,
+    kept: tuple[int, ...],
+    order: Sequence[int],
+    size: int,
+    allowance: Allowance | None = None,
+) -> tuple[int, ...]:
+    """Return joints that take a freedom each: those kept, then each in order that adds to them, up to a size.
+
+    Where the allowance is used up on the way there are fewer.
+    """
     free, chosen = np.array(rates), list[int]()
     for joint in (*kept, *order):
-        if len(chosen) == size:
+        if len(chosen) == size or (allowance is not None and not allowance.take()):
             break
         left = float(np.linalg.norm(free[joint]))
         if left <= HOLDS or joint in chosen:

@@ -17,6 +17,7 @@ from graphs.arrays import Floats
 from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
 from synth.advice.diagonals import Diagonal
+from synth.folding.following.stepping import Allowance
 from synth.folding.prepared import prepared
 
 __all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
@@ -37,10 +38,13 @@ class Candidates:
     diagonals : sequence of Diagonal
     loads : float[s, D]
         What each does to the self-stresses.
+    allowance : Allowance
+        Diagonals that may be added to sets: there are no more sets where it is used up.
     """
 
     diagonals: Sequence[Diagonal]
     loads: Floats
+    allowance: Allowance
 
     def dependent(self, size: int, wanted: int) -> Iterator[tuple[int, ...]]:
         """Yield the sets of a size, no two crossing, that bring so many rates or more.
@@ -48,7 +52,8 @@ class Candidates:
         Examples
         --------
         >>> few = [Diagonal(panel, panel, (0, 2), (0, 2)) for panel in range(3)]
-        >>> list(Candidates(few, np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 1.0]])).dependent(2, 1))
+        >>> loads = np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 1.0]])
+        >>> list(Candidates(few, loads, Allowance(100)).dependent(2, 1))
         [(0, 1)]
         """
         yield from self._grown((), self.loads, size - wanted, size)
@@ -59,6 +64,8 @@ class Candidates:
             yield chosen
             return
         for place in range(chosen[-1] + 1 if chosen else 0, len(self.diagonals)):
+            if not self.allowance.take():
+                return
             if any(self.diagonals[place].crosses(self.diagonals[other]) for other in chosen):
                 continue
             load = loads[:, place]
@@ -93,12 +100,15 @@ class Found:
         Whether there may be more of that size: a limit was reached.
     refused : int
         Sets that have the rates and, folded, have not the freedoms.
+    used_up : bool
+        Whether the search ended because its allowance was used up.
     """
 
     sets: tuple[tuple[int, ...], ...]
     searched: int
     more: bool
     refused: int
+    used_up: bool = False
 
 
 def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: int) -> Found:
@@ -125,8 +135,9 @@ def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: i
                 sets.append(places)
             else:
                 refused += 1
-        if sets or more:
-            return Found(tuple(sets), size, more, refused)
+        used_up = candidates.allowance.left < 0
+        if sets or more or used_up:
+            return Found(tuple(sets), size, more or used_up, refused, used_up)
     return Found((), bounds.largest, False, refused)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, shown
+from graphs.given import check_given
 from graphs.ids import JointId
 from synth.assembly.answer import Position, Positions
 from synth.assembly.circuits import members_of_circuits
@@ -67,6 +68,7 @@ def positions(
     >>> len(found.positions), found.general, found.exhaustive
     (2, 2, True)
     """
+    check_given("positions", thing, Mechanism | PosedLinkage)
     linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
     for joint, angle in drive.items():
         if not isfinite(angle):

@@ -113,6 +113,14 @@ class _LazyGroup(NamedGroup):
         except KeyboardInterrupt as stop:  # click would end with 1, which is an answer
             click.echo("stopped", err=True)
             sys.exit(getattr(stop, "status", _INTERRUPTED))
+        except Exception as error:
+            from graphs.errors import SynthedraError
+
+            if isinstance(error, SynthedraError | click.ClickException | click.exceptions.Exit | click.Abort):
+                raise
+            from synth.cli.unforeseen import end_with_fault
+
+            end_with_fault(error, debug=ctx.params["debug"])
 
 
 def _told_version(ctx: click.Context, parameter: click.Parameter, asked: bool) -> None:
@@ -138,7 +146,8 @@ def _told_version(ctx: click.Context, parameter: click.Parameter, asked: bool) -
     callback=_told_version,
     help="Show versions and exit.",
 )
-def main() -> None:
+@click.option("--debug", is_flag=True, help="Print the traceback of a fault of the program (SYNTHEDRA_DEBUG=1).")
+def main(debug: bool) -> None:
     """Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
 
     \b
@@ -150,5 +159,6 @@ def main() -> None:
       synth cone map --angles 120,95,45,85
 
     Exit status: 0 done, 1 the answer is no, 2 bad input or usage, or output that cannot be written;
-    128 + n stopped by signal n (130: Ctrl-C).
+    70 a fault of the program, to be reported; 128 + n stopped by signal n (130: Ctrl-C).
     """
+    del debug  # looked at where a fault is caught

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.given import check_given
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
 from synth.compliance.answer import Elastic, PathPose, RestPassed, States, Transition
@@ -100,6 +101,7 @@ def states(
     >>> found.classes, [(len(one.active), one.freedoms) for one in found.sets]
     (('compliant mechanism',), [(0, 0), (1, 1)])
     """
+    check_given("states", thing, Mechanism | PosedLinkage)
     if isinstance(thing, Sheet) and thing.frames is not None:
         thing = thing.frames.first_placed()
     linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)

@@ -19,7 +19,7 @@ from synth.folding.second_order import RateSpace
 from synth.folding.singular.nearest import begun_near
 from synth.folding.singular.sampling import rates_towards, same_part
 
-__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "search_for"]
+__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "rates_as_marked", "search_for"]
 
 MOST_JOINTS = 600
 """Of larger linkages the branches are not looked for: matrices are dense."""
@@ -145,11 +145,11 @@ def _agreement(branch: Branch, wanted: Wanted) -> float:
         begun = rates_towards(branch.space, marks)[list(wanted.driven)]
         sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
         return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
-    rates = _towards(branch, marks)
+    rates = rates_as_marked(branch, marks)
     return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
 
 
-def _towards(branch: Branch, marks: Floats) -> Floats:
+def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
     """Return rates near to what is marked, on the part of the space that the branch is."""
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
@@ -161,7 +161,7 @@ def _rates(branch: Branch, wanted: Wanted) -> Floats:
     """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
     if len(wanted.driven) < 2 and not wanted.along:
-        return _towards(branch, wanted.marks) if wanted.branch is None else branch.rates
+        return rates_as_marked(branch, wanted.marks) if wanted.branch is None else branch.rates
     for start in (wanted.marks, space.basis.sum(axis=1)):
         towards = rates_towards(space, start)
         if np.abs(towards[list(wanted.driven)]).max() > _STILL:

@@ -236,7 +236,8 @@ class ClosureEquations:
         values = np.concatenate([np.zeros(0), *(twists.ravel() for _, twists in evaluated)])[self._places]
         if self._free is not None:
             values = values * self._free[self._columns]
-        matrix = scipy.sparse.csr_matrix((values, self._columns, self._starts), shape=(self.rows, self.joints))
+        shape = (len(self._starts) - 1, self.joints)
+        matrix = scipy.sparse.csr_matrix((values, self._columns, self._starts), shape=shape)
         return residual, matrix
 
     def error(self, angles: Floats) -> float:

@@ -15,6 +15,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.extent import LEAST, MOST, in_reach
 from graphs.ids import JointId
 from graphs.rank.canonical import MARGIN, leading
 from synth.folding.beginning import Wanted, beginning
@@ -181,8 +182,9 @@ def _along(joints: tuple[JointId, ...], asked: Asked) -> Wanted:
     if asked.drive:
         raise InvariantError("along", "joints are driven too", "rates or angles, not both")
     places, rates = _places(joints, asked.along), np.array(list(asked.along.values()), dtype=float)
-    if not (np.isfinite(rates).all() and rates.any()):
-        raise InvariantError("along", f"rates are {', '.join(map(str, rates))}", "finite ones, not all zero")
+    if not (in_reach(rates) and np.abs(rates).max(initial=0.0) >= LEAST):
+        told = f"rates are {', '.join(map(str, rates))}"
+        raise InvariantError("along", told, f"finite ones, not all zero, the largest from {LEAST:g} to {MOST:g}")
     wanted = np.zeros(len(joints))
     wanted[places] = rates
     return Wanted(asked.branch, wanted, places, rates, asked.doubt, along=True)

@@ -15,12 +15,13 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError, shown
+from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations
-from synth.folding.driving import Asked, driven_from
+from synth.folding.driving import Asked, Driven, driven_from
 from synth.folding.following.collisions import Panels, Poses, first_collision
 from synth.folding.following.event import PathEvent
 from synth.folding.linkage import PosedLinkage
@@ -28,9 +29,9 @@ from synth.folding.mending.repair import Mended
 from synth.folding.newton import corrected
 from synth.folding.path import DrivenPath
 from synth.folding.placement import vertex_places
-from synth.folding.prepared import prepared
+from synth.folding.prepared import Prepared, prepared
 
-__all__ = ["Folding", "fold"]
+__all__ = ["Folding", "fold", "folding_along"]
 
 _FRAMES = 20
 _WHOLE = radians(179.0)
@@ -215,25 +216,53 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
+    check_given("fold", sheet, Sheet)
     pattern = prepared(sheet)
-    sheet, mechanism, linkage = pattern.sheet, pattern.mechanism, pattern.linkage
-    closure, found = pattern.closure, pattern.branches
-    joints = tuple(linkage.graph.joints)
-    if not joints:
+    linkage = pattern.linkage
+    if not linkage.graph.joints:
         raise UnsolvableError("nothing folds: the sheet has no creases between panels")
-    drive, along, doubt = drive or {}, along or {}, pattern.doubt
     asked = Asked(
-        drive, _WHOLE, branch, pattern.wanted, frames, limited=True, doubt=doubt, report=report, along=along
+        drive=drive or {},
+        whole=_WHOLE,
+        branch=branch,
+        marks=pattern.wanted,
+        frames=frames,
+        limited=True,
+        doubt=pattern.doubt,
+        report=report,
+        along=along or {},
     )
-    driven = driven_from(linkage, closure, found, asked)
-    path = driven.path
+    driven = driven_from(linkage, pattern.closure, pattern.branches, asked)
     if collisions:
-        path = _unobstructed(path, driven.places[0], sheet, mechanism, linkage)
-    vertices, apart = vertex_places(sheet, mechanism, linkage, path.angles)
-    path = _together(path, apart, doubt)
+        path = _unobstructed(driven.path, driven.places[0], pattern.sheet, pattern.mechanism, linkage)
+        driven = replace(driven, path=path)
+    return folding_along(pattern, driven)
+
+
+def folding_along(pattern: Prepared, driven: Driven) -> Folding:
+    """Return a pattern with its vertices in each frame of a motion, as far as panels hold together.
+
+    Parameters
+    ----------
+    pattern : Prepared
+    driven : Driven
+        A motion of its linkage.
+    """
+    sheet, linkage = pattern.sheet, pattern.linkage
+    vertices, apart = vertex_places(sheet, pattern.mechanism, linkage, driven.path.angles)
+    path = _together(driven.path, apart, pattern.doubt)
     vertices, parted = vertices[: len(path.angles)], float(apart[: len(path.angles)].max())
     return Folding(
-        sheet, linkage, found, driven.branch, joints, path, driven.goals, parted, vertices, pattern.repairs
+        sheet=sheet,
+        linkage=linkage,
+        branches=pattern.branches,
+        branch=driven.branch,
+        joints=tuple(linkage.graph.joints),
+        path=path,
+        driven=driven.goals,
+        apart=parted,
+        places=vertices,
+        repairs=pattern.repairs,
     )
 
 

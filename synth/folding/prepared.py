@@ -60,7 +60,7 @@ class Prepared:
     linkage : PosedLinkage
     closure : ClosureEquations
     branches : Branches or None
-        The ways to move from the pose; None for a linkage that is too large.
+        The ways to move from the pose; None for a linkage that is too large, or where they were not looked for.
     repairs : tuple of Mended
         What was done to the coordinates.
     """
@@ -108,7 +108,7 @@ def marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
     return np.where(np.abs(linkage.angles) > _FOLDED, np.sign(linkage.angles), 0.0)
 
 
-def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
+def prepared(sheet: Sheet, *, hinge_flat: bool = False, ways: bool = True) -> Prepared:
     """Make a crease pattern ready to move.
 
     Parameters
@@ -117,6 +117,8 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
         With coordinates.
     hinge_flat : bool, optional
         Make hinges of flat (F) edges too.
+    ways : bool, optional
+        Look for the ways to move from its pose; there may be hundreds.
 
     Raises
     ------
@@ -149,7 +151,7 @@ def prepared(sheet: Sheet, *, hinge_flat: bool = False) -> Prepared:
         closure = ClosureEquations(linkage)
         repairs.append(repair)
     branches = None
-    if not _too_large(linkage, closure):
+    if ways and not _too_large(linkage, closure):
         marks = marks_of(apart, linkage)
         search = search_for(len(marks), _wanted(marks))
         branches = branches_of(linkage, closure, search)

@@ -14,6 +14,7 @@ import numpy as np
 
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError, shown
+from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.printing import Block, Printed
 from synth.conformed.linkages import OnCone
@@ -169,6 +170,7 @@ def move(
     >>> np.degrees(moved.path.angles[-1]).round(6).tolist(), moved.taken.freedoms
     ([30.0, -30.0, 30.0, -30.0], 1)
     """
+    check_given("move", thing, Movable)
     linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
     closure = ClosureEquations(linkage)
     joints = tuple(linkage.graph.joints)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphs.convert.table import Mechanism
+from graphs.given import check_given
 from graphs.mechanism.sheet import Sheet
 from synth.folding.linkage import PosedLinkage
 from synth.moving.linkages import linkage_of
@@ -36,6 +37,7 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
     >>> found.freedoms, found.count, found.idle, found.sets[0].reasons[0]
     (1, -2, 3, 'opposite links alike, lengths as the sines of the twists (Bennett)')
     """
+    check_given("explain", thing, Mechanism | PosedLinkage)
     if isinstance(thing, Sheet) and thing.frames is not None:
         thing = thing.frames.first_placed()
     linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)

@@ -115,6 +115,8 @@ class Generator:
     source : str
     foldable : bool
         Whether it is flat, and can be had folded to an angle.
+    relations : str
+        What its parameters must obey together, within their ranges; empty if any will do.
     """
 
     name: str
@@ -125,6 +127,7 @@ class Generator:
     conditions: str
     source: str
     foldable: bool = False
+    relations: str = ""
 
     def values(self, given: Values) -> dict[str, float]:
         """Return all parameters, defaults where none are given, each in its range.

@@ -16,6 +16,8 @@ from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.extent import LEAST, MOST
+from graphs.given import check_given
 from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
@@ -41,8 +43,6 @@ __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
-_LEAST, _MOST = 1e-50, 1e50
-"""Of sizes: their squares, and the squares of these, are numbers."""
 _HEIGHTS = (0.6, 0.3)
 """Parts of its heights to which a pose in space is flattened where its shape is not good. The map is affine, so
 panels stay planar, and axes that meet go on meeting."""
@@ -225,6 +225,7 @@ def realise(
     >>> vertex.sheet, vertex.folds, vertex.mobility
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
+    check_given("realise", mechanism, Mechanism | ChainString)
     _check(kind, size, seed, tries)
     if kind == "space" and (flat_foldable or symmetric):
         raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
@@ -345,8 +346,8 @@ def _realised(asked: _Asked, drawn: Drawn, height: float) -> Realised:
 def _check(kind: str, size: float, seed: int, tries: int) -> None:
     if kind not in get_args(Kind):
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
-    if not _LEAST <= size <= _MOST:
-        raise InvariantError("size", f"the size is {size:g}", f"a number from {_LEAST:g} to {_MOST:g}")
+    if not LEAST <= size <= MOST:
+        raise InvariantError("size", f"the size is {size:g}", f"a number from {LEAST:g} to {MOST:g}")
     if seed < 0 or tries < 1:
         raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
 

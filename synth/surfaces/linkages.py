@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
+from graphs.given import check_given
 from graphs.mechanism.conical import ConicalLinkage, Pair
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.surfaces.cone import link_angles
@@ -175,6 +176,7 @@ def map_linkage(linkage: ConicalLinkage, tolerance: float = 1e-7) -> LinkageMap:
     >>> [family.interval[0] for family in map_linkage(ConicalLinkage(chain, steps=steps)).families]
     [0.0]
     """
+    check_given("map_linkage", linkage, ConicalLinkage)
     if linkage.angles is not None:
         return LinkageMap(linkage, *common_cones(linkage.chain, linkage.angles, tolerance))
     places = np.array(linkage.places())

@@ -10,13 +10,15 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["millimetres", "scale_of", "unit_of"]
+__all__ = ["GREATEST", "millimetres", "scale_of", "unit_of"]
 
 _UNITS = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "pt": 25.4 / 72}
 """Units that FOLD names, in millimetres; its ``unit`` is none of a length."""
 
 _LEAST = 10.0
 """Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
+GREATEST = 1e6
+"""Millimetres: what is larger than a kilometre is not cut out; its curves would be millions of lines."""
 
 
 def unit_of(sheet: Sheet) -> float | None:
@@ -62,7 +64,7 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     InvariantError
         If scale or size is no positive number, or both are given.
     UnsolvableError
-        If the box would be smaller than 10 mm.
+        If the box would be smaller than 10 mm, or larger than 1e6 mm.
 
     Examples
     --------
@@ -77,9 +79,8 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     extent = np.ptp(places, axis=0)
     longest = float(extent.max())
     factor = size / longest if size is not None and longest > 0 else 1.0 if scale is None else scale
-    if longest * factor < _LEAST:
+    if not _LEAST <= longest * factor <= GREATEST:
         found = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
-        raise UnsolvableError(
-            f"the thing would be {found} mm: expected a larger scale or a size (--scale, --size)"
-        )
+        way = "larger" if longest * factor < _LEAST else "smaller"
+        raise UnsolvableError(f"the thing would be {found} mm: expected a {way} scale or a size (--scale, --size)")
     return factor

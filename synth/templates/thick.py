@@ -7,7 +7,6 @@ their hinge; half the gap that is asked for is left away of each. Theory: docs/t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from graphs.mechanism.sheet import FLAT, Sheet
 from synth.templates.pieces.overlaps import GRID, united
 from synth.templates.pieces.planes import Plane
 from synth.templates.pieces.unfolding import Panels, panels_of
+from synth.templates.scale import GREATEST
 
 __all__ = ["Plates", "plates_in_space", "plates_of"]
 
@@ -92,14 +92,14 @@ def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> 
     Raises
     ------
     InvariantError
-        If the thickness is no positive number, or the gap no number from 0 on.
+        If the thickness is no positive number, the gap no number from 0 on, or one of them larger than 1e6 mm.
     UnsolvableError
         If a panel is not plane, or narrower than the gap.
     """
-    if not (isfinite(thickness) and thickness > 0):
-        raise InvariantError("thickness", f"thickness {thickness!r}", "a positive number")
-    if not (isfinite(gap) and gap >= 0):
-        raise InvariantError("gap", f"gap {gap!r}", "a number from 0 on")
+    if not 0 < thickness <= GREATEST:
+        raise InvariantError("thickness", f"thickness {thickness!r}", f"a positive number, at most {GREATEST:g}")
+    if not 0 <= gap <= GREATEST:
+        raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
     panels = panels_of(sheet, places)
     meshes, faces = [], []
     for face in range(len(sheet.faces)):

@@ -15,6 +15,7 @@ from graphs.answer.mechanisms import mobility as counted
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError
+from graphs.given import check_given
 from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
@@ -113,6 +114,7 @@ def mobility(
     >>> answer.mobility, answer.pose.dof
     (1, 2)
     """
+    check_given("mobility", mechanism, Mechanism | nx.Graph)
     answer = counted(mechanism, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry)
     if pose is False or motion is False:
         left_out = "its motion was left out" if motion is False and answer.pose is not None else ""

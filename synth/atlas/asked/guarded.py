@@ -10,6 +10,7 @@ import sqlite3
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from threading import TIMEOUT_MAX, Timer
 from time import monotonic
 from typing import Any, NamedTuple
 
@@ -20,14 +21,25 @@ __all__ = ["Rows", "open_guarded", "selected"]
 
 _READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
 _ALLOWED = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE}
-_REFUSED = {"load_extension", "fts3_tokenizer", "randomblob", "zeroblob"}
-"""Functions that do more than compute with what is there, or make values of any length."""
+_REFUSED = {
+    "load_extension",
+    "fts3_tokenizer",
+    "randomblob",
+    "zeroblob",
+    "printf",
+    "format",
+    "trim",
+    "ltrim",
+    "rtrim",
+}
+"""Functions that do more than compute with what is there, or make values of any length, or take long in a step."""
 
 _EXPECTED = "one SELECT on types or relations"
 _STEPS = 10_000
 """Steps of SQLite's machine between two looks at the clock."""
-_LONGEST_VALUE = 2_000_000
-_LONGEST_STATEMENT = 100_000
+_LONGEST_VALUE = 300_000
+"""Bytes of a value, ten times those of the largest file: the slowest function then takes a second in one step."""
+_LONGEST_STATEMENT = 20_000
 _LONGEST_PATTERN = 200
 
 
@@ -102,11 +114,10 @@ def selected(
     UnsolvableError
         If it takes longer.
     """
-    end = monotonic() + seconds
-    connection.set_progress_handler(lambda: monotonic() > end, _STEPS)
     try:
-        cursor = connection.execute(statement, values)
-        rows = cursor.fetchmany(limit + 1)
+        with _stopped_after(connection, seconds):
+            cursor = connection.execute(statement, values)
+            rows = cursor.fetchmany(limit + 1)
     except sqlite3.OperationalError as error:
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF == sqlite3.SQLITE_INTERRUPT:
             raise UnsolvableError(
@@ -115,11 +126,29 @@ def selected(
         raise InvariantError("statement", _said(error), _EXPECTED) from None
     except (*COMPLAINTS, ValueError, OverflowError) as error:
         raise InvariantError("statement", _said(error), _EXPECTED) from None
-    finally:
-        connection.set_progress_handler(None, 0)
     if cursor.description is None:
         raise InvariantError("statement", "it selects nothing", _EXPECTED)
     return Rows(tuple(head[0] for head in cursor.description), rows[:limit], len(rows) > limit)
+
+
+@contextmanager
+def _stopped_after(connection: sqlite3.Connection, seconds: float) -> Iterator[None]:
+    """Interrupt what SQLite does after some time.
+
+    Another thread does so, since steps may be long. The look at the clock between many steps is for a statement
+    that had not begun when the thread interrupted it.
+    """
+    end = monotonic() + seconds
+    connection.set_progress_handler(lambda: monotonic() > end, _STEPS)
+    timer = Timer(min(seconds, TIMEOUT_MAX), connection.interrupt)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        timer.join()
+        connection.set_progress_handler(None, 0)
 
 
 def _said(error: Exception) -> str:

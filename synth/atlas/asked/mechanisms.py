@@ -1,53 +1,20 @@
-"""The mechanism of a row of an atlas: to be drawn, or written to a file."""
+"""The mechanism of a row of an atlas, to be written to a file; and the panels that were found for it."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from enumerate.strings.graphs import chain_scd
-from enumerate.strings.panel_strings import ChainString
-from graphs.errors import UnsolvableError, shown
-from graphs.files.ids import mechanism_of_id
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.native.documents import dumps
-from synth.conformed.cycles import loops_of_chain
-from synth.drawing.catalogue.rows import order_of_row
+from graphs.files.patterns.fold import sheet_from_fold
+from graphs.mechanism.sheet import Sheet
+from synth.drawing.catalogue.atlas_types import drawable_of_type
 
-__all__ = ["drawable_of_type", "mechanism_file_of_type"]
-
-
-def drawable_of_type(kind: str, code: str) -> Any:
-    """Return what `synth.draw` draws of a type.
-
-    Parameters
-    ----------
-    kind : str
-    code : str
-        Its id in an atlas.
-
-    Examples
-    --------
-    >>> drawable_of_type("sc", "m1:ab.ac.bd.cd")
-    <SCGraph: 4 links, 4 joints, 1 centre>
-    >>> drawable_of_type("order", "k1:Cr:0-2-1-3").names
-    ['0', '1', '2', '3']
-    """
-    if kind == "string":
-        return ChainString.parse(code)
-    if kind != "order":
-        return mechanism_of_id(code)
-    chain_code, _, joints = code.rpartition(":")
-    chain = mechanism_of_id(chain_code)
-    order = joints.split("-")
-    loops = [list(map(str, loop)) for loop in loops_of_chain(chain)]
-    return order_of_row(_evenly_spaced(order, loops), chain)
-
-
-def _evenly_spaced(order: list[str], loops: list[list[str]]) -> Mapping[str, Any]:
-    """Return a row as conical candidates have it, joints on equal slots."""
-    place = {name: slot for slot, name in enumerate(order)}
-    slots = [place[str(joint)] for joint in range(len(order))]
-    return {"order": order, "slots": slots, "loops": loops, "most_layers": None}
+__all__ = ["mechanism_file_of_type", "sheet_of_type"]
 
 
 def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
@@ -55,10 +22,36 @@ def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
 
     Raises
     ------
+    InvariantError
+        If there can be no such type.
     UnsolvableError
         If it is an order, which has no angles.
     """
     kind, code = row["kind"], row["id"]
     if kind == "order":
         raise UnsolvableError(f"{shown(code)} is an order without angles: there is no file of it")
-    return dumps(chain_scd(ChainString.parse(code)) if kind == "string" else mechanism_of_id(code))
+    thing = drawable_of_type(kind, code)
+    return dumps(chain_scd(thing) if kind == "string" else thing)
+
+
+def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
+    """Return the panels of a type, None where none were found.
+
+    Parameters
+    ----------
+    values : mapping
+        Column to value, of an atlas.
+
+    Raises
+    ------
+    FileError
+        If what is stored as its file is damaged.
+    """
+    text, place = values.get("fold_file"), Path(f"fold_file of {values['id']}")
+    if text is None:
+        return None
+    try:
+        document = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileError(place, "", f"is not JSON: {error}", "a FOLD document; build the atlas again") from None
+    return sheet_from_fold(document, place)

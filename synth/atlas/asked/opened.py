@@ -5,19 +5,19 @@ Theory: docs/theory/atlas.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from enumerate.runner.columns import ListColumn, unstored
 from graphs.edit.named import known
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, shown
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.atlas.asked.expression import condition_of
 from synth.atlas.asked.guarded import Rows, open_guarded, selected
 from synth.atlas.asked.type_report import TypeReport, report_of
+from synth.atlas.asked.values import text_values, value_of
 from synth.atlas.columns import COLUMNS, SCHEMA, stored_columns
 
 if TYPE_CHECKING:
@@ -156,8 +156,7 @@ class Atlas:
         rows = self._selected(
             f"SELECT {names} FROM type{where} ORDER BY {order} LIMIT ?", (*values, limit + 1), limit, seconds
         )
-        read = {name: _READ[name] for name in wanted}
-        return AtlasRows(wanted, [_row(read, row) for row in rows.rows], rows.more)
+        return AtlasRows(wanted, [self._row(wanted, row) for row in rows.rows], rows.more)
 
     def sql(self, statement: str, *, limit: int = _LIMIT, seconds: float = _SECONDS) -> AtlasRows:
         """Return what a statement selects from ``types`` and ``relations``; values are as they are stored.
@@ -187,7 +186,7 @@ class Atlas:
             If the atlas holds no such type.
         """
         with open_guarded(self.path) as connection:
-            found = report_of(connection, code)
+            found = report_of(connection, code, self.path)
         if found is None:
             raise InvariantError(
                 "atlas", f"holds no type {shown(code)}", "an id or a name that synth atlas query prints"
@@ -197,24 +196,27 @@ class Atlas:
     def about(self) -> dict[str, Any]:
         """Return what the atlas says of itself: version of its schema, of synthedra, command, numbers of types."""
         with open_guarded(self.path) as connection:
-            schema, version, command = connection.execute(
-                "SELECT schema, synthedra, command FROM atlas"
-            ).fetchone()
+            row = connection.execute("SELECT schema, synthedra, command FROM atlas").fetchone()
             counts = dict(connection.execute("SELECT kind, count(*) FROM types GROUP BY kind"))
-        return {"schema": schema, "synthedra": version, "command": command, "types": counts}
+        schema, version, command = row or (None, None, None)
+        text_values(self.path, "the command", [version, command])
+        types = {value_of(self.path, "kind", kind): number for kind, number in counts.items()}
+        return {"schema": schema, "synthedra": version, "command": command, "types": types}
 
     def ids(self, codes: Sequence[str]) -> list[dict[str, Any]]:
         """Return the rows of the types with some ids, in the order of the ids; of a string, that of its panels."""
         names = ", ".join(f'"{name}"' for name in _all_columns())
-        read = {name: _READ[name] for name in _all_columns()}
         found = []
         with open_guarded(self.path) as connection:
             for code in dict.fromkeys(codes):
                 for column in ("id", "panels"):
                     statement = f"SELECT {names} FROM type WHERE {column} = ?"
                     rows = selected(connection, statement, (code,), limit=_LIMIT, seconds=_SECONDS)
-                    found += [_row(read, row) for row in rows.rows]
+                    found += [self._row(_all_columns(), row) for row in rows.rows]
         return found
+
+    def _row(self, names: Sequence[str], row: Sequence[Any]) -> dict[str, Any]:
+        return {name: value_of(self.path, name, value) for name, value in zip(names, row, strict=True)}
 
     def _selected(self, statement: str, values: Sequence[Any], limit: int, seconds: float) -> Rows:
         with open_guarded(self.path) as connection:
@@ -255,7 +257,7 @@ def open_atlas(path: str | Path) -> Atlas:
             told = "is no atlas, or one that was not finished: synth atlas build -o FILE --resume"
             raise StoreError(f"{place}: {told}") from None
     if not row or row[0][0] != SCHEMA:
-        version = f"version {row[0][0]}, of synthedra {row[0][1]}" if row else "no version"
+        version = f"version {shown(row[0][0])}, of synthedra {plain(row[0][1])}" if row else "no version"
         raise StoreError(f"{place}: is an atlas of {version}; this one reads version {SCHEMA}: build it again")
     return Atlas(place)
 
@@ -273,24 +275,6 @@ def _column(name: str) -> str:
     if name not in COLUMNS:
         raise InvariantError("column", f"there is no column {shown(name)}", known(COLUMNS, name))
     return name
-
-
-def _reader(name: str) -> Any:
-    """Return what makes a value of a stored one."""
-    holds = COLUMNS[name].holds
-    if isinstance(holds, ListColumn):
-        return unstored
-    return bool if holds is bool else None
-
-
-_READ = {name: _reader(name) for name in COLUMNS}
-
-
-def _row(read: Mapping[str, Any], row: Sequence[Any]) -> dict[str, Any]:
-    return {
-        name: value if value is None or function is None else function(value)
-        for (name, function), value in zip(read.items(), row, strict=True)
-    }
 
 
 def _plain_data(value: Any) -> Any:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import sqlite3
 from collections import Counter
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import ListColumn, unstored
 from graphs.printing import Block, Printed, TableBlock, plain
+from synth.atlas.asked.values import text_values, value_of
 from synth.atlas.columns import COLUMNS
 from synth.atlas.names import NamedType, named_types
 
@@ -102,7 +103,7 @@ class TypeReport(Printed):
         return f"<TypeReport: {plain(self.values['id'])}>"
 
 
-def report_of(connection: sqlite3.Connection, code: str) -> TypeReport | None:
+def report_of(connection: sqlite3.Connection, code: str, path: Path) -> TypeReport | None:
     """Return the report of a type by its id, or its name; None if there is none.
 
     Parameters
@@ -110,6 +111,13 @@ def report_of(connection: sqlite3.Connection, code: str) -> TypeReport | None:
     connection : sqlite3.Connection
         Of an atlas.
     code : str
+    path : Path
+        Of the atlas.
+
+    Raises
+    ------
+    StoreError
+        If it is damaged.
     """
     names = ", ".join(f'"{name}"' for name in COLUMNS)
     row = None
@@ -117,20 +125,14 @@ def report_of(connection: sqlite3.Connection, code: str) -> TypeReport | None:
         row = row or connection.execute(f"SELECT {names} FROM type WHERE {column} = ? LIMIT 1", (code,)).fetchone()
     if row is None:
         return None
-    values = {name: _read(name, value) for name, value in zip(COLUMNS, row, strict=True) if value is not None}
-    neighbours, more = _neighbours(connection, values["id"])
+    read = {name: value_of(path, name, value) for name, value in zip(COLUMNS, row, strict=True)}
+    values = {name: value for name, value in read.items() if value is not None}
+    neighbours, more = _neighbours(connection, values["id"], path)
     named = tuple(one for one in named_types() if one.id == values["id"])
     return TypeReport(values, named, tuple(neighbours), more)
 
 
-def _read(name: str, value: Any) -> Any:
-    holds = COLUMNS[name].holds
-    if isinstance(holds, ListColumn):
-        return unstored(value)
-    return bool(value) if holds is bool else value
-
-
-def _neighbours(connection: sqlite3.Connection, code: str) -> tuple[list[Neighbour], int]:
+def _neighbours(connection: sqlite3.Connection, code: str, path: Path) -> tuple[list[Neighbour], int]:
     """Return what a type is of others, and others of it; and how many more of these there are."""
     known = "(SELECT name FROM type WHERE type.id = {0} LIMIT 1), EXISTS (SELECT 1 FROM type WHERE type.id = {0})"
     onward = connection.execute(
@@ -140,6 +142,7 @@ def _neighbours(connection: sqlite3.Connection, code: str) -> tuple[list[Neighbo
         f"SELECT relation, id, {known.format('relations.id')} FROM relations WHERE other = ? AND id <> ? LIMIT ?",
         (code, code, _MOST + 1),
     ).fetchall()
+    text_values(path, "the id of a related type", (one for _, one, *_ in (*onward, *backward)))
     found = [
         Neighbour(relation, other, name, bool(there)) for relation, other, name, there in onward if other != code
     ]

@@ -8,15 +8,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column
+from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.sinks import sink_for
 from graphs.errors import FileError, InvariantError
 from graphs.files.atomic import write_text
-from synth.atlas.asked.mechanisms import drawable_of_type, mechanism_file_of_type
+from synth.atlas.asked.mechanisms import mechanism_file_of_type
 from synth.atlas.asked.opened import AtlasRows
 from synth.atlas.columns import COLUMNS
+from synth.drawing.catalogue.atlas_types import drawable_of_type
 from synth.drawing.catalogue.entries import CatalogueEntry
 from synth.drawing.catalogue.pages import catalogue_pages
 from synth.drawing.catalogue.writing import write_catalogue
@@ -79,14 +80,18 @@ class _Listed:
 
     @property
     def columns(self) -> dict[str, Column]:
-        """Names and types of the values; those of a statement are what their first values are."""
+        """Names and types of the values; those of a statement are what all its values are."""
         return {name: self._type(name) for name in self.rows.columns}
 
     def _type(self, name: str) -> Column:
+        values = [row[name] for row in self.rows if row[name] is not None]
         if name in COLUMNS:
-            return COLUMNS[name].holds
-        known = next((row[name] for row in self.rows if row[name] is not None), "")
-        return type(known) if isinstance(known, int | float) else str
+            holds = COLUMNS[name].holds
+            read = tuple if isinstance(holds, ListColumn) else holds
+            if all(isinstance(value, read) for value in values):
+                return holds
+        types = set(map(type, values)) or {str}
+        return int if types == {int} else float if types <= {int, float} else str
 
     @property
     def key(self) -> dict[str, Any]:
@@ -99,12 +104,26 @@ class _Listed:
 
     def work(self, payload: None) -> list[Row]:
         """Return the rows."""
-        return [tuple(row.values()) for row in self.rows]
+        columns = self.columns.items()
+        return [
+            tuple(_as_text(row[name]) if kind is str else row[name] for name, kind in columns) for row in self.rows
+        ]
 
     @staticmethod
     def mechanism_text(row: Mapping[str, Any]) -> str:
         """Return the file of a row."""
         return mechanism_file_of_type(row)
+
+
+def _as_text(value: Any) -> str | None:
+    """Return a value of a column of texts; a statement may select others beside them."""
+    return (
+        value
+        if value is None or isinstance(value, str)
+        else value.hex()
+        if isinstance(value, bytes)
+        else str(value)
+    )
 
 
 def _check_mechanisms(rows: AtlasRows) -> None:

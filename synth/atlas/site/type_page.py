@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from html import escape
-from pathlib import Path
 from typing import Any
 
 from graphs.errors import SynthedraError
-from graphs.files.patterns.fold import sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 from graphs.plain_text import plain
-from synth.atlas.asked.mechanisms import drawable_of_type
+from synth.atlas.asked.mechanisms import sheet_of_type
 from synth.atlas.asked.type_report import TypeReport
 from synth.atlas.columns import COLUMNS
 from synth.atlas.site.document import document
+from synth.drawing.catalogue.atlas_types import drawable_of_type
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
 from synth.templates.formats.svg import svg_of_page
@@ -80,8 +78,7 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> T
         Names of the files of the types that the site has.
     """
     values = report.values
-    fold = values.get("fold_file")
-    sheet = None if fold is None else sheet_from_fold(json.loads(fold), Path(f"{file}.fold"))
+    fold, sheet = values.get("fold_file"), sheet_of_type(values)
     template = None if sheet is None else _template(sheet)
     title = values.get("name") or values["id"]
     body = _BODY.format(

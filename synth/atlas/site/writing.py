@@ -15,6 +15,7 @@ from graphs.errors import FileError, UnsolvableError
 from synth.atlas.asked.guarded import open_guarded
 from synth.atlas.asked.opened import Atlas
 from synth.atlas.asked.type_report import report_of
+from synth.atlas.asked.values import damaged
 from synth.atlas.site.index_page import SEARCHED, data_script, index_page
 from synth.atlas.site.type_page import TypeFiles, files_of_type
 from synth.viewer.building import BUILT
@@ -72,8 +73,9 @@ class Site:
         rows: list[Row] = []
         with open_guarded(Path(self.atlas)) as connection:
             for number in range(*payload):
-                report = report_of(connection, self.ids[number])
-                assert report is not None  # its id was read a moment ago
+                report = report_of(connection, self.ids[number], Path(self.atlas))
+                if report is None:  # its id was read a moment ago
+                    raise damaged(Path(self.atlas), "the index", self.ids[number], "an id that it finds")
                 rows += self._rows(self._file(number), files_of_type(report, self._file(number), places))
         return rows
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from synth.cli.lengths import LENGTH
 from synth.cli.output import about, plain, print_json
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
@@ -35,7 +36,7 @@ _PLACE = 3
 @click.option("--drive", metavar="JOINT=DEGREES", help="Follow the load path of this joint.")
 @click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses of the path.")
 @click.option("--mass", multiple=True, metavar="LINK=M@X,Y,Z", help="A point mass on a link; may be repeated.")
-@click.option("--density", type=float, metavar="D", help="Of a sheet: mass of a unit of area of its panels.")
+@click.option("--density", type=LENGTH, metavar="D", help="Of a sheet: mass of a unit of area of its panels.")
 @click.option("--ground", metavar="LINK", help="The link that stays, for frequencies.")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def states(

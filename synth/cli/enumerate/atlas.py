@@ -194,10 +194,12 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
     if output is not None:
         from graphs.errors import UnsolvableError
         from graphs.files.atomic import write_text
+        from synth.atlas.asked.mechanisms import sheet_of_type
 
         text = report.values.get("fold_file")
         if text is None:
             raise UnsolvableError(f"{plain(type_id)}: the atlas holds no coordinates of it")
+        sheet_of_type(report.values)  # what is damaged is not written
         write_text(Path(output), text, force=force)
     if as_json:
         print_json(report.to_json())

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from synth.cli.lengths import LENGTH, LENGTH_OR_NONE
 from synth.cli.output import FORCE, LOSSY, about, check_output, plain, print_json, tell_lost
 
 if TYPE_CHECKING:
@@ -34,10 +35,12 @@ _SOLIDS = (".stl", ".3mf", ".gltf")
     help="Change the centres: planar analogue, spherical analogue, or most general form.",
 )
 @click.option("--table", type=click.Choice(["axes", "vertices"]), help="What a .csv holds, in every frame.")
-@click.option("--thickness", type=float, metavar="MM", help="Of panels as solids.  [default: 1]")
-@click.option("--gap", type=float, metavar="MM", help="Of solids at a hinge.  [default: twice the thickness]")
-@click.option("--scale", type=float, help="Of solids: millimetres for a unit.  [default: 1]")
-@click.option("--size", type=float, metavar="MM", help="Of solids: longest side; of a cone, ruling lines.")
+@click.option("--thickness", type=LENGTH, metavar="MM", help="Of panels as solids.  [default: 1]")
+@click.option(
+    "--gap", type=LENGTH_OR_NONE, metavar="MM", help="Of solids at a hinge.  [default: twice the thickness]"
+)
+@click.option("--scale", type=LENGTH, help="Of solids: millimetres for a unit.  [default: 1]")
+@click.option("--size", type=LENGTH, metavar="MM", help="Of solids: longest side; of a cone, ruling lines.")
 @click.option("--cone", type=click.IntRange(min=1), metavar="K", help="Of a linkage on several cones: which.")
 @FORCE
 @LOSSY

@@ -6,6 +6,7 @@ import sys
 
 import click
 
+from synth.cli.lengths import BRANCH
 from synth.cli.output import about, plain, print_json
 
 __all__ = ["advise"]
@@ -14,7 +15,9 @@ __all__ = ["advise"]
 @click.command(short_help="Say what to lock, or which panels to crease, for a number of freedoms.")
 @click.argument("file", metavar="FILE")
 @click.option("--freedoms", type=click.IntRange(0), required=True, metavar="K", help="Freedoms that are wanted.")
-@click.option("--branch", metavar="B", help="Of this way from a flat state: its number, or its signs.")
+@click.option(
+    "--branch", type=BRANCH, metavar="B", help="Of this way from a flat state: its number, or its signs."
+)
 @click.option(
     "--weight", multiple=True, metavar="JOINT=W", help="What locking a joint costs (1); may be repeated."
 )
@@ -30,7 +33,7 @@ __all__ = ["advise"]
 def advise(
     file: str,
     freedoms: int,
-    branch: str | None,
+    branch: int | str | None,
     weight: tuple[str, ...],
     protect_joint: tuple[str, ...],
     protect_link: tuple[str, ...],
@@ -68,7 +71,7 @@ def advise(
         found = advised(
             thing,
             freedoms,
-            branch=int(branch) if branch is not None and branch.isdigit() else branch,
+            branch=branch,
             weights={joint_named(graph, name): value for name, value in _weights(weight)},
             joints=[joint_named(graph, name) for name in protect_joint],
             links=[link_named(graph, name) for name in protect_link],

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from synth.cli.lengths import BRANCH
 from synth.cli.output import FORCE, about, check_picture, plain, tell_written
 from synth.cli.runner import LimitsType
 
@@ -41,7 +42,9 @@ _COLOURS = ("letters", "verdict", "branch", "centres", "none")
     help="What colours of a crease pattern tell: letters of the file, what moves, how it begins to fold on a "
     "branch, classes of centres, nothing.",
 )  # fmt: skip
-@click.option("--branch", metavar="K", help="With --colour branch: its number, or its signs (see synth fold).")
+@click.option(
+    "--branch", type=BRANCH, metavar="K", help="With --colour branch: its number, or its signs (see synth fold)."
+)
 @click.option("--graph", is_flag=True, help="Draw the SC graph over a crease pattern.")
 @click.option("--numbers/--no-numbers", default=True, show_default=True, help="Numbers of links and joints.")
 @click.option("--paper", type=click.Choice(["light", "dark"]), default="light", show_default=True)
@@ -84,8 +87,6 @@ def draw(
     from synth.drawing.mechanisms import pictures
     from synth.drawing.scene.writing import save_scene
 
-    if look["branch"] is not None and look["branch"].isdigit():
-        look["branch"] = int(look["branch"])
     thing = _read(file)
     with about(file):
         scene = pictures.draw(thing, kind, **look)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from synth.cli.lengths import BRANCH
 from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table, tell_written
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
@@ -27,7 +28,9 @@ __all__ = ["fold"]
 @click.option("--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease so far; may be repeated.")
 @click.option("--along", multiple=True, metavar="JOINT=RATE", help="Begin at these rates, then go straight on.")
 @click.option("--all", "whole", is_flag=True, help="Fold all creases together, by one freedom (without --drive).")
-@click.option("--branch", metavar="K", help="Take this way from a flat state: its number, or its signs.")
+@click.option(
+    "--branch", type=BRANCH, metavar="K", help="Take this way from a flat state: its number, or its signs."
+)
 @click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
 @click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses to make.")
 @click.option("--collisions", is_flag=True, help="End before panels pass through each other.")
@@ -44,7 +47,7 @@ def fold(
     drive: tuple[str, ...],
     along: tuple[str, ...],
     whole: bool,
-    branch: str | None,
+    branch: int | str | None,
     listed: bool,
     frames: int,
     collisions: bool,
@@ -99,7 +102,7 @@ def fold(
                 sheet,
                 drive=asked.driven(graph),
                 along=asked.rates(graph),
-                branch=_way(branch),
+                branch=branch,
                 frames=frames,
                 collisions=collisions,
                 report=report,
@@ -119,7 +122,7 @@ def fold(
     tell_written(*written)
 
 
-def _moved(thing: Mechanism, asked: _Joints, branch: str | None, frames: int, output: str | None) -> Motion:
+def _moved(thing: Mechanism, asked: _Joints, branch: int | str | None, frames: int, output: str | None) -> Motion:
     """Move what has no panels: solids hinged at edges, rods, a linkage on its cone."""
     from synth.drawing.foldings import check_motion_output
     from synth.moving.linkages import linkage_of
@@ -129,11 +132,7 @@ def _moved(thing: Mechanism, asked: _Joints, branch: str | None, frames: int, ou
         check_motion_output(thing, output)
     linkage = linkage_of(thing)
     graph = linkage.graph
-    return move(linkage, drive=asked.driven(graph), along=asked.rates(graph), branch=_way(branch), frames=frames)
-
-
-def _way(branch: str | None) -> int | str | None:
-    return int(branch) if branch is not None and branch.isdigit() else branch
+    return move(linkage, drive=asked.driven(graph), along=asked.rates(graph), branch=branch, frames=frames)
 
 
 @contextmanager

@@ -62,7 +62,8 @@ def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
         return
     rows = table("name", "what", "parameters", "source")
     for one in GENERATORS.values():
-        rows.add_row(one.name, one.title, " ".join(p.name for p in one.parameters), one.source)
+        names = " ".join(p.name for p in one.parameters)
+        rows.add_row(one.name, one.title, f"{names}; {one.relations}" if one.relations else names, one.source)
     console().print(rows)
 
 
@@ -79,6 +80,7 @@ def _described(generator: Generator) -> dict[str, Any]:
             }
             for one in generator.parameters
         ],
+        "relations": generator.relations,
         "foldable": generator.foldable,
         "conditions": generator.conditions,
         "source": generator.source,
@@ -98,7 +100,12 @@ def _command(generator: Generator) -> click.Command:
     ]
     if generator.foldable:
         options.append(
-            click.Option(["--fold"], type=float, metavar="DEGREES", help="Fold the crease that moves most so far.")
+            click.Option(
+                ["--fold"],
+                type=float,
+                metavar="DEGREES",
+                help="Fold the crease that moves most to this angle; like creases fold alike if they can.",
+            )
         )
     written = ".fold, .obj or another" if generator.foldable else ".json, or of panels .fold"
     options.append(click.Option(["-o", "--output"], metavar="OUT", help=f"File to write: {written}."))
@@ -107,7 +114,8 @@ def _command(generator: Generator) -> click.Command:
     def run(fold: float | None = None, output: str | None = None, **given: Any) -> None:
         _run(generator, fold, output, **given)
 
-    told = f"{generator.title}.\n\nFreedoms: {generator.conditions}. Source: {generator.source}."
+    relations = f" Parameters: {generator.relations}." if generator.relations else ""
+    told = f"{generator.title}.\n\nFreedoms: {generator.conditions}.{relations} Source: {generator.source}."
     return FORCE(
         click.Command(generator.name, params=options, callback=run, help=told, short_help=generator.title)
     )

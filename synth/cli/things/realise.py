@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from synth.cli.lengths import LENGTH
 from synth.cli.output import FORCE, about, check_output, print_answer, print_json, tell_written
 from synth.cli.runner import RunOptions
 from synth.cli.things.given import MODE, given
@@ -26,7 +27,7 @@ _FIGURES = 12
 @click.command(short_help="Give a type coordinates: a flat sheet of panels, a pose in space, a place on a cone.")
 @click.argument("file", metavar="FILE")
 @click.option("--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True)
-@click.option("--size", type=float, help="Longer side of the box round the panels.  [default: 1]")
+@click.option("--size", type=LENGTH, help="Longer side of the box round the panels.  [default: 1]")
 @click.option(
     "--lambda", "cone_angle", type=float,
     help="Of a cone: angle of its ruling lines from the plane across its axis.  [default: 30]",
@@ -63,8 +64,8 @@ def realise(
 ) -> None:
     """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
 
-    Of a store (.sqlite), of rows (.jsonl), of a graph6 file or of a folder every type is realised: OUT is a folder
-    of .fold files, with a store of what became of each beside it, or a store alone.
+    Of a store or an atlas (.sqlite), of rows (.jsonl), of a graph6 file or of a folder every type is realised: OUT
+    is a folder of .fold files, with a store of what became of each beside it, or a store alone.
 
     Panels are convex where they can be, creases round a hole point to their centre, and what is written reads back
     to the same type. Of a graph without a drawing the simplest is taken, which is told; of a string a strip of

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from synth.cli.lengths import LENGTH, LENGTH_OR_NONE
 from synth.cli.output import FORCE, about, plain, tell_written
 from synth.cli.things.given import MODE, ROW, Given, given
 
@@ -33,9 +34,11 @@ _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--
 @MODE
 @click.option("--as", "kind", type=click.Choice(["sheet", "space"]), help="Realise a type so.  [default: sheet]")
 @click.option("--page", "page", default="A4", show_default=True, help="A4, A3, Letter, or WIDTHxHEIGHT in mm.")
-@click.option("--scale", type=float, help="Millimetres for a unit.  [default: the file's unit, or 1]")
-@click.option("--size", type=float, metavar="MM", help="Longer side of the thing; on a cone, of ruling lines.")
-@click.option("--tabs", type=float, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none.")
+@click.option("--scale", type=LENGTH, help="Millimetres for a unit.  [default: the file's unit, or 1]")
+@click.option("--size", type=LENGTH, metavar="MM", help="Longer side of the thing; on a cone, of ruling lines.")
+@click.option(
+    "--tabs", type=LENGTH_OR_NONE, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none."
+)
 @click.option("--slots", is_flag=True, help="Tabs go through slots, without glue.")
 @click.option(
     "--hinges",
@@ -45,11 +48,11 @@ _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--
     show_default=True,
     help="Thick material: two folds for one, rows of cuts, or panels apart; --hinge-width says how wide.",
 )
-@click.option("--hinge-width", type=float, metavar="MM", help="Of offset, living or gap.")
+@click.option("--hinge-width", type=LENGTH, metavar="MM", help="Of offset, living or gap.")
 @click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="Of a linkage on a cone: its angle.")
 @click.option("--cone", type=click.IntRange(min=1), metavar="K", help="Of one that lies on several: which.")
-@click.option("--radius", type=float, metavar="MM", help="On a cylinder instead of a cone.")
-@click.option("--thickness", type=float, metavar="MM", help="On a cone: of the material.  [default: 0.3]")
+@click.option("--radius", type=LENGTH, metavar="MM", help="On a cylinder instead of a cone.")
+@click.option("--thickness", type=LENGTH, metavar="MM", help="On a cone: of the material.  [default: 0.3]")
 @click.option("--note/--no-note", default=True, show_default=True, help="How it is put together, with a picture.")
 @FORCE
 def template(

@@ -14,6 +14,7 @@ from graphs.errors import FileError, InvariantError, SynthedraError, shown
 from graphs.files.formats import read_all
 from graphs.files.ids import is_id, mechanism_of_id
 from graphs.mechanism.sc import SCGraph
+from synth.drawing.catalogue.atlas_types import drawable_of_type
 from synth.drawing.catalogue.rows import ROWS, Row, order_of_row, rows_of_file
 from synth.drawing.mechanisms.orders import OrderOnCircle
 
@@ -145,6 +146,10 @@ def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
         mode = row["mode"] if isinstance(row.get("mode"), str) else None
         name = f"{row['string']} {mode}" if mode else row["string"]
         return CatalogueEntry(number, ChainString.parse(row["string"]), name, _said(row), mode)
+    if "id" in row and "kind" in row:  # of an atlas
+        name = row.get("name")
+        told = ", ".join(filter(None, [name if isinstance(name, str) else "", _said(row)]))
+        return CatalogueEntry(number, drawable_of_type(row["kind"], row["id"]), row["id"], told)
     for column in _IDS:
         code = row.get(column)
         if isinstance(code, str) and is_id(code):
@@ -153,7 +158,9 @@ def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
             chain = mechanism_of_id(code)
             thing = chain if "order" not in row else _on_circle(place, number, row, chain)
             return CatalogueEntry(number, thing, code, told)
-    raise FileError(place, f"row {number}", "has no id", f"an id in one of the columns {', '.join(_IDS)}")
+    raise FileError(
+        place, f"row {number}", "has no id", f"an id in one of the columns {', '.join(_IDS)}, or id and kind"
+    )
 
 
 def _on_circle(place: Path, number: int, row: Row, chain: SCGraph) -> OrderOnCircle:

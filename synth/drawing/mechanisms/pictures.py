@@ -12,6 +12,7 @@ import networkx as nx
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, graph_of, to_sc, to_solids
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.given import check_given
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.plane import lies_flat
@@ -99,6 +100,7 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     >>> [layer.name for layer in draw(read("k1:Cr")).layers]
     ['links', 'joints', 'labels', 'caption']
     """
+    check_given("draw", thing, Drawable)
     kind = _suiting(thing) if kind is None else kind
     if kind not in KINDS:
         raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))

@@ -137,9 +137,11 @@ def _foot(linkage: PosedLinkage, hinge: int, other: int) -> Floats:
 
 def _hull(corners: Floats) -> list[list[int]]:
     """Return the faces of the hull of points, counter-clockwise seen from outside; of a plate its two sides."""
+    if len(corners) < 3:
+        return []
     middle = corners.mean(axis=0)
     _, sizes, axes = np.linalg.svd(corners - middle, full_matrices=False)
-    if len(corners) < 3 or sizes[1] < _ALIKE * max(sizes[0], _ALIKE):
+    if sizes[1] < _ALIKE * max(sizes[0], _ALIKE):
         return []
     if sizes[2] < _ALIKE**0.5 * sizes[0]:
         front = _around(corners, list(range(len(corners))), np.asarray(axes[2]))

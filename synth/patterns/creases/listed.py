@@ -94,6 +94,7 @@ GENERATORS = (
             length("side", 1.0, 0.8, 1.2, "at the first angle; the side between both is 1"),
         ),
         lambda _: 1, "all vertices fold alike", "Huffman 1976; Kokotsakis 1933; Stachel 2010", True,
+        "side sin(first + second) is less than sin(second)",
     ),
     Generator(
         "kresling", "Storey of Kresling's pattern", tubes.kresling,
@@ -117,7 +118,7 @@ GENERATORS = (
         ),
         lambda v: 2 * int(v["pleats"]) - 3,
         "until ride-alongs are straight, where it stops; rigid if they are held so: see synth limits",
-        "Wiener 2016, 6.3; proportions chosen",
+        "Wiener 2016, 6.3; proportions chosen", relations="short is less than 180 - 360 / pleats - 2 slack",
     ),
     Generator(
         "map", "Map", tessellations.map_sheet,

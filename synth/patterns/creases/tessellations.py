@@ -160,7 +160,10 @@ def huffman_grid(rows: int, columns: int, first: float, second: float, side: flo
     a, b, d = (0.0, 0.0), (1.0, 0.0), (side * cos(first), side * sin(first))
     c = _meeting(b, pi - second, d, first - second)
     if c is None:
-        raise InvariantError("huffman-grid", f"no convex quadrilateral has the side {side:g}", "another length")
+        most = sin(second) / sin(first + second)
+        raise InvariantError(
+            "huffman-grid", f"no convex quadrilateral has the side {side:g}", f"a side below {most:.6g}"
+        )
     corner = {(0, 0): a, (0, 1): b, (1, 1): c, (1, 0): d}
     right = (b[0] + c[0] - a[0] - d[0], b[1] + c[1] - a[1] - d[1])
     up = (c[0] + d[0] - a[0] - b[0], c[1] + d[1] - a[1] - b[1])

@@ -21,6 +21,8 @@ GENERATORS = (
         ),
         lambda _: 1, "the panels reach each other; the card closes if left + first = right + second",
         "Glassner 2002; a planar four-bar",
+        relations="sqrt(left^2 + right^2 - 2 left right cos(opening)) is less than first + second, "
+        "and more than their difference",
     ),
     Generator(
         "angle-pop-up", "Pop-up across a fold, creases that meet on it", pop_ups.angle_pop_up,

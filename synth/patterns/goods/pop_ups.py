@@ -54,7 +54,8 @@ def parallel_pop_up(opening: float, left: float, right: float, first: float, sec
     between = sqrt(x * x + y * y)
     if not abs(first - second) < between < first + second:
         told = f"panels of {first:g} and {second:g} do not meet over {between:g}, at {degrees(opening):g} degrees"
-        raise InvariantError("parallel-pop-up", told, "panels that reach each other")
+        expected = f"widths of more than {between:g} together that differ by less"
+        raise InvariantError("parallel-pop-up", told, expected)
     along = (first**2 - second**2 + between**2) / (2 * between)
     up = sqrt(first**2 - along**2)
     ridge = (on_left[0] + (along * x - up * y) / between, on_left[1] + (along * y + up * x) / between)

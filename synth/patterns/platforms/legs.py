@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, pi, sin
+from math import cos, isclose, pi, sin
 
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.errors import InvariantError
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
@@ -18,6 +19,9 @@ __all__ = ["platform"]
 _DIGITS = 14
 _UP = np.array([0.0, 0.0, 1.0])
 _THIRD = 2 * pi / 3
+_UPRIGHT = 3
+"""So many legs have each head over its foot, and no level direction across them if the radii are one."""
+_SAME = 1e-9
 
 Joint = tuple[JointKind, JointPlace]
 LegOf = Callable[[Floats, Floats, float], tuple[Joint, ...]]
@@ -43,12 +47,20 @@ def platform(
     out : float, optional
         How far the knees of legs without P are outside.
 
+    Raises
+    ------
+    InvariantError
+        If three legs stand upright: nothing says which way their level axes are.
+
     Examples
     --------
     >>> stewart = platform("UPS", 6, 1.0, 0.6, 1.0, gap=0.5)
     >>> stewart, stewart.mobility
     (<JointedLinkage: 14 links, 18 joints: 6P 6S 6U, placed>, 6)
     """
+    if number == _UPRIGHT and isclose(base, top, rel_tol=_SAME):
+        told = f"feet and heads are both at {base:g}, so that legs stand upright"
+        raise InvariantError("platform", told, "a base and a top that differ")
     leg_of = _LEGS[legs]
     feet, heads = _azimuths(number, gap)
     links: list[LinkId] = ["base", "top"]

@@ -23,7 +23,8 @@ def _generator(
     def make(**values: float) -> JointedLinkage:
         return platform(letters, number, **values)
 
-    return Generator(name, title, make, (*_RADII, _HEIGHT, *more), lambda _: freedoms, conditions, source)
+    parameters, relations = (*_RADII, _HEIGHT, *more), "base and top differ" if number == 3 else ""
+    return Generator(name, title, make, parameters, lambda _: freedoms, conditions, source, relations=relations)
 
 
 GENERATORS = (

@@ -5,7 +5,7 @@ Theory: docs/theory/generators.md.
 
 from __future__ import annotations
 
-from math import atan2, isclose, pi, sin, tan
+from math import atan2, degrees, isclose, pi, sin, tan
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
@@ -148,7 +148,9 @@ def _frames(first: float, twist: float, other: float) -> Floats:
     """Return the frames of Bennett's linkage, the first at the origin and before it solid 3 along x."""
     if isclose(twist, other, abs_tol=_APART) or isclose(twist + other, pi, abs_tol=_APART):
         raise InvariantError(
-            "bennett", f"twists of {twist:g} and {other:g}", "neither alike nor together half a turn"
+            "bennett",
+            f"twists of {degrees(twist):g} and {degrees(other):g} degrees",
+            "neither alike nor together half a turn",
         )
     second = 2 * atan2(sin((other + twist) / 2), sin((other - twist) / 2) * tan(first / 2))
     angles = (first, second, 2 * pi - first, 2 * pi - second)

@@ -12,6 +12,7 @@ __all__ = ["GENERATORS"]
 
 _FIRST = angle("first", 60, 20, 160, "of the first joint")
 _TWIST = angle("twist", 40, 15, 55, "between the axes of a solid")
+_FIVE = ", no five by more than 720"
 _ARCS = (75, 80, 70, 85, 65, 60)
 
 
@@ -48,7 +49,7 @@ GENERATORS = (
             angle("offset", 0, 0, 120, "between the solids that are made one"),
         ),
         lambda _: 1, "two linkages of Bennett with a solid in common: lengths as the sines of the twists",
-        "Goldberg 1943",
+        "Goldberg 1943", relations="other + shared is not 180 degrees",
     ),
     Generator(
         "myard", "Myard's linkage of five", bennett.myard, (_FIRST, _TWIST), lambda _: 1,
@@ -85,8 +86,9 @@ GENERATORS = (
     *(
         Generator(
             f"{word}-bar", f"Spherical {word}-bar", _of_arcs, _arcs(links), lambda v: len(v) - 3,
-            "axes through one point; no arc is longer than the others together", "three equations a loop",
+            "axes through one point", "three equations a loop",
+            relations="no arc is longer than the others together, no three by more than 360 degrees" + more,
         )
-        for word, links in (("four", 4), ("five", 5), ("six", 6))
+        for word, links, more in (("four", 4, ""), ("five", 5, _FIVE), ("six", 6, _FIVE))
     ),
 )  # fmt: skip

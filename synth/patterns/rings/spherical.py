@@ -58,14 +58,32 @@ def _diagonals(arcs: Sequence[float]) -> list[float]:
         reach.append(_third(reach[-1], arc))
     found = [arcs[-1]]
     if not reach[-1][0] - 1e-12 <= arcs[-1] <= reach[-1][1] + 1e-12:
-        told = ", ".join(f"{degrees(arc):g}" for arc in arcs)
-        raise InvariantError(
-            "arcs", f"links of {told} degrees do not close", "none longer than the others together"
-        )
+        raise _do_not_close(arcs)
     for arc, (least, most) in zip(reversed(arcs[1:-1]), reversed(reach[:-1]), strict=True):
         low, high = _third((found[-1], found[-1]), arc)
         found.append((max(low, least) + min(high, most)) / 2)
     return found[::-1]
+
+
+def _do_not_close(arcs: Sequence[float]) -> InvariantError:
+    """Return why: the longest is too long, or an odd number of the longest together.
+
+    A loop of arcs closes on the sphere if no odd number k of them is longer than the others together by more than
+    k - 1 half turns: with the opposite point for a joint two arcs become what they lack to half a turn, and each
+    of these conditions becomes that of the longest.
+    """
+    told = ", ".join(f"{degrees(arc):g}" for arc in arcs)
+    if 2.0 * max(arcs) > sum(arcs):
+        why, expected = "the longest is longer than the others together", "none as long as that"
+    else:
+        longest = sorted(arcs, reverse=True)
+        odd = [k for k in range(3, len(arcs) + 1, 2) if 2.0 * sum(longest[:k]) - sum(arcs) > (k - 1) * pi]
+        numbers = {3: ("three", 360), 5: ("five", 720)}
+        least = min(odd, default=3)
+        many, turns = numbers.get(least, (str(least), (least - 1) * 180))
+        why = "they are too long for the sphere"
+        expected = f"no {many} longer than the others together by more than {turns} degrees"
+    return InvariantError("arcs", f"links of {told} degrees do not close: {why}", expected)
 
 
 def _third(side: _Range, arc: float) -> _Range:

@@ -15,6 +15,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sc
 from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.given import check_given
 from graphs.loops.loop import Centre
 from graphs.mechanism.conical import ConicalLinkage, Pair
 from graphs.mechanism.sc import SCGraph
@@ -171,6 +172,7 @@ def realise_on_cone(
     >>> found.circuits, found.freedoms, len(found.arcs)
     (('open',), 1, 4)
     """
+    check_given("realise_on_cone", mechanism, Mechanism)
     _check(cone_angle, seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite, pi
+from math import pi
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from synth.conformed.layers import links_in_layers
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
 from synth.templates.developed.surfaces import Surface
+from synth.templates.scale import GREATEST
 
 __all__ = ["Dimensions", "Joining", "LayeredLink", "LayeredLinkage", "layered"]
 
@@ -61,8 +62,8 @@ class Dimensions:
     def __post_init__(self) -> None:
         for name in ("size", "tab", "thickness"):
             value = getattr(self, name)
-            if not (isfinite(value) and value > 0):
-                raise InvariantError(name, f"{name} {value!r}", "a positive number")
+            if not 0 < value <= GREATEST:
+                raise InvariantError(name, f"{name} {value!r}", f"a positive number, at most {GREATEST:g}")
 
     @property
     def apart(self) -> float:

@@ -22,6 +22,7 @@ def places(tmp_path, monkeypatch):
     (tmp_path / "temporary").mkdir()
     monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path / "named"))
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
     monkeypatch.setenv("USERPROFILE", str(tmp_path / "home"))
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
     return tmp_path
@@ -132,3 +133,21 @@ def test_nowhere_to_write_is_no_error(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(closed / "tmp"))
     assert list(usable_bases()) == []
     assert writable_base() is None
+
+
+def test_caches_of_the_user_may_be_elsewhere(places, monkeypatch):
+    usual, elsewhere = places / "home" / ".cache" / "synthedra", places / "caches" / "synthedra"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(places / "caches"))
+    assert elsewhere in bases()
+    assert usual not in bases()
+    monkeypatch.setenv("SYNTHEDRA_CACHE", "")
+    assert writable_base() == elsewhere
+    monkeypatch.setenv("XDG_CACHE_HOME", "caches")  # the specification has relative paths ignored
+    assert usual in bases()
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="users have no numbers")
+def test_caches_of_another_user_are_not_used(places, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(places / "home"))
+    monkeypatch.setattr(os, "geteuid", lambda: 12_345_678)
+    assert places / "home" / "synthedra" not in list(bases())

@@ -52,7 +52,7 @@ def test_freedoms_at_the_pose(data):
         ({"axes": [AXES[0] | {"joint": "b"}]}, r"axes\[0\].joint: 'b' is no joint"),
         ({"axes": [AXES[0] | {"direction": [0, 0, 0]}]}, r"axes\[0\]: .* the direction \[0.0, 0.0, 0.0\]"),
         ({"axes": [AXES[0] | {"direction": [0, 1e-200, 0]}]}, r"expected a vector that is not zero"),
-        ({"axes": [AXES[0] | {"point": [0, 1e200, 0]}]}, r"expected three numbers, none beyond 1e100"),
+        ({"axes": [AXES[0] | {"point": [0, 1e200, 0]}]}, r"expected three numbers, none beyond 1e\+50"),
         ({"axes": [AXES[0] | {"point": [0, 1]}]}, r"axes\[0\].point: .*expected three numbers"),
         ({"axes": [AXES[0] | {"point": [0, "x", 1]}]}, r"axes\[0\].point\[1\]"),
         ({"axes": {"a": 1}}, "axes: .*expected a list of axes"),

@@ -22,10 +22,13 @@ file, folder = Beside(Path(sys.argv[1])), FolderBeside(Path(sys.argv[2]))
 file.write(b"half")
 (folder.path / "1.json").touch()
 if sys.argv[3:]:
+    begun, tell = os.pipe()
     pid = os.fork()
     if pid == 0:
+        os.write(tell, b"1")  # it has given up the locks that it was forked with
         sys.stdin.read()  # a worker that lives on
         os._exit(0)
+    os.read(begun, 1)
 os.kill(os.getpid(), signal.SIGKILL)
 """
 

@@ -133,7 +133,7 @@ def test_ground_and_kept_links_stay():
     assert not reduce(sc, keep=[0, 7]).steps
     with pytest.raises(InvariantError, match="99 is to be kept and is no link"):
         reduce(sc, keep=[99])
-    with pytest.raises(ValueError, match="the rule 'assur' is not one of ride-along, dyad"):
+    with pytest.raises(ValueError, match="the rule 'assur'; expected one of ride-along, dyad"):
         reduce(sc, rule="assur")
 
 

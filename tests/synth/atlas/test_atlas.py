@@ -9,9 +9,11 @@ import sqlite3
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import pytest
+from commands import run
 
 import synth
 from enumerate.sc.graphs import sc_rows
@@ -89,6 +91,7 @@ def test_statements_select_and_do_nothing_else(small_atlas: Atlas, tmp_path: Pat
         "DELETE FROM type", "DROP VIEW types", f"ATTACH '{tmp_path}/other.sqlite' AS other", "PRAGMA user_version = 1",
         "VACUUM", f"VACUUM INTO '{tmp_path}/copy.sqlite'", "SELECT * FROM sqlite_master", "CREATE TEMP TABLE a (b)",
         "SELECT load_extension('a')", "SELECT * FROM pragma_database_list", "BEGIN", "SELECT zeroblob(1000000000)",
+        "SELECT printf('%.*c', 2147483647, 'x')", "SELECT format('%.*c', 2147483647, 'x')", "SELECT trim('a', 'b')",
         "", "SELECT 1; SELECT 2", "REINDEX", "SELECT * FROM unit",
     ):  # fmt: skip
         with pytest.raises(InvariantError) as caught:
@@ -97,6 +100,17 @@ def test_statements_select_and_do_nothing_else(small_atlas: Atlas, tmp_path: Pat
     endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT max(x) FROM n"
     with pytest.raises(UnsolvableError, match="takes longer than"):
         atlas.sql(endless, seconds=0.05)
+    doubled = "hex(x)"
+    for _ in range(20):
+        doubled = f"replace({doubled}, '3', '333')"
+    with pytest.raises(InvariantError, match="string or blob too big"):
+        atlas.sql(f"WITH one(x) AS (SELECT '3333333') SELECT {doubled} FROM one")
+    long = "WITH RECURSIVE n(t) AS (SELECT 'aaaaaaaaaa' UNION ALL SELECT t || t FROM n WHERE length(t) < 100000)"
+    slow = f"{long} SELECT sum(instr(t, substr(t, 9, 50000) || a.id || b.id)) FROM n, types AS a, types AS b"
+    begin = monotonic()
+    with pytest.raises(UnsolvableError, match="takes longer than"):
+        atlas.sql(slow, seconds=0.1)
+    assert monotonic() - begin < 5  # ten thousand steps of these take minutes
     assert place.read_bytes() == before
     assert [file.name for file in tmp_path.iterdir()] == [place.name]
 
@@ -127,7 +141,7 @@ SQL_WORDS = [
     "ALL",
     "GROUP",
     "count(*)",
-    "printf('%d',1)",
+    "upper('a')",
     "hex(",
     "randomblob(9)",
     "ATTACH",
@@ -235,6 +249,73 @@ def test_what_is_no_atlas_is_refused(tmp_path: Path, small_atlas: Atlas) -> None
     connection.close()
     with pytest.raises(StoreError, match=r"version 99.*build it again"):
         open_atlas(newer)
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "told"),
+    [
+        ("assortment", "[4,2", "assortment is '[4,2'; expected a list in JSON"),
+        ("assortment", "4", "assortment is '4'; expected a list in JSON"),
+        ("sides", '["a"]', "expected a list in JSON"),
+        ("links", "six", "links is 'six'; expected a whole number"),
+        ("planar", 2, "planar is 2; expected 0 or 1"),
+        ("kind", "knot", "kind is 'knot'; expected one of chain, sc"),
+        ("name", b"\xff", "expected a text"),
+        ("fold_deg", "far", "expected a number"),
+    ],
+)
+def test_damaged_values_are_told_with_their_place(
+    small_atlas: Atlas, tmp_path: Path, column: str, value: Any, told: str
+) -> None:
+    place = tmp_path / "damaged.sqlite"
+    shutil.copy(small_atlas.path, place)
+    with sqlite3.connect(place) as connection:
+        connection.execute(f"UPDATE type SET {column} = ?", (value,))
+    connection.close()
+    atlas = open_atlas(place)
+    with pytest.raises(StoreError) as caught:
+        atlas.query(columns=[column])
+    assert str(caught.value).startswith(f"{place}: is damaged: {column} is ")
+    assert told in str(caught.value)
+    with pytest.raises(StoreError, match=r"damaged\.sqlite: is damaged"):
+        atlas.show("k1:Cr")
+    assert run("atlas", "query", place, code=2).stderr.count("\n") == 1
+
+
+def test_a_damaged_file_of_a_type_is_told(small_atlas: Atlas, tmp_path: Path) -> None:
+    place = tmp_path / "damaged.sqlite"
+    shutil.copy(small_atlas.path, place)
+    with sqlite3.connect(place) as connection:
+        connection.execute("UPDATE type SET fold_file = '{'")
+    connection.close()
+    told = run("atlas", "show", place, "k1:Cr", "-o", tmp_path / "a.fold", code=2).stderr
+    assert told.startswith("fold_file of k1:Cr: is not JSON: ")
+    assert not (tmp_path / "a.fold").exists()
+
+
+def test_what_a_statement_selects_is_written_whatever_it_is(small_atlas: Atlas, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    for statement in ("SELECT * FROM types", "SELECT 1 AS a UNION SELECT 'b' UNION SELECT x'00' UNION SELECT 0.5"):
+        write_rows(small_atlas.sql(statement), tmp_path / "rows.parquet", force=True)
+        write_rows(small_atlas.sql(statement), tmp_path / "rows.csv", force=True)
+    with pytest.raises(InvariantError, match="kind 1, id 2; expected texts"):
+        write_rows(small_atlas.sql("SELECT 1 AS kind, 2 AS id"), tmp_path / "rows.svg")
+    with pytest.raises(InvariantError, match="'k1:Cr:0-0' is no order of the joints of its chain"):
+        write_rows(small_atlas.sql("SELECT 'order' AS kind, 'k1:Cr:0-0' AS id"), tmp_path / "rows.svg")
+
+
+def test_rows_of_an_atlas_are_realised_and_drawn(tmp_path: Path) -> None:
+    place = tmp_path / "few.sqlite"
+    build_atlas(place, AtlasPlan(4, creases=2, orders_of=("four-bar",), realised=False))
+    told = json.loads(run("realise", place, "-o", tmp_path / "things", "--workers", 1, "--json").stdout)
+    rows = open_atlas(place).query().rows
+    assert [one["name"] for one in told["types"]] == [row["id"] for row in rows]
+    refused = [row["id"] for row, one in zip(rows, told["types"], strict=True) if one["outcome"] == "refused"]
+    assert refused == [row["id"] for row in rows if row["kind"] == "order"]
+    assert told["realised"] == len(rows) - len(refused)
+    assert len(list((tmp_path / "things").iterdir())) == told["realised"]
+    run("atlas", "query", place, "links = 4", "-o", tmp_path / "some.jsonl")
+    run("draw", tmp_path / "some.jsonl", "-o", tmp_path / "some.svg")
 
 
 def test_types_with_coordinates(tmp_path: Path) -> None:

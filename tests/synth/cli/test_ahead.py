@@ -37,12 +37,15 @@ def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys)
             notice.compiling()
 
     monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path))
-    monkeypatch.setattr("synth.cli.__main__.main", compile_twice)
-    monkeypatch.setattr("synth.cli.__main__.guard_output", lambda: None)  # capsys has no file to guard
+    monkeypatch.setattr("synth.cli.main.main", compile_twice)
+    monkeypatch.setattr("synth.cli.streams.guard_output", lambda: None)  # capsys has no file to guard
+    heeded = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     try:
         run()
     finally:
         notice.on_compiling(None)
+        for number, handler in heeded.items():
+            signal.signal(number, handler)
     assert capsys.readouterr() == ("", said(tmp_path))
 
 

@@ -26,6 +26,7 @@ def test_help_has_units_and_ranges(name):
         assert f"--{one.name}" in printed
     assert ("--fold" in printed) == GENERATORS[name].foldable
     assert "Source:" in printed
+    assert GENERATORS[name].relations in printed
 
 
 def test_a_file_for_every_command(tmp_path):

@@ -18,8 +18,6 @@ from synth.patterns.rings.closing import closed_chain
 from synth.verdict.judged import mobility
 
 QUICK = ("miura", "bennett", "crash-lock")
-FOLDS = {"yoshimura": 20, "preliminary-base": 20}
-"""Degrees: with several freedoms one driven crease turns back sooner."""
 
 
 def freedoms(thing):
@@ -39,7 +37,7 @@ def test_finite_freedoms_are_those_of_the_source(name):
     made = generate(name)
     assert freedoms(made.mechanism) == made.freedoms
     if made.generator.foldable:
-        folded = generate(name, fold=radians(FOLDS.get(name, 40)))
+        folded = generate(name, fold=radians(40))
         assert freedoms(folded.mechanism) == made.freedoms
 
 
@@ -115,10 +113,11 @@ def test_a_folded_sheet_has_the_angle():
         generate("miura", fold=radians(175))
 
 
-@pytest.mark.slow
-def test_what_does_not_fold_so_far_says_so():
-    with pytest.raises(UnsolvableError, match="does not fold to 80 degrees"):
-        generate("yoshimura", fold=radians(80))
+@pytest.mark.parametrize("name", [name for name, one in GENERATORS.items() if one.foldable])
+def test_what_is_flat_folds_to_the_end_of_the_range(name):
+    made = generate(name, fold=radians(170))
+    angles = [angle for angle in made.mechanism.fold_angles if angle is not None]
+    assert np.abs(np.abs(angles) - 170).min() < 1e-8
 
 
 @pytest.mark.slow
@@ -218,3 +217,43 @@ def test_a_quadrilateral_that_is_none_is_refused():
         GENERATORS["huffman-grid"].make(2, 2, 1.3, 0.6, 3.0)
     with pytest.raises(InvariantError, match="links of 170, 20, 30, 40 degrees do not close"):
         generate("four-bar", **{f"arc{i + 1}": radians(x) for i, x in enumerate((170, 20, 30, 40))})
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "told", "relation"),
+    [
+        ("four-bar", (175, 175, 175, 10), "too long for the sphere; .* no three", "no three by more than 360"),
+        ("five-bar", (175, 175, 175, 175, 170), "too long for the sphere; .* no five", "no five by more than 720"),
+        ("six-bar", (5, 175, 5, 5, 5, 5), "the longest is longer than the others", "longer than the others"),
+    ],
+)
+def test_links_that_do_not_close_on_the_sphere_are_told_why(name, given, told, relation):
+    with pytest.raises(InvariantError, match=told):
+        generate(name, **{f"arc{i + 1}": radians(arc) for i, arc in enumerate(given)})
+    assert relation in GENERATORS[name].relations
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("huffman-grid", {"first": radians(70), "second": radians(58), "side": 1.09, "holds": False}),
+        ("huffman-grid", {"first": radians(70), "second": radians(58), "side": 1.06, "holds": True}),
+        ("deployable-cylinder", {"pleats": 3, "short": radians(41), "slack": radians(10), "holds": False}),
+        ("deployable-cylinder", {"pleats": 3, "short": radians(39), "slack": radians(10), "holds": True}),
+        (
+            "parallel-pop-up",
+            {"left": 2.5, "right": 1.5, "opening": radians(10), "second": 4.0, "first": 2.6, "holds": False},
+        ),
+        ("parallel-pop-up", {"left": 2.5, "right": 1.5, "opening": radians(60), "first": 4.0, "holds": True}),
+        ("goldberg", {"other": radians(100), "shared": radians(80), "holds": False}),
+        ("3-uuu", {"base": 2.0, "top": 2.0, "holds": False}),
+    ],
+)
+def test_relations_are_those_that_are_checked(name, values):
+    given = {key: value for key, value in values.items() if key != "holds"}
+    assert GENERATORS[name].relations
+    if values["holds"]:
+        generate(name, **given)
+    else:
+        with pytest.raises(InvariantError, match="expected"):
+            generate(name, **given)

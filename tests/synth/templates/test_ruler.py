@@ -153,7 +153,7 @@ def test_what_cannot_be_printed_is_refused_in_a_line(bird, tmp_path, data):
     assert "500 of them" in run("template", bird, "--size", 9000, "-o", tmp_path / "a.pdf", code=2).stderr
     assert "Letter" in run("template", bird, "--page", "B7", "-o", tmp_path / "a.pdf", code=2).stderr
     assert (
-        "size -1.0; expected a positive"
+        "-1 is out of range; expected 1e-50 to 1e+50"
         in run("template", bird, "--size", -1, "-o", tmp_path / "a.pdf", code=2).stderr
     )
     assert ".dxf" in run("template", bird, "-o", tmp_path / "a.doc", code=2).stderr

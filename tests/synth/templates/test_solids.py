@@ -232,7 +232,7 @@ def test_the_command_says_what_is_of_solids_only_and_what_is_not_held(motion, tm
     ("options", "error", "told"),
     [
         ({"thickness": 0}, InvariantError, "thickness 0; expected a positive number"),
-        ({"gap": -1}, InvariantError, "gap -1; expected a number from 0 on"),
+        ({"gap": -1}, InvariantError, "gap -1; expected a number from 0 to"),
         ({"gap": 90}, UnsolvableError, "panel 0 is narrower than the gap of 90 mm"),
     ],
 )

@@ -1,0 +1,207 @@
+"""A pattern folded until a crease has an angle: along the motion that keeps what looks alike alike, or another.
+
+With several freedoms the motions at an angle are many, and the least rates that move one crease lead off every
+symmetric one: by rounding, if by nothing else. So the motions that keep a symmetry come first, which have few
+freedoms or one. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from math import degrees
+
+import numpy as np
+
+from graphs.arrays import Floats, Ints
+from graphs.errors import UnsolvableError
+from graphs.mechanism.sheet import Sheet
+from synth.folding.alike.classes import alike_classes
+from synth.folding.alike.closure import AlikeClosure
+from synth.folding.beginning import Wanted, beginning, rates_as_marked
+from synth.folding.closure import ClosureEquations
+from synth.folding.driving import Driven
+from synth.folding.following.stepping import Allowance
+from synth.folding.motion import Folding, folding_along
+from synth.folding.path import PathOptions, driven_path
+from synth.folding.prepared import Prepared, prepared
+from synth.folding.second_order import rates_at
+from synth.folding.singular.nearest import spaces_near
+from synth.folding.singular.quadrics import quadrics_of
+from synth.folding.singular.sampling import rates_towards
+
+__all__ = ["Reached", "fold_to"]
+
+_WEIGHTS = (1.01, 0.8, 2.0, 0.5, 4.0, 0.25)
+"""Of valleys against mountains in the rates from which those of a motion are looked for: where both weigh alike,
+two motions of a symmetric vertex are as near, and rounding would choose."""
+_DEAD_ENDS = 4
+"""Spaces of rates that are tried for each of these."""
+_NONE, _HARDLY = 1e-7, 1e-3
+"""Rates below the first are none. Those below the second, parts of the largest, are no motion but a double zero of
+the equations, where Newton's method ends at the root of its tolerance."""
+_DRIVERS = 3
+"""Creases that are driven in turn, of different classes, where the one that moves most turns back."""
+_TIED = 1e-6
+_STEPS = 1000
+"""Of one path: 170 degrees take 20 to 100."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """A motion at its beginning.
+
+    Attributes
+    ----------
+    pattern : Prepared
+    closure : ClosureEquations
+        Of all motions, or of those that keep classes of joints alike.
+    rates : float[J]
+        The largest 1 or -1.
+    classes : int[J]
+        What moves alike.
+    branch : int or None
+    """
+
+    pattern: Prepared
+    closure: ClosureEquations
+    rates: Floats
+    classes: Ints
+    branch: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Reached:
+    """A folding, and how far it came.
+
+    Attributes
+    ----------
+    folding : Folding
+    angle : float
+        Of the driven crease at its end, radians, without sign.
+    alike : bool
+        Whether creases that look alike fold alike on it.
+    """
+
+    folding: Folding
+    angle: float
+    alike: bool
+
+
+def fold_to(sheet: Sheet, angle: float) -> Reached:
+    """Fold a flat pattern as it is marked until the crease that moves most has an angle.
+
+    Tried are, until one leads there: the motion on which creases that look alike fold alike; those that keep less
+    of the symmetry; the branch that agrees best with the marks; others that agree with them. On each of these the
+    motion goes straight on first, then by the least rates that move the driven crease; where that turns back, the
+    next one is driven.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    angle : float
+        Radians, above 0.
+
+    Raises
+    ------
+    UnsolvableError
+        If nothing folds, or all motions that were tried end before; the farthest is named.
+
+    Examples
+    --------
+    The waterbomb base has three freedoms. On its symmetric motion the diagonals fold alike, and so does the line:
+
+    >>> from synth.patterns.creases.bases import waterbomb_base
+    >>> reached = fold_to(waterbomb_base(), np.radians(41.54))
+    >>> np.degrees(reached.folding.path.angles[-1]).round(2).tolist(), reached.alike
+    ([-30.02, 41.54, 41.54, -30.02, 41.54, 41.54], True)
+    """
+    best = None
+    for start in _starts(sheet):
+        for driver in _drivers(start):
+            for straight in (True, False):
+                reached = _followed(start, driver, angle, straight=straight)
+                if not reached.folding.path.stopped:
+                    return reached
+                if best is None or reached.angle > best.angle + _TIED:
+                    best = reached
+    if best is None:
+        raise UnsolvableError("no motion is found that folds it as it is marked")
+    raise UnsolvableError(
+        f"its folding ends at {degrees(best.angle):.6g} degrees, before {degrees(angle):.6g}: "
+        f"{best.folding.path.stopped}"
+    )
+
+
+def _starts(sheet: Sheet) -> Iterator[_Start]:
+    """Yield motions, the most symmetric one first; all ways to move are looked for only when these are used up."""
+    pattern = prepared(sheet, ways=False)
+    if pattern.flat:
+        for classes in alike_classes(pattern.sheet, pattern.linkage, pattern.marks):
+            closure = AlikeClosure(pattern.linkage, classes)
+            rates = _as_marked(pattern, closure)
+            if rates is not None:
+                yield _Start(pattern, closure, rates, classes)
+    pattern = prepared(sheet)
+    apart = np.arange(len(pattern.linkage.angles))
+    wanted = Wanted(None, pattern.wanted, [], np.zeros(0), pattern.doubt)
+    number, rates = beginning(pattern.closure, pattern.linkage, pattern.branches, wanted)
+    yield _Start(pattern, pattern.closure, rates, apart, number)
+    for other, branch in enumerate(() if pattern.branches is None else pattern.branches.branches):
+        rates = rates_as_marked(branch, pattern.wanted)
+        if other != (number or 0) and not _against(rates, pattern.marks):
+            yield _Start(pattern, pattern.closure, rates, apart, other)
+
+
+def _as_marked(pattern: Prepared, closure: ClosureEquations) -> Floats | None:
+    """Return rates of a motion on which no marked joint goes against its mark, the largest 1 or -1.
+
+    By factors of the equations of second order, and Newton's method in a basis of the rates that close to first
+    order: the regularised steps of `rates_near` leave seven digits of them.
+    """
+    quadrics = quadrics_of(pattern.linkage)
+    tangent = rates_at(closure, pattern.linkage.angles)
+    for weight in _WEIGHTS:
+        wanted = np.where(pattern.wanted > 0.0, weight, 1.0) * pattern.wanted
+        for space in islice(spaces_near(tangent, quadrics, wanted), _DEAD_ENDS):
+            rates = None if space is None else rates_towards(space, wanted)
+            if rates is None or not rates.any():
+                continue
+            rates = np.where(np.abs(rates) <= _NONE, 0.0, rates)
+            if not _against(rates, pattern.marks) and np.abs(rates[rates != 0.0]).min() >= _HARDLY:
+                return rates
+    return None
+
+
+def _against(rates: Floats, marks: Floats) -> bool:
+    return bool((rates * marks < -_NONE).any())
+
+
+def _drivers(start: _Start) -> list[int]:
+    """Return the joints that move most, of different classes, the first of those that move alike."""
+    sizes, drivers = np.abs(start.rates), list[int]()
+    left = sizes > _NONE
+    while left.any() and len(drivers) < _DRIVERS:
+        most = float(sizes[left].max())
+        drivers.append(int(np.argmax(left & (sizes >= (1.0 - _TIED) * most))))
+        left &= start.classes != start.classes[drivers[-1]]
+    return drivers
+
+
+def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Reached:
+    """Drive a joint to an angle on a motion."""
+    pattern = start.pattern
+    joints = tuple(pattern.linkage.graph.joints)
+    goal = float(np.sign(start.rates[driver])) * angle
+    limited = np.ones(len(joints), dtype=bool)
+    still = (
+        () if start.branch is None or pattern.branches is None else pattern.branches.branches[start.branch].still
+    )
+    options = PathOptions(
+        start.rates, limited, straight=straight, names=joints, allowance=Allowance(_STEPS), locked=still
+    )
+    path = driven_path(start.closure, pattern.linkage.angles, [driver], [[goal]], options=options)
+    folding = folding_along(pattern, Driven(start.branch, [driver], {joints[driver]: goal}, path))
+    alike = int(start.classes.max(initial=0)) + 1 < len(joints)
+    return Reached(folding, float(abs(folding.path.angles[-1, driver])), alike)

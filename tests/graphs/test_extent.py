@@ -1,0 +1,72 @@
+"""Coordinates that reach too far, lie too close together or in one line; and all sizes between, which agree."""
+
+import json
+
+import pytest
+
+import synth
+from graphs.errors import FileError, InvariantError
+from graphs.extent import LEAST, MOST
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+
+SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
+FACES = ((0, 1, 2), (0, 2, 3))
+
+
+def sized(data, size):
+    document = json.loads((data / "patterns" / "bird-base.fold").read_text(encoding="utf-8"))
+    return document | {"vertices_coords": [[size * x for x in place] for place in document["vertices_coords"]]}
+
+
+def square(*places):
+    return Sheet(4, (), "", FACES, places)
+
+
+@pytest.mark.parametrize(
+    ("size", "told"),
+    [
+        (1e160, "a coordinate is 1e+160; expected an extent of 1e-50 to 1e+50"),
+        (1e-300, "the extent is 2e-300; expected an extent of 1e-50 to 1e+50"),
+        (0.0, "the pattern has no area: all its vertices lie in one place"),
+    ],
+)
+def test_a_pattern_of_no_size_is_one_line(size, told, data, tmp_path):
+    (tmp_path / "a.fold").write_text(json.dumps(sized(data, size)))
+    with pytest.raises(FileError) as refused:
+        synth.read(tmp_path / "a.fold")
+    assert str(refused.value) == f"{tmp_path / 'a.fold'}: {told}"
+
+
+@pytest.mark.parametrize("factor", [0.3 * MOST, 3 * LEAST])
+def test_answers_do_not_depend_on_the_size(factor, data, tmp_path):
+    answers = []
+    for size in (1.0, factor):
+        (tmp_path / "a.fold").write_text(json.dumps(sized(data, size)))
+        sheet = synth.read(tmp_path / "a.fold")
+        verdict, explained = synth.mobility(sheet), synth.explain(sheet)
+        folded = synth.fold(sheet, frames=2)
+        answers.append([str(one).splitlines()[0] for one in (verdict, explained, folded)])
+    assert answers[0] == answers[1]
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: square((0, 0), (1, 0), (1, 1), (0, 1e51)),
+        lambda: square((0, 0), (1, 0), (1, 1), (0, float("nan"))),
+        lambda: square(*((1e-60 * x, 1e-60 * y) for x, y in SQUARE)),
+        lambda: square((0, 0), (1, 1), (2, 2), (3, 3 + 1e-13)),
+        lambda: PolyhedronModel(2, [(0, 1)], coordinates={0: (0, 0, 0), 1: (0, 0, 1e160)}),
+        lambda: HingedSolids(synth.SCGraph(2, [(0, 1)]), {0: ((0, 0, 1e60), (0, 0, 1))}),
+    ],
+)
+def test_no_object_is_out_of_range(make):
+    with pytest.raises(InvariantError, match=r"extent|area|none beyond"):
+        make()
+
+
+def test_what_is_narrow_or_without_faces_is_not_refused():
+    assert square((0, 0), (1e9, 0), (1e9, 1), (0, 1)).coordinates is not None
+    assert Sheet(2, ((0, 1),), "B", (), ((0, 0), (1, 0))).faces == ()
