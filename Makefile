@@ -16,14 +16,14 @@ help:
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-slow  the slow tests too, at their full sizes"
 	@echo "make test-web   what is shown in a notebook, which is run, and the tests of the page of synth view, in node and in Chromium"
-	@echo "make test-machines  commands, examples and tests as other processors run them: BLAS kernels, threads, hash seeds"
+	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
 	@echo "make page       build the script of that page, if its sources have changed"
 	@echo "make check      ruff and mypy"
-	@echo "make data       make the files under data/ anew"
-	@echo "make pictures   make the pictures of README.md and docs/ anew"
-	@echo "make docs       make the site of docs/ in docs/_build, with its pictures, without a warning"
+	@echo "make data       make the files under data/ anew, and name those that change"
+	@echo "make pictures   make the pictures of README.md and docs/ anew, and name those that change"
+	@echo "make docs       build the site of docs/ in docs/_build from the committed files, without a warning"
 	@echo "make release    build sdist and wheel in dist/, check them, and install them in clean environments"
-	@echo "make examples   write what the commands of README.md and docs/ print into them anew"
+	@echo "make examples   write the output of the commands in README.md and docs/ into them anew, and name those that change"
 	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
 
 $(STAMP): pyproject.toml
@@ -104,12 +104,12 @@ check: $(STAMP)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# What writes files that git keeps names those that it changed.
 data: $(STAMP)
-	$(BIN)/python data/make.py
-	$(BIN)/python data/realised.py
-	$(BIN)/python data/atlas_names.py
+	@.ci/changed data synth/atlas/named.json -- sh -ec '\
+	  $(BIN)/python data/make.py; $(BIN)/python data/realised.py; $(BIN)/python data/atlas_names.py'
 
-docs: pictures
+docs: $(STAMP)
 	$(BIN)/python -m pip install --quiet -e '.[docs,draw]'
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
 	$(BIN)/python docs/links.py
@@ -130,10 +130,10 @@ release: $(STAMP)
 	done; rm -rf dist/tried
 
 examples: $(STAMP)
-	$(BIN)/python docs/examples.py
+	@.ci/changed README.md docs -- $(BIN)/python docs/examples.py
 
 pictures: $(STAMP)
-	@BIN=$(BIN) sh docs/pictures.sh
+	@.ci/changed docs/pictures -- env BIN=$(BIN) sh docs/pictures.sh
 
 clean:
 	rm -rf $(VENV) synth/viewer/built synth/viewer/web/node_modules .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -38,6 +38,9 @@ __all__ = [
     "tell_written",
 ]
 
+_FIGURES = 12
+"""Of numbers in JSON; rows of enumerations have no more."""
+
 FORCE = click.option(
     "--force", is_flag=True, help="Replace a file that is there. Folders, symbolic links and devices never are."
 )
@@ -102,8 +105,17 @@ def print_answer(answer: Printed) -> None:
 
 
 def print_json(value: Any) -> None:
-    """Print one JSON document on standard output."""
-    click.echo(json.dumps(value, indent=2, allow_nan=False))
+    """Print one JSON document on standard output, numbers with the digits that they are good for."""
+    click.echo(json.dumps(_shortened(value), indent=2, allow_nan=False))
+
+
+def _shortened(value: Any) -> Any:
+    """Return a value of JSON with twelve figures of each number: later ones differ among processors."""
+    if isinstance(value, float):
+        return float(f"{value:.{_FIGURES}g}")
+    if isinstance(value, dict):
+        return {key: _shortened(one) for key, one in value.items()}
+    return [_shortened(one) for one in value] if isinstance(value, list | tuple) else value
 
 
 def console() -> Console:

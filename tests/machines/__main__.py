@@ -10,6 +10,7 @@ import argparse
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,8 +20,14 @@ from tests.machines.comparison import Answer, differences
 from tests.machines.factors import FACTORS, ROOT, Factor, environment_for, reason_to_leave_out
 from tests.machines.transcript import read_transcript, transcript_under
 
-TESTS = ("tests/test_examples.py",)
-"""Tests that run under each factor beside the commands."""
+_ROOMS = "folding verdict realisation overconstraint advice compliance assembly moving patterns templates"
+
+TESTS = (
+    ["-m", "not slow and not web", "tests/test_examples.py", "tests/test_data.py", "tests/graphs/rank"]
+    + [f"tests/synth/{room}" for room in _ROOMS.split()],
+    ["tests/test_data.py::test_the_sheets_are_what_the_script_makes"],
+)
+"""What pytest runs under each factor beside the commands: the rooms of real arithmetic, examples, data made anew."""
 
 _LINES = 4
 """Lines of an answer to print where many differ."""
@@ -88,29 +95,18 @@ def _report(
     return not lines, [f"{factor.name}: {'differs' if lines else 'the same'} ({seconds})", *lines]
 
 
-def _failures(factor: Factor) -> list[str]:
-    """Run the tests under a factor; return lines about those that fail."""
-    words = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-n",
-        "0",
-        "-p",
-        "no:cacheprovider",
-        "-m",
-        "not slow and not web",
-        *TESTS,
-    ]
-    child = subprocess.run(
-        words, env=environment_for(factor), cwd=ROOT, capture_output=True, text=True, check=False
-    )
-    if not child.returncode:
-        return []
-    failures = [line for line in child.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
-    return [
-        f"  {line}" for line in failures or [f"pytest ended with status {child.returncode}", child.stderr[-2000:]]
-    ]
+def _failures(factor: Factor) -> Iterator[str]:
+    """Run the tests under a factor; yield lines about those that fail."""
+    for tests in TESTS:
+        words = [sys.executable, "-m", "pytest", "-n", "0", "-p", "no:cacheprovider", *tests]
+        child = subprocess.run(
+            words, env=environment_for(factor), cwd=ROOT, capture_output=True, text=True, check=False
+        )
+        if child.returncode:
+            failures = [line for line in child.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
+            yield from (
+                f"  {line}" for line in failures or [f"pytest: {child.stdout[-500:]} {child.stderr[-500:]}"]
+            )
 
 
 def _printed(report: tuple[bool, list[str]]) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import radians
+from math import ceil, log10, radians
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from synth.realisation.realised import Realised
 
 __all__ = ["realise"]
+
+_FIGURES = 12
+"""Decimals of coordinates, in units of the size: those after are other ones on another processor."""
 
 
 @click.command(short_help="Give a type coordinates: a flat sheet of panels, a pose in space, a place on a cone.")
@@ -133,8 +136,9 @@ def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tupl
 
 
 def _as_panels(file: str, mode: str | None, options: dict[str, Any]) -> tuple[OnOneCone | Realised, Mechanism]:
+    from synth.patterns.panels import rounded
     from synth.realisation.realised import realise as realised
 
     thing: Any = given(file).thing
     found = realised(thing, mode=mode, **options)
-    return found, found.sheet
+    return found, rounded(found.sheet, _FIGURES - ceil(log10(options["size"])))
