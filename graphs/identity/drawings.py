@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from string import ascii_letters
-from typing import Any
+from typing import Any, NamedTuple
 
 import networkx as nx
 
@@ -95,13 +95,18 @@ def map_code(mechanism: SCGraph) -> tuple[list[int], str]:
     plain = set(labels) <= {_OUTER, "f"}
     best: tuple[list[int], str] | None = None
     for mirrored in (False, True):
-        turns = {link: tuple(reversed(sides)) if mirrored else sides for link, sides in rotation.items()}
+        turns = {
+            link: _Turn.of(mechanism, link, sides[::-1] if mirrored else sides) for link, sides in rotation.items()
+        }
         for corner in faces[outside].corners:
             root = corner.arriving if mirrored else corner.leaving
-            symbols, reads = _reading(mechanism, turns, corner.link, root)
-            # the face after a joint lies on its left seen from the link, in a mirror on its right
-            met = [left_of[joint, _across(mechanism, joint, link) if mirrored else link] for link, joint in reads]
-            found = symbols, "" if plain else "".join(labels[f] for f in dict.fromkeys(met))[1:]
+            symbols, reads = _reading(turns, corner.link, root)
+            found = symbols, ""
+            if not plain:  # the face after a joint lies on its left seen from the link, in a mirror on its right
+                met = [
+                    left_of[joint, _across(mechanism, joint, link) if mirrored else link] for link, joint in reads
+                ]
+                found = symbols, "".join(labels[f] for f in dict.fromkeys(met))[1:]
             if best is None or found < best:
                 best = found
     assert best is not None
@@ -113,8 +118,23 @@ def _across(mechanism: SCGraph, joint: JointId, link: LinkId) -> LinkId:
     return b if link == a else a
 
 
+class _Turn(NamedTuple):
+    """The sides round a link, twice, each with the link across it, and the place where each is first."""
+
+    sides: list[tuple[JointId | None, LinkId | None]]
+    place: dict[JointId | None, int]
+
+    @classmethod
+    def of(cls, mechanism: SCGraph, link: LinkId, around: Sequence[JointId | None]) -> _Turn:
+        sides = [(side, None if side is None else _across(mechanism, side, link)) for side in around]
+        place: dict[JointId | None, int] = {}
+        for at, side in enumerate(around):
+            place.setdefault(side, at)
+        return cls(sides + sides, place)
+
+
 def _reading(
-    mechanism: SCGraph, turns: Rotation, root: LinkId, joint: JointId | None
+    turns: Mapping[LinkId, _Turn], root: LinkId, joint: JointId | None
 ) -> tuple[list[int], list[tuple[LinkId, JointId]]]:
     """Read a drawing from a joint at a link; return the symbols, and links and joints in the order of reading."""
     number: dict[JointId, int] = {}
@@ -123,15 +143,14 @@ def _reading(
     symbols: list[int] = []
     reads: list[tuple[LinkId, JointId]] = []
     for link in order:
-        sides = turns[link]
-        at = sides.index(start[link])
-        for side in sides[at:] + sides[:at]:
-            if side is None:
+        sides, place = turns[link]
+        at = place[start[link]]
+        for side, other in sides[at : at + len(sides) // 2]:
+            if side is None or other is None:
                 symbols.append(_OPEN)
                 continue
             symbols.append(_JOINT + number.setdefault(side, len(number)))
             reads.append((link, side))
-            other = _across(mechanism, side, link)
             if other not in start:
                 start[other] = side
                 order.append(other)

@@ -21,6 +21,7 @@ from graphs.rank.canonical import MARGIN, leading
 from synth.folding.beginning import Wanted, beginning
 from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations
+from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage
 from synth.folding.newton import CLOSED
 from synth.folding.path import DrivenPath, PathOptions, driven_path
@@ -29,6 +30,8 @@ __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
 
 _FARTHER = 1e-3
 """Radians: a path that leads on by less is not longer."""
+_STEPS, _STEPS_OF_FRAME = 1_000, 20
+"""Steps that a motion may take, and as many more for each of its frames: ten times what real patterns need."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +158,8 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
     limited = np.full(len(joints), asked.limited)
     by_least_rates = found is not None and found.regular and len(asked.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
-    options = PathOptions(direction, limited, straight=bool(asked.along), report=asked.report, names=joints)
+    allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
+    options = PathOptions(direction, limited, bool(asked.along), asked.report, joints, allowance)
     values = start + steps * (goals - start)
     still = () if number is None or found is None else found.branches[number].still
     path = _path(closure, linkage.angles, places, values, replace(options, locked=still))

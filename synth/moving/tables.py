@@ -81,7 +81,8 @@ def _poses(thing: Mechanism) -> tuple[list[Mechanism], int]:
     same = [
         replace(first, coordinates=one.coordinates, fold_angles=one.fold_angles)
         for one in others
-        if one.coordinates is not None and one.faces == first.faces and one.edges == first.edges
+        if one.coordinates is not None
+        and (one.vertices, one.faces, one.edges) == (first.vertices, first.faces, first.edges)
     ]
     shown_first = bool(same) and _stand_alike(same[0], first)
     poses: list[Mechanism] = [*([] if shown_first else [first]), *same]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
+from synth.folding.following.stepping import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.improving import improved
 from synth.realisation.measures import opened_angles
@@ -51,7 +52,9 @@ class Drawn:
 _NONE = Wishes()
 
 
-def drawings(pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE) -> Iterator[Drawn]:
+def drawings(
+    pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE, allowance: Allowance | None = None
+) -> Iterator[Drawn]:
     """Yield drawings without crossings, each panel strictly convex where it can be, creases to their centres.
 
     The first is as even as possible, every other aims at random lengths. The border is convex; where creases point
@@ -63,6 +66,8 @@ def drawings(pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE) ->
     seed, tries : int
     wishes : Wishes, optional
         What they are to be besides.
+    allowance : Allowance, optional
+        Steps of improvement, of all drawings together: there is no other drawing where it is used up.
 
     Examples
     --------
@@ -74,6 +79,8 @@ def drawings(pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE) ->
     """
     conditions, symmetry = wishes.conditions(pattern), wishes.symmetry
     for number in range(tries):
+        if allowance is not None and number and allowance.left <= 0:
+            return
         random = np.random.default_rng((seed, number))
         convex = not pattern.pointings or number % 3 < 2
         start = barycentric_start(pattern, random if number and symmetry is None else None)
@@ -81,7 +88,7 @@ def drawings(pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE) ->
         if aims is not None and symmetry is not None:
             aims = symmetry.evened(aims)
         unknowns = first_unknowns(pattern, *start)
-        found = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions)
+        found = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions, allowance=allowance)
         if found is None:
             continue
         places = found[: pattern.vertices]

@@ -15,6 +15,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.mechanism.sheet import sides_of_face
+from synth.folding.following.stepping import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern
@@ -100,6 +101,7 @@ def improved(
     convex: bool = True,
     aims: Floats | None = None,
     conditions: Sequence[Condition] = (),
+    allowance: Allowance | None = None,
 ) -> Floats | None:
     """Return a drawing of better shape in which creases point to their centres; None if none was found.
 
@@ -114,6 +116,8 @@ def improved(
         Logarithm of the length that each edge is to have; without it 0, all alike.
     conditions : sequence of Condition, optional
         What is to be met exactly, besides that creases point to their centres.
+    allowance : Allowance, optional
+        Steps that may be tried: the shape that is reached with them is taken.
 
     Returns
     -------
@@ -128,7 +132,7 @@ def improved(
         if cost is None:
             return None
         better, lower = None, 10.0
-        while better is None and damping < 1e8:
+        while better is None and damping < 1e8 and (allowance is None or allowance.take()):
             step = _tried(unknowns, cost, damping, exactly) - unknowns
             trial = np.round(unknowns + _held(pattern, unknowns, cost, step), _DIGITS)
             found = _cost(pattern, trial, wanted)

@@ -27,6 +27,7 @@ from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
 from synth.folding.beginning import search_for
 from synth.folding.branches import first_branch
+from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import linkage_of_sheet
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
@@ -48,6 +49,12 @@ _HEIGHTS = (0.6, 0.3)
 panels stay planar, and axes that meet go on meeting."""
 _STILL = 1e-7
 """Creases that begin to fold no faster than this, by the fastest, do not fold."""
+_WORK, _STEPS = 10_000_000_000, 3
+"""Cubes of the number of coordinates that steps of improvement may go through: types of a hundred vertices never
+come to the end of them, one of a thousand does at once. Each realisation has some steps, whatever its size."""
+_SMALLEST, _LARGEST = 1e2 * LEAST, 1e-2 * MOST
+"""Sizes: what is folded in space is not quite as large as it is drawn."""
+_USED_UP = "the search ended, its allowance of work was used up"
 
 
 class NotFoundError(UnsolvableError):
@@ -243,11 +250,13 @@ def realise(
         check_holes(pattern)
     elif any(one.infinite for one in pattern.pointings):
         pattern, raised = with_finite_centres(pattern), partial(_receded, pattern)
-    asked = _Asked(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised)
+    allowance = Allowance(max(_STEPS, _WORK // (2 * pattern.vertices) ** 3))
+    asked = _Asked(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised, allowance)
     if not (flat_foldable or symmetric) and is_strip(asked.pattern):
         return _best(replace(asked, raised=folded_strip), [(Wishes(), strips(asked.pattern, seed, tries))])
     wishes = wishes_for(asked.pattern, flat_foldable=flat_foldable, symmetric=symmetric)
-    return _best(asked, [(one, drawings(asked.pattern, seed, tries, one)) for one in wishes])
+    some = asked.allowance
+    return _best(asked, [(one, drawings(asked.pattern, seed, tries, one, some)) for one in wishes])
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,6 +272,12 @@ class _Asked:
     tries: int
     notes: tuple[str, ...]
     raised: Raised
+    allowance: Allowance
+
+    @property
+    def ended(self) -> tuple[str, ...]:
+        """A word on a search that ended too early."""
+        return (_USED_UP,) if self.allowance.left <= 0 else ()
 
 
 def _receded(
@@ -279,11 +294,12 @@ def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> R
     for wishes, drawn in sources:
         best = _best_of(asked, wishes, drawn, reasons)
         if best is not None and best.folds is not False:
-            return best
+            return replace(best, notes=(*best.notes, *asked.ended))
         first = first or best
     if first is not None:
-        return first
+        return replace(first, notes=(*first.notes, *asked.ended))
     why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
+    why = "; ".join((why, *asked.ended))
     raise NotFoundError(f"not found in {asked.tries * len(sources)} tries: {why}")
 
 
@@ -346,8 +362,8 @@ def _realised(asked: _Asked, drawn: Drawn, height: float) -> Realised:
 def _check(kind: str, size: float, seed: int, tries: int) -> None:
     if kind not in get_args(Kind):
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
-    if not LEAST <= size <= MOST:
-        raise InvariantError("size", f"the size is {size:g}", f"a number from {LEAST:g} to {MOST:g}")
+    if not _SMALLEST <= size <= _LARGEST:
+        raise InvariantError("size", f"the size is {size:g}", f"a number from {_SMALLEST:g} to {_LARGEST:g}")
     if seed < 0 or tries < 1:
         raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
 

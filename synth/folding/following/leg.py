@@ -93,7 +93,7 @@ class _Following:
         allowance = self._legs.options.allowance
         for _ in range(_MOST_STEPS):
             if allowance is not None and not allowance.take():
-                return self._ended("the steps that a search may take were not enough")
+                return self._ended("the allowance of steps was used up")
             stopped = "" if self._left(self._here) == 0.0 else self._onwards()
             if stopped or self._left(self._here) == 0.0:
                 return self._ended(stopped)

@@ -95,7 +95,7 @@ class RankWatch:
         if len(self._values) < 3:
             return False
         first, second = (float(np.linalg.norm(one.after.angles - one.before.angles)) for one in self._steps)
-        if not (first and second):
+        if not (first and second):  # a step of no length: nothing was passed
             return False
         squares = np.square(self._values)
         slopes = np.diff(squares) / (first, second)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
@@ -14,6 +15,8 @@ __all__ = ["Plane", "plane_of_panel"]
 
 _PLANE = 1e-5
 """Corners of a panel lie in a plane if they are this close to it, in units of its extent."""
+_SIDE = 1e-9
+"""Corners that are this close to each other, in the same units, are in one place."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ def plane_of_panel(corners: Floats, face: int) -> Plane:
     Raises
     ------
     UnsolvableError
-        If the corners lie in no plane, or in a line.
+        If the corners lie in no plane or in a line, a side has no length, or sides cross.
 
     Examples
     --------
@@ -73,4 +76,9 @@ def plane_of_panel(corners: Floats, face: int) -> Plane:
     along = along - (along @ normal) * normal
     along /= np.linalg.norm(along)
     axes = np.column_stack([along, np.cross(normal, along), normal])
-    return Plane(origin, axes, arms @ axes[:, :2])
+    flat = arms @ axes[:, :2]
+    if np.linalg.norm(flat - np.roll(flat, -1, axis=0), axis=1).min() <= _SIDE * size:
+        raise UnsolvableError(f"panel {face} has a side without length")
+    if not shapely.Polygon(flat).is_valid:
+        raise UnsolvableError(f"the border of panel {face} crosses or touches itself, so it cannot be cut out")
+    return Plane(origin, axes, flat)

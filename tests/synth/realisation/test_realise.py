@@ -103,13 +103,13 @@ def test_size_is_the_longer_side_of_the_box():
 def test_the_shape_is_that_of_any_size(kind):
     scd = mechanism_from_map_id(FOUR_BAR)
     of_one = realise(scd, kind=kind, tries=1)
-    for size in (1e-50, 1e-9, 1e50):
+    for size in (1e-48, 1e-9, 1e48):
         found = realise(scd, kind=kind, size=size, tries=1)
         assert np.array(found.sheet.coordinates) / size == pytest.approx(np.array(of_one.sheet.coordinates))
         assert (found.freedoms, found.sheet.assignments) == (of_one.freedoms, of_one.sheet.assignments)
 
 
-SIZES = [float("nan"), float("inf"), 0.0, -1.0, 1e-60, 1e60, 1e308]
+SIZES = [float("nan"), float("inf"), 0.0, -1.0, 1e-49, 1e49, 1e308]
 
 
 @pytest.mark.parametrize(
