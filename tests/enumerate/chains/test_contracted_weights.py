@@ -26,6 +26,7 @@ def test_a_graph_that_is_missing_or_there_twice_changes_the_sum():
             assert weight_of(np.concatenate([codes, codes[row : row + 1]]), links) != closed[links]
 
 
+@pytest.mark.slow
 def test_what_is_recorded_of_nine_loops_agrees():
     recorded, closed = json.loads(RECORDED.read_text(encoding="utf-8")), total_weights(9)
     assert recorded["equal"] is True
