@@ -8,7 +8,8 @@ some hundred equal stretches, each equally likely, by a seed that is fixed, and 
 their number of graphs of a size, times the length of a stretch, is an estimate without bias of how many there are.
 Of the graphs of each size that were made some are drawn again and counted on by both methods: mean processor
 times, and mean numbers of chains. Errors are standard errors as if cubic graphs were drawn from all (stretches
-make them smaller), and for the second draw between graphs, as if the two were independent. Times are of one
+make them smaller), and for the second draw between graphs, as if the two were independent. Where few graphs hold
+most of the chains, a sample without them makes both the estimate and its error too small. Times are of one
 process; what else the machine did at the time is told by its load.
 
 For 18 links, where all is known, `number` and `graphs` can be held against what is counted: 1535380884 and

@@ -26,6 +26,7 @@ from enumerate.contracted.graphs import decode
 from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycles_of
 from enumerate.contracted.listing import frame_of
 from enumerate.contracted.orbits import count_orbits
+from enumerate.kernel.burnside import number_of_orbits
 from enumerate.kernel.compiled import compiled
 from graphs.arrays import Bytes, Ints
 
@@ -166,5 +167,5 @@ def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: b
                 fixed += still - placements
                 for v in range(n):
                     fixed += placements * (automorphisms[a, v] == v)
-        total += fixed // len(moved)
+        total += number_of_orbits(fixed, len(moved))
     return total

@@ -264,7 +264,8 @@ def count_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
                     fixed *= perm(lengths[length] // fold, number) * (fold * length) ** number
                 total += fixed
     count, rest = divmod(total, 2 * rounds.slots * len(symmetries))
-    assert rest == 0, "the symmetries are no group"
+    if rest:
+        raise ArithmeticError("Burnside's lemma gives no whole number of orbits: the symmetries are no group")
     return count
 
 

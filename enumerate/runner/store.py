@@ -83,7 +83,7 @@ class SqliteSink:
             If there is a file and it is not to be resumed, is no store or that of another job, or cannot be
             opened.
         """
-        check_place(self.path, force=True)  # a file only
+        check_place(self.path, force=True)  # a file only, in a folder that is there
         if self.path.exists() and not (self._resume or self._force):
             raise StoreError(
                 f"{self.path}: exists already; continue it with --resume, begin anew with --force, "
@@ -91,8 +91,6 @@ class SqliteSink:
             )
         if self._force:
             self._remove()
-        if not self.path.parent.is_dir():
-            raise StoreError(f"{self.path}: there is no folder {str(self.path.parent)!r}")
         remove_left(self.path)  # of a repair that was killed
         if self.path.exists() and _has_tables(self.path):
             self._look_through(job)

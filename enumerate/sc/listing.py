@@ -13,6 +13,7 @@ from enumerate.chains.counting import count_fixed, count_in
 from enumerate.contracted.binary_links import EVERY, Wanted
 from enumerate.contracted.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
 from enumerate.contracted.listing import list_placements
+from enumerate.kernel.burnside import number_of_orbits
 from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.ranks import class_points, mobility_of
@@ -103,7 +104,7 @@ def count_drawn_by_burnside(codes: Bytes, n: int, links: int, most: int, outside
             if kept or not outside:
                 same = count_fixed(moved[a], ends, first, sets, needs, n, links, most)
                 fixed += same * (kept if outside else 1)
-        total += fixed // len(moved)
+        total += number_of_orbits(fixed, len(moved))
     return total
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from enumerate.kernel.burnside import number_of_orbits
 from enumerate.kernel.compiled import compiled
 from enumerate.scd.choices import (
     TOO_MANY,
@@ -56,7 +57,7 @@ def count_placements(code: Bytes, labels: Ints, most: int, dof: int, sheets: boo
                 if count < 0 or fixed > TOO_MANY:
                     return -1
                 fixed += count
-    return fixed // len(symmetries)
+    return number_of_orbits(fixed, len(symmetries))
 
 
 @compiled

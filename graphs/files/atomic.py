@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from graphs.errors import OpenError
+from graphs.errors import OpenError, shown
 from graphs.files.unfinished import Unfinished, remove_folder
 
 __all__ = ["Beside", "FolderBeside", "check_new_folder", "check_place", "reason_of", "write_chunks", "write_text"]
@@ -24,11 +24,13 @@ def check_place(path: Path, *, force: bool) -> None:
     Raises
     ------
     OpenError
-        For a file (without ``force``), a folder, a symbolic link, wherever it leads, or a special file.
+        For a file (without ``force``), a folder, a symbolic link, wherever it leads, or a special file; and where
+        there is no folder to write it to.
     """
     try:
         mode = path.lstat().st_mode
     except FileNotFoundError:
+        _check_parent(path)
         return
     except (OSError, ValueError) as error:
         raise OpenError(path, "", f"cannot be written: {reason_of(error)}", "a writable folder") from None
@@ -51,6 +53,12 @@ def check_new_folder(path: Path) -> None:
     """
     if path.exists() or path.is_symlink():
         raise OpenError(path, "", "exists already", "a new folder: folders are not replaced")
+    _check_parent(path)
+
+
+def _check_parent(path: Path) -> None:
+    if not path.parent.is_dir():
+        raise OpenError(path, "", f"there is no folder {shown(str(path.parent))}", "a folder that exists")
 
 
 def write_text(path: Path, text: str, *, force: bool = False) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +53,7 @@ def value_of(path: Path, name: str, stored: Any) -> Any:
         raise damaged(path, name, stored, f"one of {', '.join(KINDS)}")
     if not isinstance(stored, (int, float) if holds is float else int if holds is bool else holds):
         raise damaged(path, name, stored, _NAMES[holds])
-    if holds is bool and stored not in (0, 1):
+    if (holds is bool and stored not in (0, 1)) or stored in (inf, -inf):
         raise damaged(path, name, stored, _NAMES[holds])
     return bool(stored) if holds is bool else stored
 

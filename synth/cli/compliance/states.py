@@ -34,7 +34,13 @@ _PLACE = 3
 )
 @click.option("--moment", multiple=True, metavar="JOINT=M", help="A moment at a joint, whatever its angle.")
 @click.option("--drive", metavar="JOINT=DEGREES", help="Follow the load path of this joint.")
-@click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses of the path.")
+@click.option(
+    "--frames",
+    type=click.IntRange(1, 10_000),
+    default=20,
+    show_default=True,
+    help="Poses of the path after the first.",
+)
 @click.option("--mass", multiple=True, metavar="LINK=M@X,Y,Z", help="A point mass on a link; may be repeated.")
 @click.option("--density", type=LENGTH, metavar="D", help="Of a sheet: mass of a unit of area of its panels.")
 @click.option("--ground", metavar="LINK", help="The link that stays, for frequencies.")

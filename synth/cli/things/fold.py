@@ -32,7 +32,9 @@ __all__ = ["fold"]
     "--branch", type=BRANCH, metavar="K", help="Take this way from a flat state: its number, or its signs."
 )
 @click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
-@click.option("--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Poses to make.")
+@click.option(
+    "--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Frames after the first."
+)
 @click.option("--collisions", is_flag=True, help="End before panels pass through each other.")
 @click.option(
     "-o",

@@ -15,11 +15,14 @@ from contextlib import suppress
 __all__ = ["Engine", "beating", "file_name"]
 
 _LONGEST = 120
+"""Bytes of a name: file systems take 255 bytes, whatever the letters."""
 _SECONDS = 120.0
 _BEAT = 1.0
 """Seconds after which a blank line is sent, so that it is seen whether somebody still waits."""
 _CHUNK = 1 << 16
 _AT_ONCE = 2
+_WAITING = b'{"doing": "waiting until others are done", "step": 0, "of": 4}\n'
+"""What is said while as many processes run as may; four is the number of steps of `reading`."""
 _FAILED = "it could not be read: the engine failed"
 
 
@@ -32,8 +35,8 @@ def file_name(given: str) -> str:
     ('pass_wd.fold', 'a b.cp', 'file')
     """
     last = re.split(r"[/\\]", given)[-1]
-    made = re.sub(r"[^\w. ()+-]", "_", last)[-_LONGEST:].lstrip(".- ")
-    return made or "file"
+    made = re.sub(r"[^\w. ()+-]", "_", last).encode()[-_LONGEST:].decode(errors="ignore")
+    return made.lstrip(".- ") or "file"
 
 
 class Engine:
@@ -44,6 +47,8 @@ class Engine:
 
     async def lines(self, module: str, words: Sequence[str], content: bytes) -> AsyncIterator[bytes]:
         """Yield what a module prints about a file, as it comes, and blank lines while there is nothing.
+
+        Where as many processes run as may, the first line says that it waits.
 
         The process ends when nobody takes what is yielded any more, or it took too long.
 
@@ -60,6 +65,8 @@ class Engine:
         bytes
             Lines of JSON, in pieces; the last has ``error`` if the process did not end well.
         """
+        if self._free.locked():
+            yield _WAITING
         async with self._free:
             process = await _begun(module, words)
             feeding = asyncio.create_task(_fed(process, content))

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 
 import uvicorn
 
+from enumerate.runner.stopping import interruptible
 from synth.viewer.pages import page
 from synth.viewer.shown import Shown
 from synth.viewer.workbench.app import Presence, application
@@ -39,7 +40,7 @@ def serve(shown: Sequence[Shown], sources: Sequence[bytes | None], opened: Calla
         If it was stopped.
     """
     text = page(shown, "workbench", workbench=True)
-    with socket.create_server(("127.0.0.1", 0)) as listening:
+    with interruptible() as look, socket.create_server(("127.0.0.1", 0)) as listening:
         place = Place(listening.getsockname()[1], secrets.token_urlsafe(24))
         presence = Presence(lambda: setattr(server, "should_exit", True))
         app = application(place, text, presence, sources)
@@ -49,3 +50,4 @@ def serve(shown: Sequence[Shown], sources: Sequence[bytes | None], opened: Calla
         server = uvicorn.Server(config)
         opened(place.address)  # the socket listens already
         server.run(sockets=[listening])
+        look()  # uvicorn ends in good order when a signal asks for it, and says so no more

@@ -16,7 +16,7 @@ from enumerate.runner.running import Interrupted, run
 from enumerate.runner.sinks import RowSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 from enumerate.runner.totals import CountSink
-from graphs.errors import StoreError
+from graphs.errors import FileError, StoreError
 
 
 def rows_of(job, **options):
@@ -157,7 +157,7 @@ def test_stores_that_are_refused(tmp_path):
     connection.close()
     with pytest.raises(StoreError, match="is not a store of version 3"):
         run(Squares(), SqliteSink(other, resume=True))
-    with pytest.raises(StoreError, match="there is no folder"):
+    with pytest.raises(FileError, match="there is no folder"):
         run(Squares(), SqliteSink(tmp_path / "no" / "store.sqlite"))
     with pytest.raises(StoreError, match="unable to open"):
         run(Squares(), SqliteSink("/proc/store.sqlite"))

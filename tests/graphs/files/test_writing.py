@@ -8,7 +8,7 @@ import pytest
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, InvariantError, UnsolvableError
-from graphs.files.atomic import FolderBeside
+from graphs.files.atomic import FolderBeside, check_new_folder, check_place
 from graphs.files.formats import READERS, WRITERS, read, write
 from graphs.files.ids import mechanism_of_id
 from graphs.files.kept_type import change_of_type
@@ -231,3 +231,16 @@ def test_a_pattern_that_is_held_whole_loses_nothing(tmp_path):
     write(Sheet(5, ((0, 4),), "M", FAN, PLACES, "Fan", fold_angles=(30.0,), spread=1e-6), tmp_path / "a.fold")
     assert write(read(tmp_path / "a.fold"), tmp_path / "b.fold") == ()
     assert (tmp_path / "a.fold").read_bytes() == (tmp_path / "b.fold").read_bytes()
+
+
+@pytest.mark.parametrize("force", [False, True])
+def test_a_missing_folder_is_told_before_anything_is_written(tmp_path, force):
+    for check in (
+        lambda: check_place(tmp_path / "no" / "a.fold", force=force),
+        lambda: check_new_folder(tmp_path / "no" / "a"),
+    ):
+        with pytest.raises(
+            FileError, match=r"a(\.fold)?: there is no folder '.*no'; expected a folder that exists"
+        ):
+            check()
+    assert list(tmp_path.iterdir()) == []

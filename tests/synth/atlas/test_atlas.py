@@ -262,6 +262,7 @@ def test_what_is_no_atlas_is_refused(tmp_path: Path, small_atlas: Atlas) -> None
         ("kind", "knot", "kind is 'knot'; expected one of chain, sc"),
         ("name", b"\xff", "expected a text"),
         ("fold_deg", "far", "expected a number"),
+        ("fold_deg", float("inf"), "fold_deg is inf; expected a number"),
     ],
 )
 def test_damaged_values_are_told_with_their_place(

@@ -123,7 +123,10 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         ("--links 8 --dof 1 --json -o x.g6", "give -o or --json, not both"),
         ("--links 8 --dof 1 --count -o x.g6", "--count keeps what it has counted in a store: name a .sqlite file"),
         ("--links 8 --dof 1 -o chains.xyz", "expected one of .csv .g6 .jsonl .parquet .sqlite, or a folder"),
-        ("--links 8 --dof 1 -o no/such/chains.g6", "cannot be written: No such file or directory"),
+        (
+            "--links 8 --dof 1 -o no/such/chains.g6",
+            "no/such/chains.g6: there is no folder 'no/such'; expected a folder that exists",
+        ),
         ("--links 8 --dof 1 -o /proc/chains.g6", "cannot be written"),
         ("--links 8 --dof 1 -o /proc/chains.sqlite", "unable to open database file"),
         ("--links 8 --dof 1 -o chains.g6 --resume", "only a .sqlite store can be resumed"),

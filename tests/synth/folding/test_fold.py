@@ -249,6 +249,7 @@ def test_the_command_line(tmp_path, data):
     out = tmp_path / "out.fold"
     run("fold", data / "patterns" / "four-bar-vertex.fold", "--frames", 2, "-o", out)
     assert read(out).frames.others == 3
+    assert "Frames after the first." in run("fold", "--help").stdout
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
     assert "leave all but one out" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr

@@ -43,6 +43,9 @@ export class Workbench {
   /** What is done one after the other; what was begun before a stop is left out. */
   #queue = Promise.resolve();
   #stops = 0;
+  /** How many things wait for their turn. */
+  #waiting = 0;
+  #said = INVITED;
 
   /**
    * @param {HTMLElement} root - Where files may be dropped.
@@ -109,7 +112,28 @@ export class Workbench {
    */
   #inTurn(what) {
     const stops = this.#stops;
-    this.#queue = this.#queue.then(() => (stops === this.#stops ? what() : undefined)).catch(reportError);
+    this.#wait(1);
+    this.#queue = this.#queue.then(() => {
+      this.#wait(-1);
+      return stops === this.#stops ? what() : undefined;
+    }).catch(reportError);
+  }
+
+  /** @param {number} more */
+  #wait(more) {
+    this.#waiting += more;
+    this.#say(this.#said);
+  }
+
+  /**
+   * Show what happens, and how many things wait until it is done.
+   *
+   * @param {string} text
+   */
+  #say(text) {
+    this.#said = text;
+    const waiting = this.#waiting ? `; ${this.#waiting} more ${this.#waiting === 1 ? "waits" : "wait"}` : "";
+    this.status.textContent = text + waiting;
   }
 
   /** @param {File[]} files */
@@ -124,7 +148,7 @@ export class Workbench {
           this.sources.push(source);
           this.page.add(shown);
         } else told.push(error ?? NO_ANSWER);
-        this.status.textContent = told.join("\n") || INVITED;
+        this.#say(told.join("\n") || INVITED);
       });
     }
   }
@@ -135,7 +159,7 @@ export class Workbench {
     this.#inTurn(async () => {
       const source = changed({ ...this.sources[number], file: await this.#fileOf(number) });
       const { shown, error } = await this.#judged(source);
-      this.status.textContent = error ?? (source.edits.join(", ") || INVITED);
+      this.#say(error ?? (source.edits.join(", ") || INVITED));
       if (!shown) return;
       this.sources[number] = source;
       this.page.put(shown, number);
@@ -153,7 +177,7 @@ export class Workbench {
     this.#inTurn(async () => {
       const source = { ...this.sources[number], file: await this.#fileOf(number) };
       const { answer, error } = await this.#answerOf("template", source, [["kind", kind], ["size", `${size}`]]);
-      this.status.textContent = error ?? INVITED;
+      this.#say(error ?? INVITED);
       if (!answer) return;
       const content = await answer.blob();
       const extension = content.type.includes("zip") ? "zip" : kind;
@@ -215,7 +239,7 @@ export class Workbench {
     this.progress.hidden = false;
     this.progress.max = of;
     this.progress.value = step;
-    this.status.textContent = `${name}: ${doing} (${Math.round((100 * step) / of)} %)`;
+    this.#say(`${name}: ${doing} (${Math.round((100 * step) / of)} %)`);
   }
 
   /**
@@ -228,7 +252,7 @@ export class Workbench {
    */
   async #answerOf(what, { name, file, edits }, more) {
     this.#asked = new AbortController();
-    this.status.textContent = `${name}: waiting`;
+    this.#say(`${name}: waiting`);
     this.stop.hidden = false;
     try {
       const words = new URLSearchParams([["name", name], ...edits.map((edit) => ["edit", edit]), ...more]);

@@ -1,0 +1,146 @@
+"""The weights 1 / |Aut| of contracted graphs: their sums in closed form, and those of graphs that were listed.
+
+A graph with n links has n! / |Aut| labellings, where |Aut| counts permutations of links and of parallel joints.
+So the sum of the weights is a coefficient of a generating function of labelled multigraphs, and no graph is looked
+at. A graph that a list lacks, or has twice, or whose symmetries are wrong, changes the sum. Theory:
+docs/theory/chains.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+from math import comb, factorial
+
+import numpy as np
+
+from enumerate.contracted.graphs import decode
+from enumerate.kernel.compiled import compiled
+from enumerate.kernel.labelling import canonical_labels
+from graphs.arrays import Bytes, Ints
+
+__all__ = ["total_weights", "weight_of"]
+
+Series = list[list[Fraction]]
+"""Coefficients of x^n y^m: links and joints."""
+
+
+def total_weights(loops: int) -> dict[int, Fraction]:
+    """Return the sum of 1 / |Aut| over the contracted graphs with so many loops, for each number of links.
+
+    Parameters
+    ----------
+    loops : int
+        L, 2 or more.
+
+    Notes
+    -----
+    With x for a link and y for a joint, multigraphs without self-joints have the generating function
+    G = sum x^n e^(y n (n - 1) / 2) / n!, connected ones C = log G, 2-connected ones B with
+    B'(x C') = log C' (a connected graph with a root is a set of 2-connected ones at the root, with connected
+    graphs at their other links; Harary and Palmer, Graphical Enumeration, 1973, chapter 1). A 2-connected graph
+    with two loops or more is a contracted one with joints replaced by paths: H(x, y / (1 - x y)) = B(x, y), so
+    H(x, s) = B(x, s / (1 + x s)).
+
+    Examples
+    --------
+    Two links with three joints have 12 automorphisms. With three loops there are two links with four joints, a
+    triangle with two sides doubled, the complete graph of four links, and a square with two sides doubled:
+
+    >>> {links: str(weight) for links, weight in total_weights(2).items()}
+    {2: '1/12'}
+    >>> total_weights(3)[2] == Fraction(1, 48), total_weights(3)[4] == Fraction(1, 24) + Fraction(1, 16)
+    (True, True)
+    """
+    most = 2 * (loops - 1)
+    blocks = _two_connected(most, most + loops - 1)
+    totals = {}
+    for links in range(most, 1, -1):
+        terms = (
+            (-1) ** paths * comb(links + loops - 2, paths) * blocks[links - paths][links - paths + loops - 1]
+            for paths in range(links - 1)
+        )
+        totals[links] = sum(terms, Fraction(0))
+    return totals
+
+
+def weight_of(codes: Bytes, n: int) -> Fraction:
+    """Return the sum of 1 / |Aut| over some contracted graphs.
+
+    Parameters
+    ----------
+    codes : uint8[k, m]
+    n : int
+        Their number of links.
+
+    Examples
+    --------
+    >>> weight_of(np.zeros((1, 3), np.uint8), 2)
+    Fraction(1, 12)
+    """
+    orders = Counter(_orders(codes, n).tolist())
+    return sum((Fraction(times, order) for order, times in orders.items()), Fraction(0))
+
+
+@compiled
+def _orders(codes: Bytes, n: int) -> Ints:
+    """Return the number of automorphisms of each graph, those of parallel joints among them."""
+    orders = np.empty(len(codes), np.int64)
+    for c in range(len(codes)):
+        adjacency = decode(codes[c], n)
+        order = len(canonical_labels(adjacency, n)[1])
+        for u in range(n):
+            for v in range(u):
+                for parallel in range(2, adjacency[u, v] + 1):
+                    order *= parallel
+        orders[c] = order
+    return orders
+
+
+def _two_connected(links: int, joints: int) -> Series:
+    """Return the generating function of 2-connected multigraphs without self-joints, up to a size."""
+    every = [
+        [Fraction(comb(n, 2) ** m, factorial(m) * factorial(n)) for m in range(joints + 1)]
+        for n in range(links + 1)
+    ]
+    connected = _logarithm(every)
+    rooted = [[n * value for value in row] for n, row in enumerate(connected)]
+    left = _logarithm(rooted[1:])
+    blocks = [[Fraction(0)] * (joints + 1) for _ in range(links + 1)]
+    power = rooted
+    for k in range(1, links):
+        coefficient = list(left[k])
+        blocks[k + 1] = [value / (k + 1) for value in coefficient]
+        for n in range(k, links):
+            left[n] = [a - b for a, b in zip(left[n], _product(coefficient, power[n]), strict=True)]
+        power = [_sum_of_products(power, rooted, n, joints) for n in range(links + 1)]
+    return blocks
+
+
+def _logarithm(series: Series) -> Series:
+    """Return the logarithm of a series that begins with 1: n l_n = n a_n - sum k l_k a_(n - k)."""
+    made = [[Fraction(0)] * len(series[0])]
+    for n in range(1, len(series)):
+        row = [n * value for value in series[n]]
+        for k in range(1, n):
+            term = _product(made[k], series[n - k])
+            row = [value - k * other for value, other in zip(row, term, strict=True)]
+        made.append([value / n for value in row])
+    return made
+
+
+def _sum_of_products(one: Series, other: Series, n: int, joints: int) -> list[Fraction]:
+    total = [Fraction(0)] * (joints + 1)
+    for k in range(1, n):
+        total = [a + b for a, b in zip(total, _product(one[k], other[n - k]), strict=True)]
+    return total
+
+
+def _product(one: list[Fraction], other: list[Fraction]) -> list[Fraction]:
+    """Return the product of two polynomials in y, cut off where they are."""
+    made = [Fraction(0)] * len(one)
+    for i, a in enumerate(one):
+        if a:
+            for j in range(len(one) - i):
+                made[i + j] += a * other[j]
+    return made
