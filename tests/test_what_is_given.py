@@ -36,3 +36,11 @@ def test_what_is_no_mechanism_is_told(verb, thing, told):
 def test_a_graph_is_no_sheet():
     with pytest.raises(TypeError, match="fold: an object of type SCGraph; expected a Sheet"):
         synth.fold(synth.read("k1:Cr"))
+
+
+def test_a_branch_of_five_thousand_digits_is_no_branch(data):
+    sheet = synth.read(data / "patterns" / "bird-base.fold")
+    with pytest.raises(
+        synth.SynthedraError, match="there is no branch of so large a number; expected one from 0 to 15"
+    ):
+        synth.fold(sheet, branch=10**5000)

@@ -123,7 +123,7 @@ def advise(
     >>> sheet = Sheet(7, tuple((0, k) for k in range(1, 7)), "MVVMVV", faces, ((0.0, 0.0), *around))
     >>> advice = advise(sheet, 0, weights={0: 5.0}, limit=1)
     >>> advice, advice.locks[0].joints, advice.locks[0].weight
-    (<Advice: 3 to 0 freedoms, 1 sets>, (1, 4, 5), 3.0)
+    (<Advice: 3 to 0 freedoms, 1 sets>, (1, 3, 4), 3.0)
     """
     check_given("advise", thing, Mechanism)
     kept = _Kept(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))

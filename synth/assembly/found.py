@@ -13,6 +13,7 @@ from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, shown
 from graphs.given import check_given
 from graphs.ids import JointId
+from graphs.rank.canonical import canonical_order
 from synth.assembly.answer import Position, Positions
 from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of
@@ -28,6 +29,8 @@ _REAL = 1e-7
 """Imaginary parts of a position that is real, radians."""
 _CLOSED = 1e-10
 _POLISHED = 4
+_HALF_TURN = 1e-9
+"""So little beyond 180 degrees, radians, is 180 degrees and not -180."""
 _SURER = (SMALL, SMALL / 30, SMALL / 1000)
 """Corrections that are allowed: less, where two paths came to one place or one was lost."""
 
@@ -140,18 +143,18 @@ def _polished(family: Family, parameters: Complexes, found: Followed) -> Complex
 
 
 def _angles(linkage: PosedLinkage, family: Family, member: Floats, unknowns: Floats) -> Floats:
-    """Return the angles of all joints, from -180 to 180 degrees; joints in no loop stay as they are."""
+    """Return the angles of all joints, above -180 and up to 180 degrees; joints in no loop stay as they are."""
     names = list(linkage.graph.joints)
     whole = linkage.angles.copy()
     inputs = member[2 * len(family.joints) :]
     for joint, column in zip(family.joints, family.column.tolist(), strict=True):
         whole[names.index(joint)] += unknowns[column] if column >= 0 else inputs[-1 - column]
-    return np.asarray(np.pi - np.remainder(np.pi - whole, 2 * np.pi))
+    return np.asarray(np.pi + _HALF_TURN - np.remainder(np.pi + _HALF_TURN - whole, 2 * np.pi))
 
 
 def _in_order(found: list[Floats]) -> list[Floats]:
     """Return positions in an order that does not depend on how they were found."""
-    return sorted(found, key=lambda one: np.round(one, 6).tolist())
+    return [found[place] for place in canonical_order(found)]
 
 
 def _with_circuits(answer: Positions, linkage: PosedLinkage) -> Positions:

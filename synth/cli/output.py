@@ -33,6 +33,7 @@ __all__ = [
     "plain",
     "print_answer",
     "print_json",
+    "shortened",
     "table",
     "tell_lost",
     "tell_written",
@@ -106,16 +107,16 @@ def print_answer(answer: Printed) -> None:
 
 def print_json(value: Any) -> None:
     """Print one JSON document on standard output, numbers with the digits that they are good for."""
-    click.echo(json.dumps(_shortened(value), indent=2, allow_nan=False))
+    click.echo(json.dumps(shortened(value), indent=2, allow_nan=False))
 
 
-def _shortened(value: Any) -> Any:
+def shortened(value: Any) -> Any:
     """Return a value of JSON with twelve figures of each number: later ones differ among processors."""
     if isinstance(value, float):
         return float(f"{value:.{_FIGURES}g}")
     if isinstance(value, dict):
-        return {key: _shortened(one) for key, one in value.items()}
-    return [_shortened(one) for one in value] if isinstance(value, list | tuple) else value
+        return {key: shortened(one) for key, one in value.items()}
+    return [shortened(one) for one in value] if isinstance(value, list | tuple) else value
 
 
 def console() -> Console:

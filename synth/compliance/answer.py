@@ -13,6 +13,7 @@ from graphs.arrays import Floats
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
+from graphs.rank.canonical import canonical_order
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.freedoms import State
 from synth.compliance.members import Members
@@ -195,10 +196,8 @@ class Elastic:
         rows = []
         for mode in self.modes[:_LISTED]:
             told = f"{mode.frequency:.6g}" if mode.frequency is not None else f"grows at {mode.growth:.6g}"
-            largest = np.argsort(-np.abs(mode.rates), kind="stable")[:6]
-            moves = ", ".join(
-                f"{shown(self.joints[place])}: {mode.rates[place]:.3g}" for place in largest.tolist()
-            )
+            largest = canonical_order(list(-np.abs(mode.rates)[:, None]))[:6]
+            moves = ", ".join(f"{shown(self.joints[place])}: {mode.rates[place]:.3g}" for place in largest)
             rows.append((told, moves))
         table = TableBlock(("frequency", "joints that move most"), rows, ("frequency",))
         more = len(self.modes) - len(rows)

@@ -32,6 +32,7 @@ _FOLLOWED = 2500
 """Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
 how fast a machine is."""
 
+_LARGE = 10**9
 _STILL = 1e-9
 _DIGITS = 6
 """Of a cosine: branches that point along rates alike are told apart by their order."""
@@ -122,7 +123,8 @@ def _chosen(found: Branches, wanted: Wanted) -> int:
     every, asked = found.branches, wanted.branch
     if isinstance(asked, int):
         if not 0 <= asked < len(every):
-            raise InvariantError("branch", f"there is no branch {asked}", f"one from 0 to {len(every) - 1}")
+            name = str(asked) if abs(asked) < _LARGE else "of so large a number"
+            raise InvariantError("branch", f"there is no branch {name}", f"one from 0 to {len(every) - 1}")
         return asked
     if isinstance(asked, str):
         mirrored = asked.translate(str.maketrans("+-", "-+"))

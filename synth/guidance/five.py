@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import NumericalError, UnsolvableError
+from graphs.rank.canonical import canonical_order
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.orientations import Orientations
 
@@ -110,8 +111,9 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
         raise _without_number(gap)
     residual = float(max(_misses(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
     real, number = _real_ones(conditions, fixed, moving)
-    dyads = sorted((dyad_of(orientations, g, w) for g, w in real), key=lambda dyad: dyad.fixed.tolist())
-    return DyadsOfFive(tuple(dyads), _SOLUTIONS - number, residual, gap)
+    dyads = [dyad_of(orientations, g, w) for g, w in real]
+    order = canonical_order([np.concatenate([dyad.fixed, dyad.moving]) for dyad in dyads])
+    return DyadsOfFive(tuple(dyads[place] for place in order), _SOLUTIONS - number, residual, gap)
 
 
 def _kernel(conditions: Floats) -> tuple[Floats, float]:

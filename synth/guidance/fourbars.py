@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.rank.canonical import canonical_order
 from synth.fourbar.closing import FourBarKind, kind_of_spherical
 from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
 from synth.guidance.dyads import Dyad
@@ -172,7 +173,8 @@ def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[Guided
         links = _link_angles(driver, follower)
         if np.minimum(links, np.pi - links).min() > _NO_LINK:
             made.append(four_bar_of(orientations, driver, follower))
-    return tuple(sorted(made, key=lambda one: (len(one.defects), -one.transmission)))
+    order = canonical_order([np.array([len(one.defects), -one.transmission]) for one in made])
+    return tuple(made[place] for place in order)
 
 
 def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> GuidedFourBar:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.rank.canonical import canonical_order
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = [
@@ -174,7 +175,9 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     angles = {
         pair: float(np.arctan2(s @ across, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)
     }
-    crossings = tuple(Crossing(pair, angles[pair]) for pair in sorted(angles, key=lambda pair: angles[pair]))
+    pairs = list(angles)
+    order = canonical_order([np.array([angles[pair]]) for pair in pairs])
+    crossings = tuple(Crossing(pairs[place], angles[pairs[place]]) for place in order)
     required = required_sequence(len(orientations))
     turned = [0.0, *(angles[pair] for pair in required)]
     return Hoop(direction, crossings, required, bool(np.all(np.diff(turned) > 0.0)))

@@ -10,6 +10,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.rank.canonical import canonical_order
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import nearest_moving_axis
 from synth.guidance.orientations import Orientations
@@ -59,7 +60,8 @@ def dyads_by_least_squares(orientations: Orientations) -> tuple[Dyad, ...]:
         error, dyad = _fitted(orientations, start)
         if all(min(_apart(dyad.fixed, d.fixed), 1.0) + _apart(dyad.moving, d.moving) > _SAME for _, d in found):
             found.append((error, dyad))
-    return tuple(dyad for _, dyad in sorted(found, key=lambda item: item[0])[:_MOST])
+    order = canonical_order([np.concatenate([[error], dyad.fixed, dyad.moving]) for error, dyad in found])
+    return tuple(found[place][1] for place in order[:_MOST])
 
 
 def fibonacci_sphere(count: int) -> Floats:

@@ -213,7 +213,7 @@ def test_several_mechanisms_in_a_file_are_not_one(tmp_path):
 
 def test_nothing_half_written(tmp_path):
     sc = SCGraph(2, [(0, 1)])
-    with pytest.raises(FileError, match=r"cannot be written: No such file"):
+    with pytest.raises(FileError, match=r"there is no folder"):
         write(sc, tmp_path / "no" / "a.json")
     with pytest.raises(FileError, match=r"files ending in '\.pdf' are not known"):
         write(sc, tmp_path / "a.pdf")

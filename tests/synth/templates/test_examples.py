@@ -23,7 +23,7 @@ def test_examples_print_with_a_picture_and_fold(name, data):
     assert why == ""
     assert template.picture is not None
     assert len(template.pieces) == 1
-    folding = fold(sheet, frames=2)
+    folding = fold(sheet, frames=4)
     assert np.abs(folding.path.angles[-1] - folding.path.angles[0]).max() > np.radians(60)
     assert folding.closure < 1e-9
     assert pose_mobility(folding.frames()[1]).dof == EXAMPLES[name]
