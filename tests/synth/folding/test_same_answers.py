@@ -40,7 +40,7 @@ def answers(sheet):
         folding = fold(sheet, frames=1)
         taken = (folding.branch, tuple(folding.driven))
     except SynthedraError as error:
-        taken = str(error)
+        taken = type(error)
     said = mobility(sheet).verdict
     verdict = (said.freedoms, said.basis, said.certainty, said.exhaustive, said.stiff_joints, said.clusters)
     return ways, found.exhaustive, found.method, taken, verdict
