@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.mechanism.precision import Precision, extent_of, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
@@ -149,7 +150,7 @@ def _normal(places: Floats, tolerance: float) -> Floats:
             return upright
     arms = places - places.mean(axis=0)
     normal: Floats = np.linalg.eigh(arms.T @ arms)[1][:, 0]
-    normal = normal * np.sign(normal[np.abs(normal).argmax()])
+    normal = normal * np.sign(normal[leading(normal)])
     return normal
 
 

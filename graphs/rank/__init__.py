@@ -2,7 +2,7 @@
 
 A general member is placed over a prime field (`general_member`), its loops close (`closure`) or its rods keep
 their lengths (`rods`), and the rank of these equations is found modulo primes (`generic`) or in real numbers
-(`pose`). `canonical`: choices among equals that do not hang on the last bit.
+(`pose`).
 """
 
 from __future__ import annotations

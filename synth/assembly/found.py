@@ -9,11 +9,11 @@ from math import isfinite
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, shown
 from graphs.given import check_given
 from graphs.ids import JointId
-from graphs.rank.canonical import canonical_order
 from synth.assembly.answer import Position, Positions
 from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of

@@ -12,6 +12,7 @@ import numpy as np
 import scipy.linalg
 
 from graphs.arrays import Floats
+from graphs.canonical import leading
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -236,7 +237,7 @@ def _lamina(link: int, corners: Floats, density: float) -> list[Mass]:
 
 
 def _mode(square: float, rates: Floats) -> SmallMotion:
-    largest = rates[np.abs(rates).argmax()]
+    largest = rates[leading(rates)]
     rate = abs(square) ** 0.5
     if square < 0.0:
         return SmallMotion(None, rate, rates / largest)

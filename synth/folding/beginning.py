@@ -9,9 +9,9 @@ import numpy as np
 import scipy.linalg
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_basis
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.rank.canonical import canonical_basis
 from synth.folding.branches import Branch, Branches, Search
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage

@@ -17,8 +17,8 @@ from typing import Any, Literal
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.ids import JointId
-from graphs.rank.canonical import canonical_order
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance

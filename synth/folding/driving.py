@@ -13,11 +13,11 @@ from sys import float_info
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import MARGIN, leading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.extent import LEAST, MOST, in_reach
 from graphs.ids import JointId
-from graphs.rank.canonical import MARGIN, leading
 from synth.folding.beginning import Wanted, beginning
 from synth.folding.branches import Branches
 from synth.folding.closure import ClosureEquations

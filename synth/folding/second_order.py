@@ -19,7 +19,7 @@ import scipy.linalg
 import scipy.sparse
 
 from graphs.arrays import Floats, Ints
-from graphs.rank.canonical import canonical_basis, canonical_order, signed
+from graphs.canonical import canonical_basis, canonical_order, signed
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance
 from synth.folding.newton import TangentSpace
@@ -147,7 +147,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = ZERO) -> F
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
     By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
-    third of the time. The columns depend on the space alone (`graphs.rank.canonical`).
+    third of the time. The columns depend on the space alone (`graphs.canonical`).
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:

@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from synth.guidance.hoop_method import Direction
 from synth.guidance.order import crank_angles, nearest_moving_axis, order_by_crank_angles
@@ -176,4 +177,4 @@ def signed(axis: Floats) -> Floats:
     >>> signed(np.array([0.0, -0.8, 0.6])).tolist()
     [0.0, 0.8, -0.6]
     """
-    return np.asarray(axis * np.copysign(1.0, axis[np.argmax(np.abs(axis))]) + 0.0)
+    return np.asarray(axis * np.copysign(1.0, axis[leading(axis)]) + 0.0)

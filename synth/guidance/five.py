@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.errors import NumericalError, UnsolvableError
-from graphs.rank.canonical import canonical_order
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.orientations import Orientations
 

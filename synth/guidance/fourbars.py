@@ -18,8 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
-from graphs.rank.canonical import canonical_order
 from synth.fourbar.closing import FourBarKind, kind_of_spherical
 from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
 from synth.guidance.dyads import Dyad

@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
-from graphs.rank.canonical import canonical_order
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = [

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphs.arrays import Floats, Ints
+from graphs.canonical import canonical_basis
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre
-from graphs.rank.canonical import canonical_basis
 from graphs.rank.singular_values import spectrum
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage, PosedLoop

@@ -13,8 +13,8 @@ from math import inf
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.ids import JointId
-from graphs.rank.canonical import canonical_order
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.overconstraint.idle import FirstOrder, loop_alone

@@ -14,6 +14,7 @@ import numpy as np
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
+from graphs.canonical import MARGIN, signed
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.extent import LEAST, MOST
@@ -22,7 +23,6 @@ from graphs.identity.drawings import map_id
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
-from graphs.rank.canonical import MARGIN, signed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
 from synth.folding.beginning import search_for

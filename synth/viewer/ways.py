@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats, Ints
-from graphs.rank.canonical import leading
+from graphs.canonical import leading
 from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
 from synth.folding.branches import Branch, Branches, branches_of
 from synth.folding.closure import ClosureEquations

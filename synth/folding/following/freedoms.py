@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats, Ints
-from graphs.rank.canonical import canonical_basis, pivots
+from graphs.canonical import canonical_basis, pivots
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
 

@@ -13,9 +13,9 @@ from math import pi
 import numpy as np
 
 from graphs.arrays import Flags, Floats
+from graphs.canonical import leading, trailing
 from graphs.errors import shown
 from graphs.ids import JointId
-from graphs.rank.canonical import leading, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.between import Step
 from synth.folding.following.event import EventKind, PathEvent, angle_told, joints_told

@@ -15,7 +15,7 @@ import numpy as np
 import scipy.sparse
 
 from graphs.arrays import Floats
-from graphs.rank.canonical import leading
+from graphs.canonical import leading
 from synth.folding.closure import ClosureEquations
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.places import VertexPlaces

@@ -10,7 +10,7 @@ from math import radians
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.rank.canonical import leading
+from graphs.canonical import leading
 from synth.folding.closure import ClosureEquations
 from synth.folding.newton import TangentSpace
 
@@ -22,7 +22,9 @@ _ROUNDS = 60
 _START, _LEAST, _MOST = 1e-6, 1e-13, 1.0
 """Regularisation of a step: at first, and between which bounds."""
 _SLOW = 1e-3
-"""A step that makes less of this part of the sum of squares better is the last."""
+_IDLE = 6
+"""After so many steps in turn that take less than this part of the sum of squares away it ends: a valley may be
+narrow at first, and how narrow rounding decides."""
 
 
 def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> float:
@@ -60,16 +62,16 @@ def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> flo
     free[driver] = 0.0
     angles = start + TURNED / abs(float(rates[driver])) * rates
     residual, jacobian = closure.at(angles)
-    regular = _START
+    regular, idle = _START, 0
     for _ in range(_ROUNDS):
         jacobian.data *= free[jacobian.indices]
         tried = angles + TangentSpace(jacobian, regular).step(residual)
         after, slopes = closure.at(tried)
         gain = float(residual @ residual - after @ after)
         if gain > 0.0:
-            enough = gain > _SLOW * float(residual @ residual)
+            idle = 0 if gain > _SLOW * float(residual @ residual) else idle + 1
             angles, residual, jacobian, regular = tried, after, slopes, max(regular / 10.0, _LEAST)
-            if not enough:
+            if idle == _IDLE:
                 break
         elif regular >= _MOST:
             break

@@ -15,6 +15,7 @@ from math import degrees
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import MARGIN
 from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from synth.folding.closure import ClosureEquations
@@ -198,7 +199,8 @@ def nearly_agreeing(
         rates = space.basis @ (space.basis.T @ wanted)
         if not rates.any():
             rates = space.basis.sum(axis=1)
-        found.append(rates / np.abs(rates).max())
+        scaled = rates / np.abs(rates).max()
+        found.append(np.where(np.abs(scaled) > MARGIN, scaled, 0.0))
     yield from sorted(found, key=lambda rates: -float(np.sign(rates) @ wanted))
 
 

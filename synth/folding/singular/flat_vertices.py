@@ -13,8 +13,8 @@ from math import pi
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import trailing
 from graphs.loops.loop import Centre
-from graphs.rank.canonical import trailing
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["FlatVertices"]

@@ -14,7 +14,7 @@ import numpy as np
 import scipy.linalg
 
 from graphs.arrays import Floats, Ints
-from graphs.rank.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
+from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.linkage import PosedLinkage
 from synth.folding.second_order import RateSpace, rates_at, rates_near

@@ -16,8 +16,8 @@ import numpy as np
 import scipy.linalg
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_basis
 from graphs.loops.loop import Centre
-from graphs.rank.canonical import canonical_basis
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
 __all__ = [

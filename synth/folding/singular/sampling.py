@@ -15,7 +15,7 @@ from math import radians, tan
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.rank.canonical import leading, signed, trailing
+from graphs.canonical import leading, signed, trailing
 from synth.folding.closure import ClosureEquations
 from synth.folding.following.stepping import Allowance
 from synth.folding.linkage import PosedLinkage

@@ -13,8 +13,8 @@ from math import pi
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
-from graphs.rank.canonical import canonical_order
 from synth.patterns.rings.axes import chain_frames
 
 __all__ = ["closed_chain"]

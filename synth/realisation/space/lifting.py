@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import MARGIN, canonical_basis
 from graphs.errors import UnsolvableError, shown
-from graphs.rank.canonical import MARGIN, canonical_basis
 from synth.realisation.pattern import Pattern
 
 __all__ = ["evenly_folded", "folds_of", "lifted", "planes_over"]

@@ -16,9 +16,9 @@ import numpy as np
 import shapely
 
 from graphs.arrays import Floats
+from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
-from graphs.rank.canonical import leading
 from synth.templates.pieces.overlaps import lies_over
 from synth.templates.pieces.planes import Plane, plane_of_panel
 

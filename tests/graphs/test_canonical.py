@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphs.rank.canonical import canonical_basis, canonical_order, leading, pivots, signed, trailing
+from graphs.canonical import canonical_basis, canonical_order, leading, pivots, signed, trailing
 
 
 def any_basis(space, chance):
