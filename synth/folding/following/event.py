@@ -89,15 +89,15 @@ class PathEvent:
         return f"rank drop: {self.drop} less with {at}; {ways}"
 
 
-def angle_told(angle: float) -> str:
+def angle_told(angle: float, decimals: int = 6) -> str:
     """Return an angle, radians, as it is told.
 
     Examples
     --------
-    >>> angle_told(1.0471975511966)
-    '60 degrees'
+    >>> angle_told(1.0471975511966), angle_told(-1e-12), angle_told(1.0458, decimals=1)
+    ('60 degrees', '0 degrees', '59.9 degrees')
     """
-    return f"{round(degrees(angle), 6) + 0.0:.6g} degrees"
+    return f"{round(degrees(angle), decimals) + 0.0:.6g} degrees"
 
 
 def joints_told(joints: Sequence[int], names: Sequence[JointId]) -> str:

@@ -120,7 +120,7 @@ class _Following:
             return self._turns_back(here)
         step = self._stepping.taken(here, rates, left, self._lead)
         if step is None:
-            return f"no closed pose is found beyond {angle_told(self._at(here))} of {self._driver}"
+            return self._lost(here)
         return self._taken(step)
 
     def _taken(self, step: Step) -> str:
@@ -136,7 +136,7 @@ class _Following:
         if len(self._legs.drivers) == 1 and self._left(step.after) < 0.0:
             landed = step.landing(self._joint, float(self._value[0]))
             if landed is None:
-                return f"no closed pose is found beyond {angle_told(self._at(self._here))} of {self._driver}"
+                return self._lost(self._here)
             step, stopped = step.up_to(landed), ""
         self._look_out(step)
         if not stopped:
@@ -246,6 +246,10 @@ class _Following:
 
     def _at(self, pose: Corrected) -> float:
         return float(pose.angles[self._joint])
+
+    def _lost(self, here: Corrected) -> str:
+        """Say that there is no step from a pose: how near it comes to where that is so, rounding decides."""
+        return f"no closed pose is found beyond {angle_told(self._at(here), decimals=1)} of {self._driver}"
 
     def _turns_back(self, pose: Corrected) -> str:
         asked = angle_told(float(self._value[self._lead]))
