@@ -7,9 +7,14 @@ import pytest
 
 from graphs.errors import SynthedraError
 from graphs.files.formats import read
+from graphs.mechanism.sheet import Sheet
 from synth.folding.branches import branches_of, first_branch
+from synth.folding.linkage import linkage_of_sheet
 from synth.folding.motion import fold
 from synth.folding.prepared import prepared
+from synth.folding.singular.sampling import rates_towards
+from synth.patterns.creases.tessellations import map_sheet
+from synth.patterns.creases.triangulated import resch
 from synth.verdict.judged import mobility
 
 _NOISE = 1e-13
@@ -75,9 +80,6 @@ def test_a_thousand_noisy_copies_get_the_answers_of_the_exact_files(data):
 def test_a_predicate_is_asked_of_rates_without_noise():
     """Signs of rates that are rounding alone made `first_branch` admit a way on which a joint is still."""
     corners = ((0, 0), (1, 0), (0.5, 0.9), (-1, 0), (-0.5, -0.7))
-    from graphs.mechanism.sheet import Sheet
-    from synth.folding.linkage import linkage_of_sheet
-
     linkage = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
     seen = []
     first_branch(linkage, lambda rates: seen.append(rates) or False)
@@ -86,3 +88,22 @@ def test_a_predicate_is_asked_of_rates_without_noise():
         assert all(rate == 0.0 or abs(rate) > 1e-7 for rate in rates)
         assert next(rate for rate in rates if rate) > 0.0
     assert first_branch(linkage, lambda rates: rates[0] * rates[1] > 0.0).signs == "++-+"
+
+
+def test_joints_that_do_not_move_on_a_branch_stay_where_they_are():
+    """A line of a square grid folds: the creases across it close by squares, which tell angles to seven digits."""
+    sheet = map_sheet(3, 3)
+    found = prepared(sheet).branches
+    for number, branch in enumerate(found.branches):
+        assert branch.still
+        path = fold(sheet, branch=number, frames=3).path
+        assert not path.angles[:, list(branch.still)].any()
+        assert path.errors.max() < 1e-14
+
+
+def test_branches_are_represented_by_general_rates():
+    """The marks of a Resch pattern lead to the apex of a cone, where six creases would begin at rates of rounding."""
+    pattern = prepared(resch(1, 1))
+    branch = pattern.branches.branches[0]
+    for rates in (branch.rates, rates_towards(branch.space, pattern.wanted)):
+        assert np.abs(rates).min() > 1e-3
