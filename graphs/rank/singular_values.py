@@ -56,7 +56,8 @@ class Spectrum:
     rank : int or None
         None where a singular value may be noise and may be not: indeterminate.
     gap : float
-        Smallest singular value counted over the largest that is noise (or its floor); infinite where none is.
+        Smallest singular value counted over the most that those which are noise may come to; infinite where none
+        is. The noise itself is other from processor to processor.
     smallest, largest_zero : float
         The two, as parts of the largest singular value.
     nearly : int
@@ -156,10 +157,10 @@ def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> S
     zeros = values[found.noise]
     rank = None if found.undecided.any() else larger + len(counted)
     smallest = float(counted.min(initial=1.0)) if larger or len(counted) else 0.0
-    floor = float(floors[found.noise].max(initial=0.0))
+    most = min(_NOISE * float(floors[found.noise].max(initial=0.0)), _LARGE)
     return Spectrum(
         rank,
-        smallest / max(float(zeros.max()), floor) if len(zeros) else float("inf"),
+        smallest / max(float(zeros.max()), most) if len(zeros) else float("inf"),
         smallest,
         float(zeros.max(initial=0.0)),
         int(found.nearly.sum()),
