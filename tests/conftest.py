@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 from pathlib import Path
 
 # Many small matrices: more threads of BLAS than one wait for each other three times as long as they work, and
@@ -27,7 +28,10 @@ settings.register_profile("full", max_examples=100, **_HOW)
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Try fewer examples where the slow tests are left out."""
+    """Try fewer examples where the slow tests are left out; hear signals, whoever starts the tests."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.SIG_IGN:  # by nohup, or in the background of a shell
+            signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
     settings.load_profile("quick" if "not slow" in config.option.markexpr else "full")
 
 
