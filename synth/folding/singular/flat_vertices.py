@@ -13,7 +13,7 @@ from math import pi
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.canonical import trailing
+from graphs.canonical import MARGIN
 from graphs.loops.loop import Centre
 from synth.folding.linkage import PosedLinkage, PosedLoop
 
@@ -79,7 +79,7 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
         return None
     folds = rates[list(loop.joints)] * ways
     alike = folds[:2] * folds[2:]
-    same = trailing(-alike)
+    same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
     first, second = sorted(loop.joints[same::2])
     return (first, second) if alike[same] > _STILL**2 else None
 
