@@ -16,7 +16,7 @@ from runs import SYNTH, complaints
 ENUMERATIONS = {
     "chains": "enumerate chains --links 16 --dof 1 -o OUT.g6 --workers W",
     "chains counted": "enumerate chains --links 18 --dof 1 --count --workers W",
-    "sc": "enumerate sc --links 12 --dof 1 -o OUT.jsonl --workers W",
+    "sc": "enumerate sc --links 14 --dof 1 -o OUT.jsonl --workers W",
     "scd": "enumerate scd --links 8 --dof 1 --max-degree 6 -o OUT.jsonl --workers W",
     "conical": "enumerate conical --chain stephenson --ground all --slots 18 -o OUT.sqlite --workers W",
     "strings": "enumerate strings --dof 30 --max-panels none --modes -o OUT.jsonl",
