@@ -15,6 +15,7 @@ from math import degrees
 import numpy as np
 
 from graphs.arrays import Floats, Ints
+from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
 from synth.folding.alike.classes import alike_classes
@@ -180,11 +181,9 @@ def _against(rates: Floats, marks: Floats) -> bool:
 
 def _drivers(start: _Start) -> list[int]:
     """Return the joints that move most, of different classes, the first of those that move alike."""
-    sizes, drivers = np.abs(start.rates), list[int]()
-    left = sizes > _NONE
+    left, drivers = np.abs(start.rates) > _NONE, list[int]()
     while left.any() and len(drivers) < _DRIVERS:
-        most = float(sizes[left].max())
-        drivers.append(int(np.argmax(left & (sizes >= (1.0 - _TIED) * most))))
+        drivers.append(leading(np.where(left, start.rates, 0.0)))
         left &= start.classes != start.classes[drivers[-1]]
     return drivers
 
