@@ -24,11 +24,11 @@ from synth.drawing.scene.plot import Plot, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Shape
 from synth.drawing.space.bodies import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
-from synth.folding.branches import branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import linkage_of_sheet
 from synth.folding.motion import Folding
 from synth.folding.prepared import prepared
+from synth.motion.branches import branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_sheet
 from synth.moving.circuits import circuit_through
 from synth.moving.linkages import linkage_of
 

@@ -27,8 +27,8 @@ from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
 from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, general_pose_of_sheet
 from synth.advice.locks import Cost, cheapest_sets, held
 from synth.advice.search import Bounds, Candidates, freedoms_when_left_out, smallest_sets
-from synth.folding.closure import ClosureEquations
-from synth.folding.following.stepping import Allowance
+from synth.motion.closure import ClosureEquations
+from synth.motion.walk.stepping import Allowance
 from synth.moving.linkages import linkage_of, sheet_of
 
 __all__ = ["advise"]

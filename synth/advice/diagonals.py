@@ -19,7 +19,7 @@ from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import sides_of_face
 from synth.advice.general_pose import GeneralPose
-from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["Diagonal", "diagonals_of", "loads_on_stresses"]
 

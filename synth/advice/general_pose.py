@@ -15,13 +15,14 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import NumericalError, UnsolvableError
 from graphs.mechanism.sheet import Sheet
-from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
-from synth.folding.branches import Branches, branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage, linkage_of_sheet
-from synth.folding.placement import moved, vertex_places
 from synth.folding.prepared import Prepared, prepared
-from synth.folding.second_order import rates_at
+from synth.folding.vertices import vertex_places
+from synth.motion.beginning import MOST_JOINTS, Wanted, beginning, search_for
+from synth.motion.branches import Branches, branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.motion.placement import moved
+from synth.motion.second_order import rates_at
 from synth.verdict.words import flaps_of
 
 __all__ = ["GeneralPose", "general_pose_of_linkage", "general_pose_of_sheet"]
@@ -133,7 +134,7 @@ def general_pose_of_linkage(linkage: PosedLinkage, branch: int | str | None = No
 
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> square = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
     >>> posed = linkage_of_axes(square, {j: (corners[j], (0, 0, 1)) for j in range(4)})

@@ -17,8 +17,8 @@ from graphs.arrays import Floats
 from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
 from synth.advice.diagonals import Diagonal
-from synth.folding.following.stepping import Allowance
 from synth.folding.prepared import prepared
+from synth.motion.walk.stepping import Allowance
 
 __all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats, Ints
-from synth.folding.closure import ClosureEquations
-from synth.folding.newton import corrected
-from synth.folding.second_order import rates_at
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import corrected
+from synth.motion.second_order import rates_at
 from synth.moving.circuits import Circuit, circuit_through
 
 __all__ = ["Members", "members_of_circuits"]

@@ -17,7 +17,7 @@ from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId
 from graphs.loops.loop import Centre
 from synth.assembly.kernel import ARRIVED, FAR, Complexes, corrected_all, evaluated, followed_all
-from synth.folding.linkage import PosedLinkage
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["SMALL", "Curves", "Family", "Followed", "family_of"]
 
@@ -128,7 +128,7 @@ def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family,
     --------
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))])
     >>> axes = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 2)]
     >>> family, _ = family_of(linkage_of_axes(ring, {i: ((0, 0, 0), axis) for i, axis in enumerate(axes)}), [0])

@@ -19,8 +19,8 @@ from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of
 from synth.assembly.general import GeneralPositions, apart, general_positions
 from synth.assembly.kernel import Complexes
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
 from synth.moving.linkages import linkage_of
 
 __all__ = ["positions", "solutions"]

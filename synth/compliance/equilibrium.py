@@ -14,8 +14,8 @@ import scipy.linalg
 from graphs.arrays import Floats
 from graphs.errors import NumericalError
 from synth.compliance.springs import Bent, ElasticLinkage
-from synth.folding.newton import CLOSED, corrected, exactly_held
-from synth.folding.path import driven_path
+from synth.motion.newton import CLOSED, corrected, exactly_held
+from synth.motion.path import driven_path
 
 __all__ = ["Equilibrium", "LoadPath", "equilibrium", "load_path"]
 
@@ -121,7 +121,7 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
     >>> from synth.compliance.springs import Springs
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2.5, 1, 0), (0.5, 1, 0)]
     >>> linkage = linkage_of_axes(ring, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})

@@ -13,10 +13,10 @@ import networkx as nx
 from graphs.errors import UnsolvableError, numbered
 from graphs.rank.singular_values import spectrum
 from synth.compliance.members import Members, released
-from synth.folding.beginning import MOST_JOINTS, search_for
-from synth.folding.branches import Certainty, branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
+from synth.motion.beginning import MOST_JOINTS, search_for
+from synth.motion.branches import Certainty, branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["Kind", "State", "state_of", "states_of_sets"]
 

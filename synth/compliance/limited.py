@@ -21,9 +21,9 @@ from graphs.reduce.ride_alongs import ReductionStep, reduce
 from synth.compliance.freedoms import state_of
 from synth.compliance.limits_answer import End, Limits, RideAlong, Truss
 from synth.compliance.members import NONE, Members, released
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import check_closed
-from synth.folding.linkage import PosedLinkage
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import check_closed
+from synth.motion.linkage import PosedLinkage
 from synth.moving.linkages import linkage_of
 
 __all__ = ["Corner", "angles_left", "limits"]

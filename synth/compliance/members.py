@@ -20,7 +20,7 @@ from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.closure import independent_cycles
-from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["NONE", "Members", "released"]
 
@@ -118,7 +118,7 @@ def released(linkage: PosedLinkage, compliant: Members, active: Members) -> Pose
     A pentagon in the plane is a four-bar while one of its joints is at rest:
 
     >>> from math import cos, pi, sin
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> ring = SCGraph(5, [(k, (k + 1) % 5) for k in range(5)], [Loop(range(5), "infinite")])
     >>> axes = {k: ((cos(k * pi / 2.5), sin(k * pi / 2.5), 0.0), (0.0, 0.0, 1.0)) for k in range(5)}
     >>> released(linkage_of_axes(ring, axes), Members((0,)), NONE)

@@ -21,8 +21,8 @@ from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.springs import ElasticLinkage
-from synth.folding.linkage import PosedLinkage
-from synth.folding.placement import joints_outwards, link_motions
+from synth.motion.linkage import PosedLinkage
+from synth.motion.placement import joints_outwards, link_motions
 
 __all__ = ["Mass", "Masses", "SmallMotion", "mass_matrix", "sheet_masses", "small_motions"]
 
@@ -136,7 +136,7 @@ def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> l
     >>> from graphs.mechanism.sc import SCGraph
     >>> from synth.compliance.equilibrium import equilibrium
     >>> from synth.compliance.springs import Springs
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> door = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
     >>> elastic = ElasticLinkage(door, Springs({0: 4.0 * pi**2}))
     >>> [mode] = small_motions(elastic, equilibrium(elastic), Masses((Mass(1, 1.0, (1.0, 0.0, 0.5)),)))

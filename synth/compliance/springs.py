@@ -15,11 +15,11 @@ from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
 from graphs.ids import JointId
-from synth.folding.beginning import MOST_JOINTS, search_for
-from synth.folding.branches import branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import check_closed
-from synth.folding.linkage import PosedLinkage
+from synth.motion.beginning import MOST_JOINTS, search_for
+from synth.motion.branches import branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import check_closed
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["Bent", "ElasticLinkage", "Springs", "Tangent"]
 

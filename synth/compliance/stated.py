@@ -22,10 +22,10 @@ from synth.compliance.freedoms import State, state_of, states_of_sets
 from synth.compliance.members import Members
 from synth.compliance.small_motions import Masses, small_motions
 from synth.compliance.springs import ElasticLinkage, Springs
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import check_closed, goals_of
-from synth.folding.linkage import PosedLinkage
-from synth.folding.placement import moved
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import check_closed, goals_of
+from synth.motion.linkage import PosedLinkage
+from synth.motion.placement import moved
 from synth.moving.linkages import linkage_of
 
 __all__ = ["Drive", "states"]

@@ -19,17 +19,17 @@ from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
-from synth.folding.branches import Branches
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import Asked, Driven, driven_from
-from synth.folding.following.collisions import Panels, Poses, first_collision
-from synth.folding.following.event import PathEvent
-from synth.folding.linkage import PosedLinkage
+from synth.folding.collisions import Panels, Poses, first_collision
 from synth.folding.mending.repair import Mended
-from synth.folding.newton import corrected
-from synth.folding.path import DrivenPath
-from synth.folding.placement import vertex_places
 from synth.folding.prepared import Prepared, prepared
+from synth.folding.vertices import vertex_places
+from synth.motion.branches import Branches
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import Asked, Driven, driven_from
+from synth.motion.linkage import PosedLinkage
+from synth.motion.newton import corrected
+from synth.motion.path import DrivenPath
+from synth.motion.walk.event import PathEvent
 
 __all__ = ["Folding", "fold", "folding_along"]
 
@@ -188,7 +188,7 @@ def fold(
         on, with several freedoms, until the crease that began to move most has gone as far as it goes.
     branch : int or str, optional
         Which of the ways to move from a singular pose, a flat one above all: its number among
-        `synth.folding.branches_of`, or its signs. By default the one that agrees best with the letters of the
+        `synth.motion.branches_of`, or its signs. By default the one that agrees best with the letters of the
         edges.
     frames : int, optional
         How many after the first.

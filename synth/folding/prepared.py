@@ -14,11 +14,6 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.folding.beginning import MOST_BRANCHES, MOST_JOINTS, search_for
-from synth.folding.branches import Branches, branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import check_closed
-from synth.folding.linkage import PosedLinkage, linkage_of_sheet
 from synth.folding.mending.misfit import least_misfit
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import (
@@ -32,8 +27,13 @@ from synth.folding.mending.repair import (
     precision_of,
 )
 from synth.folding.opened import opened
-from synth.folding.second_order import rate_spaces, rates_at, rates_near
-from synth.folding.singular.quadrics import ZERO, quadrics_of
+from synth.motion.beginning import MOST_BRANCHES, MOST_JOINTS, search_for
+from synth.motion.branches import Branches, branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import check_closed
+from synth.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.motion.second_order import rate_spaces, rates_at, rates_near
+from synth.motion.singular.quadrics import ZERO, quadrics_of
 
 __all__ = ["Prepared", "prepared"]
 

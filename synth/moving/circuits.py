@@ -1,6 +1,6 @@
 """Circuits: the closed curve of poses that a linkage of one freedom passes through, past all dead points.
 
-A path of a driven joint (`synth.folding.path`) ends where it turns back. A circuit has no driver: each step goes
+A path of a driven joint (`synth.motion.path`) ends where it turns back. A circuit has no driver: each step goes
 along the curve itself, until it comes back to where it began. Theory: docs/theory/moving.md.
 """
 
@@ -15,9 +15,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
-from synth.folding.closure import ClosureEquations
-from synth.folding.newton import Corrected, corrected
-from synth.folding.second_order import rates_at
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import Corrected, corrected
+from synth.motion.second_order import rates_at
 
 __all__ = ["Circuit", "circuit_through", "place_between"]
 
@@ -85,7 +85,7 @@ def circuit_through(closure: ClosureEquations, start: Floats, towards: Floats | 
 
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
     >>> linkage = linkage_of_axes(ring, {i: (p, (0, 0, 1)) for i, p in enumerate([(0, 0), (0, 1), (3, 2), (3, 0)])
     ...                                  for p in [(*p, 0)]})

@@ -20,9 +20,9 @@ from graphs.ids import JointId, LinkId
 from graphs.printing import Block, Printed
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
-from synth.folding.second_order import rates_at
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.second_order import rates_at
 from synth.moving.circuits import Circuit, circuit_through
 from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense
 from synth.moving.conical_words import blocks_of_motion

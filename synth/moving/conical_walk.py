@@ -16,10 +16,10 @@ from graphs.ids import LinkId
 from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
-from synth.folding.newton import Corrected, corrected
-from synth.folding.placement import link_motions
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.newton import Corrected, corrected
+from synth.motion.placement import link_motions
 from synth.moving.circuits import Circuit, place_between
 
 __all__ = ["BACK", "ROUND", "ConicalWalk", "Position", "Sense", "Stretch"]

@@ -24,10 +24,10 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from synth.conformed.linkages import OnCone, linkage_on_cones
 from synth.conformed.pose import joint_axes
-from synth.folding.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
 from synth.folding.opened import opened
 from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.orientations import Orientations
+from synth.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
 from synth.moving.rods import linkage_of_rods
 
 __all__ = ["linkage_of", "linkage_on_cone", "off_one_point", "sheet_of"]

@@ -18,12 +18,12 @@ from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.printing import Block, Printed
 from synth.conformed.linkages import OnCone
-from synth.folding.beginning import MOST_JOINTS, search_for
-from synth.folding.branches import Branch, Branches, branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import Asked, check_closed, driven_from
-from synth.folding.linkage import PosedLinkage
-from synth.folding.path import DrivenPath
+from synth.motion.beginning import MOST_JOINTS, search_for
+from synth.motion.branches import Branch, Branches, branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import Asked, check_closed, driven_from
+from synth.motion.linkage import PosedLinkage
+from synth.motion.path import DrivenPath
 from synth.moving.linkages import linkage_of
 
 __all__ = ["Motion", "Movable", "move"]
@@ -143,7 +143,7 @@ def move(
         In place of driven joints: rates at which some begin, others as little as may be. With several freedoms the
         motion goes straight on.
     branch : int or str, optional
-        Which of the ways to move from a singular pose: its number among `synth.folding.branches_of`, or its signs.
+        Which of the ways to move from a singular pose: its number among `synth.motion.branches_of`, or its signs.
     frames : int, optional
         How many after the first.
     report : callable, optional

@@ -20,7 +20,7 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
-from synth.folding.linkage import PosedLinkage, linkage_of_axes
+from synth.motion.linkage import PosedLinkage, linkage_of_axes
 
 __all__ = ["linkage_of_rods"]
 
@@ -75,7 +75,7 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}
     >>> square = PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)
     >>> linkage = linkage_of_rods(square)
-    >>> from synth.folding.closure import ClosureEquations
+    >>> from synth.motion.closure import ClosureEquations
     >>> closure = ClosureEquations(linkage)
     >>> closure.joints - closure.rows  # one freedom in the plane, one out of it
     2

@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphs.convert.table import Mechanism
 from graphs.given import check_given
 from graphs.mechanism.sheet import Sheet
-from synth.folding.linkage import PosedLinkage
+from synth.motion.linkage import PosedLinkage
 from synth.moving.linkages import linkage_of
 from synth.overconstraint.answer import Explanation, IdleSet
 from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets

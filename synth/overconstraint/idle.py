@@ -15,8 +15,8 @@ from graphs.canonical import canonical_basis
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre
 from graphs.rank.singular_values import spectrum
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["FirstOrder", "active_at_second_order", "first_order", "loop_alone", "smallest_sets"]
 

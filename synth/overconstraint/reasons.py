@@ -12,7 +12,7 @@ import numpy as np
 
 from graphs.arrays import Floats, Ints
 from graphs.loops.loop import Centre
-from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.moving.linkages import off_one_point
 
 __all__ = ["reasons_of"]

@@ -15,8 +15,8 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.ids import JointId
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
 from synth.overconstraint.idle import FirstOrder, loop_alone
 
 __all__ = ["Tolerance", "tolerances"]

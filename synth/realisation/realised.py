@@ -25,10 +25,10 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
-from synth.folding.beginning import search_for
-from synth.folding.branches import first_branch
-from synth.folding.following.stepping import Allowance
-from synth.folding.linkage import linkage_of_sheet
+from synth.motion.beginning import search_for
+from synth.motion.branches import first_branch
+from synth.motion.linkage import linkage_of_sheet
+from synth.motion.walk.stepping import Allowance
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
 from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips

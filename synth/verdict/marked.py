@@ -12,11 +12,11 @@ import numpy as np
 from scipy.optimize import linprog
 
 from graphs.arrays import Floats
-from synth.folding.branches import Branch, Branches
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
-from synth.folding.second_order import RateSpace, rates_at
-from synth.folding.singular.sampling import rates_towards, same_part
+from synth.motion.branches import Branch, Branches
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.second_order import RateSpace, rates_at
+from synth.motion.singular.sampling import rates_towards, same_part
 
 __all__ = ["Marked", "MarkedWay", "marked_way"]
 

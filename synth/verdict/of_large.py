@@ -8,11 +8,11 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.folding.branches import Certainty
-from synth.folding.following.freedoms import free_rates
 from synth.folding.prepared import Prepared
-from synth.folding.singular.nearest import begun_near
-from synth.folding.singular.sampling import MOVED, walked
+from synth.motion.branches import Certainty
+from synth.motion.singular.nearest import begun_near
+from synth.motion.singular.sampling import MOVED, walked
+from synth.motion.walk.freedoms import free_rates
 from synth.verdict.marked import Marked
 from synth.verdict.verdict import Verdict, Way, clusters_of
 from synth.verdict.words import Posed, Told, flaps_of, text_of_motion

@@ -14,11 +14,11 @@ from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.ids import JointId
 from graphs.mechanism.precision import Precision
-from synth.folding.beginning import MOST_JOINTS, search_for
-from synth.folding.branches import Branch, Branches, Certainty, branches_of
-from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.repair import doubt_of
 from synth.folding.prepared import Prepared
+from synth.motion.beginning import MOST_JOINTS, search_for
+from synth.motion.branches import Branch, Branches, Certainty, branches_of
+from synth.motion.linkage import PosedLinkage
 from synth.verdict.marked import MarkedWay, marked_way
 from synth.verdict.of_large import verdict_of_large
 from synth.verdict.verdict import Basis, Verdict, Way, clusters_of

@@ -6,7 +6,7 @@ Theory: docs/theory/verdict.md.
 from __future__ import annotations
 
 from graphs.answer.report import MobilityAnswer
-from synth.folding.branches import Certainty
+from synth.motion.branches import Certainty
 from synth.verdict.verdict import Verdict
 
 __all__ = ["verdict_of_type"]

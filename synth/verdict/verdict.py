@@ -14,7 +14,7 @@ import networkx as nx
 
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
-from synth.folding.branches import Certainty
+from synth.motion.branches import Certainty
 
 __all__ = ["Basis", "Verdict", "Way", "clusters_of"]
 

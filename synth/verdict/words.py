@@ -12,9 +12,9 @@ import networkx as nx
 from graphs.errors import shown
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
-from synth.folding.branches import Certainty
-from synth.folding.linkage import PosedLinkage
-from synth.folding.newton import CLOSED
+from synth.motion.branches import Certainty
+from synth.motion.linkage import PosedLinkage
+from synth.motion.newton import CLOSED
 from synth.verdict.marked import Marked
 from synth.verdict.verdict import Way
 

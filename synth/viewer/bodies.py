@@ -18,7 +18,7 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from synth.folding.linkage import PosedLinkage
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["Bodies", "bodies_of_linkage", "bodies_of_sheet", "hull_faces"]
 
@@ -77,7 +77,7 @@ def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinka
     Examples
     --------
     >>> from graphs.convert.duality import mechanism_of_sheet
-    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
     >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1))
     >>> sheet = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), corners)
     >>> bodies = bodies_of_sheet(sheet, mechanism_of_sheet(sheet), linkage_of_sheet(sheet))
@@ -114,7 +114,7 @@ def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
     A link with two skew axes is a tetrahedron:
 
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> axes = {0: ((0, 0, 0), (0, 0, 1)), 1: ((1, 0, 0), (0, 1, 0))}
     >>> bodies = bodies_of_linkage(linkage_of_axes(SCGraph(3, [(0, 1), (1, 2)]), axes))
     >>> [len([link for link, _ in bodies.faces if link == one]) for one in range(3)]

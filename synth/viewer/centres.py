@@ -16,8 +16,8 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
-from synth.folding.linkage import PosedLinkage
 from synth.folding.prepared import Prepared
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["ShownCentre", "centres_of_linkage", "centres_of_pattern"]
 
@@ -98,7 +98,7 @@ def centres_of_linkage(linkage: PosedLinkage) -> tuple[ShownCentre, ...]:
     --------
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
     >>> linkage = linkage_of_axes(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)})

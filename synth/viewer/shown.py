@@ -19,11 +19,11 @@ from graphs.plain_text import plain
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import check_closed
-from synth.folding.linkage import PosedLinkage, linkage_of_sheet
-from synth.folding.placement import largest_panel
 from synth.folding.prepared import Prepared, prepared
+from synth.folding.vertices import largest_panel
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import check_closed
+from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.moving.linkages import linkage_of, sheet_of
 from synth.verdict.judged import MOST_PANELS, mobility
 from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet

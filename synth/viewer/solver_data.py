@@ -18,9 +18,9 @@ from scipy.sparse.linalg import splu
 from graphs.arrays import Ints
 from graphs.ids import LinkId
 from graphs.loops.loop import Centre
-from synth.folding.closure import frames_of
-from synth.folding.linkage import PosedLinkage, PosedLoop
-from synth.folding.placement import joints_outwards
+from synth.motion.closure import frames_of
+from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.placement import joints_outwards
 
 __all__ = ["factor_order", "solver_data"]
 
@@ -45,7 +45,7 @@ def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None =
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
     >>> told = solver_data(hinge, limited=False)
     >>> told["directions"], told["tree"], told["order"]

@@ -12,13 +12,13 @@ import numpy as np
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
-from synth.folding.beginning import MOST_JOINTS, Wanted, beginning, search_for
-from synth.folding.branches import Branch, Branches, branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.following.freedoms import free_rates, independent_joints
-from synth.folding.linkage import PosedLinkage
 from synth.folding.prepared import Prepared
-from synth.folding.singular.sampling import walked
+from synth.motion.beginning import MOST_JOINTS, Wanted, beginning, search_for
+from synth.motion.branches import Branch, Branches, branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.singular.sampling import walked
+from synth.motion.walk.freedoms import free_rates, independent_joints
 
 __all__ = ["Ways", "ways_of_linkage", "ways_of_pattern"]
 
@@ -130,7 +130,7 @@ def ways_of_linkage(linkage: PosedLinkage) -> Ways:
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
     >>> ways_of_linkage(hinge).singular
     False

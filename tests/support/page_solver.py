@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from synth.folding.closure import ClosureEquations
-from synth.folding.following.collisions import Panels
-from synth.folding.newton import corrected
-from synth.folding.path import PathOptions, driven_path
-from synth.folding.placement import link_motions
+from synth.folding.collisions import Panels
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import corrected
+from synth.motion.path import PathOptions, driven_path
+from synth.motion.placement import link_motions
 from synth.viewer.shown import Moving
 from synth.viewer.solver_data import solver_data
 

@@ -11,8 +11,8 @@ import numpy as np
 from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
-from synth.folding.beginning import Wanted, beginning
 from synth.folding.prepared import prepared
+from synth.motion.beginning import Wanted, beginning
 from synth.verdict.of_motion import verdict_of_motion
 
 __all__ = ["Doing", "Motions", "motions_by_verdict", "motions_on_branch"]

@@ -14,8 +14,8 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.ids import LinkId
 from synth.drawing.space.panels import HINGE, Panels
-from synth.folding.linkage import PosedLinkage
-from synth.folding.placement import link_motions
+from synth.motion.linkage import PosedLinkage
+from synth.motion.placement import link_motions
 
 __all__ = ["bodies_of", "hinge_ends", "places_of_hinges"]
 
@@ -41,7 +41,7 @@ def bodies_of(linkage: PosedLinkage) -> tuple[Panels, Floats]:
     A ring of three tetrahedra, with four faces each:
 
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.folding.linkage import linkage_of_axes
+    >>> from synth.motion.linkage import linkage_of_axes
     >>> axes = {0: ((0, 0, 0), (1, 0, 0)), 1: ((0, 0, 1), (0, 1, 0)), 2: ((3, 1, 0), (0, 1, 2))}
     >>> panels, corners = bodies_of(linkage_of_axes(SCGraph(3, [(2, 0), (0, 1), (1, 2)]), axes))
     >>> len(panels.faces), corners.shape, sorted(map(sorted, panels.joint_of))

@@ -20,7 +20,7 @@ from graphs.arrays import Flags, Floats, Ints
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from synth.folding.linkage import PosedLinkage
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["alike_classes"]
 
@@ -101,7 +101,7 @@ def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> list[In
     In the waterbomb base the four diagonals are alike, and so are the two halves of the line; with the half turn
     or one of the mirrors alone there are more classes:
 
-    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
     >>> from synth.patterns.creases.bases import waterbomb_base
     >>> base = waterbomb_base()
     >>> linkage = linkage_of_sheet(base)

@@ -6,8 +6,8 @@ import numpy as np
 import scipy.sparse
 
 from graphs.arrays import Floats, Ints
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
 
 __all__ = ["AlikeClosure"]
 
@@ -31,7 +31,7 @@ class AlikeClosure(ClosureEquations):
     A square with creases along both diagonals, all four of them alike, cannot fold:
 
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
     >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
     >>> square = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
     >>> closure = AlikeClosure(square, np.zeros(4, dtype=np.int64))

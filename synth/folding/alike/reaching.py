@@ -20,17 +20,17 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
 from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
-from synth.folding.beginning import Wanted, beginning, rates_as_marked
-from synth.folding.closure import ClosureEquations
-from synth.folding.driving import Driven
-from synth.folding.following.stepping import Allowance
 from synth.folding.motion import Folding, folding_along
-from synth.folding.path import PathOptions, driven_path
 from synth.folding.prepared import Prepared, prepared
-from synth.folding.second_order import rates_at
-from synth.folding.singular.nearest import spaces_near
-from synth.folding.singular.quadrics import quadrics_of
-from synth.folding.singular.sampling import rates_towards
+from synth.motion.beginning import Wanted, beginning, rates_as_marked
+from synth.motion.closure import ClosureEquations
+from synth.motion.driving import Driven
+from synth.motion.path import PathOptions, driven_path
+from synth.motion.second_order import rates_at
+from synth.motion.singular.nearest import spaces_near
+from synth.motion.singular.quadrics import quadrics_of
+from synth.motion.singular.sampling import rates_towards
+from synth.motion.walk.stepping import Allowance
 
 __all__ = ["Reached", "fold_to"]
 

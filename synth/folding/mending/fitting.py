@@ -16,10 +16,10 @@ import scipy.sparse
 
 from graphs.arrays import Floats
 from graphs.canonical import leading
-from synth.folding.closure import ClosureEquations
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.places import VertexPlaces
-from synth.folding.newton import CLOSED, TangentSpace, corrected
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import CLOSED, TangentSpace, corrected
 
 __all__ = ["Fitting"]
 

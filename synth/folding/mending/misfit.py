@@ -11,8 +11,8 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import leading
-from synth.folding.closure import ClosureEquations
-from synth.folding.newton import TangentSpace
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import TangentSpace
 
 __all__ = ["TURNED", "least_misfit"]
 
@@ -51,7 +51,7 @@ def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> flo
     Three creases about a vertex, one of them turned: the others cannot follow.
 
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.linkage import linkage_of_sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
     >>> corners = ((0, 0), (1, 0), (-.5, .9), (-.5, -.9))
     >>> linkage = linkage_of_sheet(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), corners))
     >>> round(least_misfit(ClosureEquations(linkage), linkage.angles, np.array([1.0, 0.5, 0.5])), 2)

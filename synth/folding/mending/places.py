@@ -16,7 +16,7 @@ from graphs.convert.duality import SheetMechanism
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
-from synth.folding.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["VertexPlaces"]
 

@@ -18,14 +18,14 @@ from graphs.arrays import Floats
 from graphs.canonical import MARGIN
 from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import PosedLinkage
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import Fitting
 from synth.folding.mending.misfit import TURNED
 from synth.folding.mending.places import VertexPlaces
-from synth.folding.second_order import rate_spaces, rates_near
-from synth.folding.singular.quadrics import quadrics_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.second_order import rate_spaces, rates_near
+from synth.motion.singular.quadrics import quadrics_of
 
 __all__ = [
     "EXACT",

@@ -17,7 +17,7 @@ from synth.compliance import Drive, Mass, Masses, Springs, sheet_masses
 from synth.compliance.equilibrium import equilibrium, load_path
 from synth.compliance.small_motions import mass_matrix, small_motions
 from synth.compliance.springs import ElasticLinkage
-from synth.folding.linkage import linkage_of_axes
+from synth.motion.linkage import linkage_of_axes
 from synth.moving.linkages import linkage_of
 from synth.patterns import generate
 

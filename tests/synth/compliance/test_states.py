@@ -17,7 +17,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from synth.compliance.freedoms import state_of, states_of_sets
 from synth.compliance.members import NONE, Members, released
-from synth.folding.linkage import linkage_of_axes
+from synth.motion.linkage import linkage_of_axes
 from synth.moving.linkages import linkage_of
 from synth.patterns import generate
 

@@ -11,7 +11,7 @@ from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
 from synth.folding.alike.reaching import fold_to
 from synth.folding.prepared import prepared
-from synth.folding.second_order import rates_at
+from synth.motion.second_order import rates_at
 from synth.patterns import generate
 from synth.patterns.creases.bases import fan, preliminary_base, waterbomb_base
 

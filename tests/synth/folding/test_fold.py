@@ -18,11 +18,11 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from synth.drawing.foldings import write_folding
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import linkage_of_axes, linkage_of_sheet
 from synth.folding.motion import fold
-from synth.folding.path import PathOptions, driven_path
 from synth.folding.prepared import prepared
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
+from synth.motion.path import PathOptions, driven_path
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 

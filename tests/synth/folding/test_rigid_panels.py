@@ -8,8 +8,8 @@ from real_patterns import folder_of_patterns, names_of_patterns
 from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
-from synth.folding.closure import ClosureEquations
 from synth.folding.motion import fold
+from synth.motion.closure import ClosureEquations
 
 MOST_EDGES = 700
 SEARCHES = {"oe_glitch.cp", "ossvg_flappingBird.svg"}

@@ -8,11 +8,11 @@ import pytest
 from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
-from synth.folding.branches import branches_of, first_branch
-from synth.folding.linkage import linkage_of_sheet
 from synth.folding.motion import fold
 from synth.folding.prepared import prepared
-from synth.folding.singular.sampling import rates_towards
+from synth.motion.branches import branches_of, first_branch
+from synth.motion.linkage import linkage_of_sheet
+from synth.motion.singular.sampling import rates_towards
 from synth.patterns.creases.tessellations import map_sheet
 from synth.patterns.creases.triangulated import resch
 from synth.verdict.judged import mobility

@@ -9,9 +9,9 @@ from graphs.files.formats import read
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
-from synth.folding.closure import ClosureEquations, turns
-from synth.folding.placement import link_motions
-from synth.folding.second_order import rates_at
+from synth.motion.closure import ClosureEquations, turns
+from synth.motion.placement import link_motions
+from synth.motion.second_order import rates_at
 from synth.moving.linkages import linkage_of
 from synth.moving.motion import move
 

@@ -12,10 +12,10 @@ from synth.conformed.behaviours import Way, behaviour
 from synth.conformed.four_bar_poses import poses_from_conformed
 from synth.conformed.linkages import linkage_on_cones, loop_of_steps, loop_on_cones
 from synth.conformed.pose import joint_axes
-from synth.folding.closure import ClosureEquations
-from synth.folding.path import driven_path
-from synth.folding.placement import link_motions
 from synth.fourbar.position import input_limits_spherical
+from synth.motion.closure import ClosureEquations
+from synth.motion.path import driven_path
+from synth.motion.placement import link_motions
 from synth.moving.conical import move_on_cone
 
 CRANK, ROCKER = (40, 90, 80, 100), (120, 95, 45, 85)

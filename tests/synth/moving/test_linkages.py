@@ -13,12 +13,12 @@ from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
-from synth.folding.closure import ClosureEquations
-from synth.folding.placement import link_motions
-from synth.folding.second_order import rates_at
 from synth.guidance.fourbars import four_bars
 from synth.guidance.orientations import read_orientations
 from synth.guidance.synthesis import guiding_dyads
+from synth.motion.closure import ClosureEquations
+from synth.motion.placement import link_motions
+from synth.motion.second_order import rates_at
 from synth.moving.linkages import linkage_of
 from synth.moving.motion import move
 

@@ -11,7 +11,7 @@ from commands import run
 import synth
 from graphs.errors import UnsolvableError
 from graphs.mechanism.solids import HingedSolids
-from synth.folding.closure import ClosureEquations
+from synth.motion.closure import ClosureEquations
 from synth.moving.linkages import linkage_of
 from synth.overconstraint import explain
 from synth.overconstraint.idle import first_order

@@ -5,10 +5,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import linkage_of_sheet
 from synth.folding.prepared import prepared
-from synth.folding.second_order import rates_at
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_sheet
+from synth.motion.second_order import rates_at
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 from synth.verdict.judged import mobility

@@ -5,8 +5,8 @@ import pytest
 
 from graphs.files.formats import read
 from synth.folding.motion import fold
-from synth.folding.placement import link_motions
 from synth.folding.prepared import prepared
+from synth.motion.placement import link_motions
 from synth.moving.linkages import linkage_of
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.centres import centres_of_linkage, centres_of_pattern

@@ -10,9 +10,9 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.folding.closure import ClosureEquations
-from synth.folding.following.collisions import Panels
-from synth.folding.path import driven_path
+from synth.folding.collisions import Panels
+from synth.motion.closure import ClosureEquations
+from synth.motion.path import driven_path
 from synth.viewer.shown import Moving, shown_of
 
 pytestmark = pytest.mark.web

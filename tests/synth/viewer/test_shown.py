@@ -8,7 +8,7 @@ import pytest
 
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
-from synth.folding.linkage import linkage_of_sheet
+from synth.motion.linkage import linkage_of_sheet
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.bodies import hull_faces
 from synth.viewer.shown import shown_of

@@ -10,15 +10,15 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet
-from synth.folding.branches import branches_of
-from synth.folding.closure import ClosureEquations
-from synth.folding.linkage import linkage_of_sheet
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.misfit import TURNED, least_misfit
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import flattened
 from synth.folding.motion import fold
 from synth.folding.prepared import prepared
+from synth.motion.branches import branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_sheet
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 

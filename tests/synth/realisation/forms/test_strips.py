@@ -9,7 +9,7 @@ from enumerate.strings.graphs import chain_scd, string_of_chain
 from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.table import to_scd
 from graphs.files.formats import read, write
-from synth.folding.linkage import linkage_of_sheet
+from synth.motion.linkage import linkage_of_sheet
 from synth.realisation.figures import crossings
 from synth.realisation.forms.strips import drawn_string, strips
 from synth.realisation.pattern import pattern_of

@@ -7,7 +7,7 @@ from enumerate.scd.graphs import scd_graphs
 from graphs.answer.identity import identify
 from graphs.files.formats import read, write
 from graphs.identity.drawings import map_id, mechanism_from_map_id
-from synth.folding.linkage import linkage_of_sheet
+from synth.motion.linkage import linkage_of_sheet
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import NotFoundError, realise
 

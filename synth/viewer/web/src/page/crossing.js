@@ -1,5 +1,5 @@
 /**
- * Panels that pass through each other at a pose: synth/folding/following/collisions.py, as it says of one pose.
+ * Panels that pass through each other at a pose: synth/folding/collisions.py, as it says of one pose.
  *
  * Two plane convex pieces cross if each has corners on both sides of the other's plane and the stretches that they
  * cut out of the line of both planes overlap. Panels that share a crease, lie on each other or touch do not cross.

@@ -1,5 +1,5 @@
 /**
- * Closure equations of a linkage and their derivatives: synth/folding/closure.py, line by line.
+ * Closure equations of a linkage and their derivatives: synth/motion/closure.py, line by line.
  *
  * A loop closes if the product of its joint rotations, each about its axis as it lies at the pose, is the identity.
  * About a finite centre that are three equations (a rotation), about an infinite one three (a motion in a plane),

@@ -1,5 +1,5 @@
 /**
- * A linkage moved from where it is: synth/folding/following/leg.py without what the page does not need.
+ * A linkage moved from where it is: synth/motion/walk/leg.py without what the page does not need.
  *
  * One joint is driven at a time, while others may be held: so each freedom has a joint of its own. Either the driven
  * joint goes to an angle, and the path ends where it turns back; or the path goes straight on, past such points.

@@ -1,4 +1,4 @@
-/** Where links and vertices are at joint angles: synth/folding/placement.py. */
+/** Where links and vertices are at joint angles: synth/motion/placement.py. */
 
 /** @import { LinkageData } from "./types.js" */
 

@@ -1,5 +1,5 @@
 /**
- * One step of a path, and the poses on it: synth/folding/following/between.py.
+ * One step of a path, and the poses on it: synth/motion/walk/between.py.
  *
  * A cubic through both ends with the rates of both keeps to the path to the fourth power of the step.
  */

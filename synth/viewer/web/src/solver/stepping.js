@@ -1,5 +1,5 @@
 /**
- * Steps along a path, each no longer than can be trusted: synth/folding/following/stepping.py, one joint driven.
+ * Steps along a path, each no longer than can be trusted: synth/motion/walk/stepping.py, one joint driven.
  *
  * A step goes along rates at which loops stay closed, bent as the last step was, and is corrected by Newton's
  * method. It is halved if its end does not close, lies far from where it was expected, or goes on in another

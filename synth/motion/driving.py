@@ -1,0 +1,201 @@
+"""What folding a crease pattern and moving any other linkage have in common: joints driven from a pose.
+
+Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from math import degrees, pi
+from sys import float_info
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.canonical import MARGIN, leading
+from graphs.edit.named import known
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.extent import LEAST, MOST, in_reach
+from graphs.ids import JointId
+from synth.motion.beginning import Wanted, beginning
+from synth.motion.branches import Branches
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.newton import CLOSED
+from synth.motion.path import DrivenPath, PathOptions, driven_path
+from synth.motion.walk.stepping import Allowance
+
+__all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
+
+_FARTHER = 1e-3
+"""Radians: a path that leads on by less is not longer."""
+_STEPS, _STEPS_OF_FRAME = 1_000, 20
+"""Steps that a motion may take, and as many more for each of its frames: ten times what real patterns need."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What is asked of a motion.
+
+    Attributes
+    ----------
+    drive : mapping of joint id to float
+        Angles of driven joints, radians. If there are none the joint that moves most goes `whole`.
+    whole : float
+        Radians, from the zero of the joint.
+    branch : int, str or None
+        Number or signs of a branch.
+    marks : float[J]
+        1 for valleys, -1 for mountains, 0 for what is not marked.
+    frames : int
+        How many after the first.
+    limited : bool
+        Whether joints end at 180 degrees, where panels lie on each other.
+    doubt : str
+        What is to be said beside "no".
+    report : callable or None
+        Called with the number of frames after each.
+    along : mapping of joint id to float, optional
+        In place of driven joints: rates to begin with. The path goes straight on.
+    """
+
+    drive: Mapping[JointId, float]
+    whole: float
+    branch: int | str | None
+    marks: Floats
+    frames: int
+    limited: bool
+    doubt: str = ""
+    report: Callable[[int], None] | None = None
+    along: Mapping[JointId, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Driven:
+    """A motion.
+
+    Attributes
+    ----------
+    branch : int or None
+        The branch that was taken; None where there was no choice.
+    places : list of int
+        Of the driven joints.
+    goals : mapping of joint id to float
+        Their angles at the end, as they were asked for, radians.
+    path : DrivenPath
+    """
+
+    branch: int | None
+    places: list[int]
+    goals: Mapping[JointId, float]
+    path: DrivenPath
+
+
+def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
+    """Refuse a pose at which loops do not close.
+
+    Raises
+    ------
+    UnsolvableError
+        If they miss by more than 1e-12, radians and units of the extent.
+    """
+    error = closure.error(linkage.angles)
+    if error > CLOSED:
+        raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {CLOSED:.0e}")
+
+
+def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:
+    """Return the places and the goals of driven joints, radians.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such joint, or an angle is no number, or larger than the most.
+    """
+    places = _places(joints, drive)
+    for joint, angle in drive.items():
+        if not abs(angle) <= most:
+            limits = "between -180 and 180" if most == pi else "a finite angle"
+            told = f"joint {shown(joint)} is to turn by {degrees(angle):g} degrees"
+            raise InvariantError("joint angle", told, limits)
+    return places, np.array(list(drive.values()), dtype=float)
+
+
+def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | None, asked: Asked) -> Driven:
+    """Drive joints from the pose of a linkage, on the branch that is asked for.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    closure : ClosureEquations
+        Of this linkage.
+    found : Branches or None
+        The ways to move from the pose, where they were looked for.
+    asked : Asked
+
+    Raises
+    ------
+    UnsolvableError
+        If nothing moves, or not with the driven joints.
+    InvariantError
+        If there is no such joint or branch, or an angle is out of range.
+    """
+    joints = tuple(linkage.graph.joints)
+    places, goals = goals_of(joints, asked.drive, pi if asked.limited else float_info.max)
+    wanted = Wanted(asked.branch, asked.marks, places, goals - linkage.angles[places], asked.doubt)
+    if asked.along:
+        wanted = _along(joints, asked)
+    number, rates = beginning(closure, linkage, found, wanted)
+    if not places:
+        places = [leading(rates)]
+        goals = asked.whole * np.sign(rates[places])
+    start = linkage.angles[places]
+    if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
+        rates = -rates
+    steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
+    limited = np.full(len(joints), asked.limited)
+    by_least_rates = found is not None and found.regular and len(asked.drive) == 1
+    direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
+    allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
+    options = PathOptions(direction, limited, bool(asked.along), asked.report, joints, allowance)
+    values = start + steps * (goals - start)
+    still = () if number is None or found is None else found.branches[number].still
+    path = _path(closure, linkage.angles, places, values, replace(options, locked=still))
+    told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
+    return Driven(number, places, told, path)
+
+
+def _path(
+    closure: ClosureEquations, start: Floats, places: list[int], values: Floats, options: PathOptions
+) -> DrivenPath:
+    """Return the path on which joints that do not begin to move are locked, or if it ends before, a longer one."""
+    if not options.locked or set(options.locked) & set(places):
+        return driven_path(closure, start, places, values, options=replace(options, locked=()))
+    path = driven_path(closure, start, places, values, options=options)
+    if not path.stopped:
+        return path
+    free = driven_path(closure, start, places, values, options=replace(options, locked=()))
+    lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]
+    return free if lead[1] > lead[0] + _FARTHER or not free.stopped else path
+
+
+def _along(joints: tuple[JointId, ...], asked: Asked) -> Wanted:
+    """Return what is wanted where rates are given: these of their joints, the least ones of others."""
+    if asked.drive:
+        raise InvariantError("along", "joints are driven too", "rates or angles, not both")
+    places, rates = _places(joints, asked.along), np.array(list(asked.along.values()), dtype=float)
+    if not (in_reach(rates) and np.abs(rates).max(initial=0.0) >= LEAST):
+        told = f"rates are {', '.join(map(str, rates))}"
+        raise InvariantError("along", told, f"finite ones, not all zero, the largest from {LEAST:g} to {MOST:g}")
+    wanted = np.zeros(len(joints))
+    wanted[places] = rates
+    return Wanted(asked.branch, wanted, places, rates, asked.doubt, along=True)
+
+
+def _places(joints: tuple[JointId, ...], names: Iterable[JointId]) -> list[int]:
+    for joint in names:
+        if joint not in joints:
+            raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
+    return [joints.index(joint) for joint in names]

@@ -1,0 +1,121 @@
+"""Flat vertices of four creases: their two modes, and those whose modes are linear in tan(fold / 2).
+
+In any mode of a flat vertex with four creases one pair of opposite creases folds the same way and the other does
+not: three mountains and a valley, or the other way round, or a single straight line. Which pair it is says which
+of the two modes. Where opposite sectors make 180 degrees, tan(fold / 2) of the four are in proportion in each.
+Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.canonical import MARGIN
+from graphs.loops.loop import Centre
+from synth.motion.linkage import PosedLinkage, PosedLoop
+
+__all__ = ["FlatVertices"]
+
+_AGREES = 1e-9
+_STILL = 1e-7
+
+
+class FlatVertices:
+    """The loops of a linkage that are flat vertices of four creases.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        At its pose.
+
+    Attributes
+    ----------
+    linear : bool
+        Whether every loop is one whose opposite sectors make 180 degrees, and all creases are flat.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> cross = FlatVertices(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
+    >>> cross.linear, cross.modes(np.array([0.0, 1.0, 0.0, 1.0])), cross.modes(np.zeros(4))
+    (True, ((1, 3),), (None,))
+    """
+
+    def __init__(self, linkage: PosedLinkage) -> None:
+        self._loops = linkage.loops
+        self._ways: list[Floats | None] = []
+        flat = [np.abs(linkage.angles).max(initial=0.0) <= _AGREES]
+        for loop in linkage.loops:
+            outward = _outward(linkage, loop)
+            flat.append(outward is not None and _opposite_make_a_half(outward))
+            self._ways.append(None if outward is None else _ways(linkage, loop, outward))
+        self.linear = bool(all(flat))
+
+    def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
+        """Return in which mode each vertex begins to fold.
+
+        Parameters
+        ----------
+        rates : float[J]
+            General ones of a branch, the largest 1 or -1.
+
+        Returns
+        -------
+        tuple of (int, int) or None
+            For each loop: the places of the opposite creases that fold the same way. None of a vertex that is
+            still, of loops that are no flat vertices, and of those with other than four creases.
+        """
+        return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
+
+
+def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
+    if ways is None:
+        return None
+    folds = rates[list(loop.joints)] * ways
+    alike = folds[:2] * folds[2:]
+    same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
+    first, second = sorted(loop.joints[same::2])
+    return (first, second) if alike[same] > _STILL**2 else None
+
+
+def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
+    """Return 1 for creases that fold one way at a positive angle, -1 for others: float[4]."""
+    along = (outward * linkage.directions[list(loop.joints)]).sum(axis=1)
+    return np.asarray(np.sign(along) * loop.signs)
+
+
+def _opposite_make_a_half(outward: Floats) -> bool:
+    sectors = _sectors(outward)
+    return bool(abs(sectors[0] + sectors[2] - pi) <= _AGREES)
+
+
+def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
+    """Return the directions of four creases away from a flat vertex: float[4, 3]; None of other loops."""
+    joints = list(loop.joints)
+    if loop.centre is not Centre.FINITE or len(joints) != 4:
+        return None
+    away = linkage.points[joints] - _meeting_point(linkage, joints)
+    lengths = np.linalg.norm(away, axis=1, keepdims=True)
+    if lengths.min() <= _AGREES:  # an axis is known by its meeting point alone: no crease
+        return None
+    outward = np.asarray(away / lengths)
+    return outward if abs(_sectors(outward).sum() - 2 * pi) <= _AGREES else None
+
+
+def _sectors(outward: Floats) -> Floats:
+    """Return the angles between directions that follow each other, radians."""
+    following = np.roll(outward, -1, axis=0)
+    return np.asarray(np.arccos(np.clip((outward * following).sum(axis=1), -1.0, 1.0)))
+
+
+def _meeting_point(linkage: PosedLinkage, joints: list[int]) -> Floats:
+    """Return the point nearest to some axes."""
+    axes, points = linkage.directions[joints], linkage.points[joints]
+    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
+    return np.asarray(np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0])

@@ -1,0 +1,196 @@
+"""Rates near to wanted ones that agree to second order, without a search of all; for linkages too large for that.
+
+Each equation is looked at on the few joints that it is between, so that one step costs as much as there are
+equations, however many rates there are. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+import scipy.linalg
+
+from graphs.arrays import Floats, Ints
+from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.second_order import RateSpace, rates_at, rates_near
+from synth.motion.singular.quadrics import ZERO, Quadric, quadrics_of
+from synth.motion.singular.sampling import rates_towards
+
+__all__ = ["MOST_RATES", "Begun", "begun_near", "spaces_near"]
+
+MOST_RATES = 1500
+"""Of more joints the rates that close to first order are not all looked for: their matrix is dense."""
+_DEAD_ENDS = 200
+"""After so many choices that leave nothing the search ends."""
+_EVEN = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """Whether a motion begins.
+
+    Attributes
+    ----------
+    rates : float[J] or None
+        The largest 1 or -1; None where none were found.
+    rigid : bool
+        Whether all choices leave nothing: nothing moves.
+    """
+
+    rates: Floats | None
+    rigid: bool
+
+
+def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
+    """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
+
+    By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
+    still, within the nearest space.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    linkage : PosedLinkage
+    wanted : float[J]
+        Rates, or signs of them.
+    """
+    quadrics = quadrics_of(linkage)
+    rates = rates_near(closure, linkage.angles, quadrics, wanted)
+    if rates is not None:
+        return Begun(rates / np.abs(rates).max(), rigid=False)
+    if closure.joints > MOST_RATES:
+        return Begun(None, rigid=False)
+    tangent = rates_at(closure, linkage.angles)
+    spaces, nothing = spaces_near(tangent, quadrics, wanted), True
+    for space in islice(spaces, _DEAD_ENDS):
+        if space is None:
+            continue
+        nothing = False
+        for start in (wanted, space.basis.sum(axis=1)):
+            rates = rates_towards(space, start)
+            if rates.any():
+                return Begun(rates, rigid=False)
+    through = not list(islice(spaces, 1))
+    return Begun(None, rigid=nothing and through)
+
+
+def spaces_near(
+    tangent: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = ZERO
+) -> Iterator[RateSpace | None]:
+    """Yield spaces of rates that agree to second order, those near to wanted ones first; None for what is empty.
+
+    Equations of one sign are used up first. Of the products, that one is decided which the wanted rates decide
+    most clearly; its factor that is nearer to vanishing at them does.
+
+    Parameters
+    ----------
+    tangent : float[J, s]
+        The rates that close to first order: orthonormal columns.
+    quadrics : sequence of Quadric
+    wanted : float[J]
+    zero : float, optional
+        Eigenvalues below this part of the largest are zero.
+
+    Examples
+    --------
+    The creases of a flat vertex, two of them in line, and that line alone:
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
+    >>> linkage = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> tangent = rates_at(ClosureEquations(linkage), linkage.angles)
+    >>> spaces = list(spaces_near(tangent, quadrics_of(linkage), np.array([1.0, 0.2, 1.0, 0.0])))
+    >>> abs(spaces[0].basis[:, 0] / spaces[0].basis[0, 0]).round(9).tolist(), len(spaces)
+    ([1.0, 0.0, 1.0, 0.0], 2)
+    """
+    stack = _Stack(quadrics, zero)
+    for basis, left in stack.split(tangent, np.arange(len(quadrics)), wanted):
+        left_there = tuple(quadrics[number] for number in left)
+        yield RateSpace(canonical_basis(basis), left_there) if basis.shape[1] else None
+
+
+class _Stack:
+    """Equations, those between as many joints in one array each."""
+
+    def __init__(self, quadrics: Sequence[Quadric], zero: float) -> None:
+        sizes = np.array([len(quadric.joints) for quadric in quadrics], dtype=np.int64)
+        self._groups = []
+        for size in np.unique(sizes).tolist():
+            numbers = np.flatnonzero(sizes == size)
+            alike = [quadrics[number] for number in numbers.tolist()]
+            joints = np.array([quadric.joints for quadric in alike], dtype=np.int64)
+            forms = np.array([quadric.form / np.abs(quadric.form).max() for quadric in alike])
+            self._groups.append((numbers, joints, forms))
+        self._most = int(sizes.max(initial=0))
+        self._zero = zero
+
+    def split(self, basis: Floats, left: Ints, wanted: Floats) -> Iterator[tuple[Floats, Ints]]:
+        """Yield bases of spaces within one and the numbers of the equations left there, depth first."""
+        while basis.shape[1]:
+            values, axes = self._on(basis, left)
+            sizes = np.abs(values).max(axis=1, initial=0.0)
+            kept = sizes > self._zero
+            left, values, axes = left[kept], values[kept], axes[kept]
+            there = np.abs(values) > self._zero * sizes[kept, None]
+            positive, negative = (there & (values > 0.0)).sum(axis=1), (there & (values < 0.0)).sum(axis=1)
+            single = np.flatnonzero((positive == 0) | (negative == 0))
+            if len(single):
+                basis = self._part(basis, np.concatenate([axes[n][:, there[n]] for n in single], axis=1))
+                continue
+            products = np.flatnonzero((positive == 1) & (negative == 1))
+            if not len(products):
+                yield basis, left
+                return
+            for normal in _clearest(values[products], axes[products], basis.T @ wanted, basis):
+                yield from self.split(self._part(basis, normal[:, None]), left, wanted)
+            return
+        yield basis, left
+
+    def _on(self, basis: Floats, left: Ints) -> tuple[Floats, Floats]:
+        """Return eigenvalues float[n, k] and vectors float[n, s, k] of equations on a space, 0 past their own."""
+        size = basis.shape[1]
+        most = min(self._most, size)
+        values, axes = np.zeros((len(left), most)), np.zeros((len(left), size, most))
+        for numbers, joints, forms in self._groups:
+            here = np.flatnonzero(np.isin(left, numbers))
+            places = np.searchsorted(numbers, left[here])
+            across, local = np.linalg.qr(basis[joints[places]].transpose(0, 2, 1))
+            found, vectors = np.linalg.eigh(local @ forms[places] @ local.transpose(0, 2, 1))
+            values[here, : found.shape[1]] = found
+            axes[here, :, : found.shape[1]] = across @ vectors
+        return values, axes
+
+    def _part(self, basis: Floats, normals: Floats) -> Floats:
+        return np.asarray(basis @ scipy.linalg.null_space(normals.T, rcond=self._zero))
+
+
+def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tuple[Floats, Floats]:
+    """Return the normals of the factors between which wanted rates decide most clearly, the nearer one first.
+
+    Parameters
+    ----------
+    values, axes : float[n, k], float[n, s, k]
+        Eigenvalues and eigenvectors of products: one value is positive, one negative.
+    wanted : float[s]
+    basis : float[J, s]
+        Of the space: where the wanted rates are as near to both factors, the order of the joints decides.
+    """
+    each = np.arange(len(values))
+    first, last = values.argmin(axis=1), values.argmax(axis=1)
+    up = np.sqrt(values[each, last])[:, None] * axes[each, :, last]
+    down = np.sqrt(-values[each, first])[:, None] * axes[each, :, first]
+    factors = np.stack([up + down, up - down], axis=1)
+    factors /= np.linalg.norm(factors, axis=2, keepdims=True)
+    off = np.abs(factors @ wanted)
+    best = trailing(off.min(axis=1) / np.maximum(off.max(axis=1), _EVEN), scale=1.0)
+    first, second = (
+        factors[best][place] for place in canonical_order([signed(basis @ one) for one in factors[best]])
+    )
+    swapped = abs(float(second @ wanted)) < abs(float(first @ wanted)) - MARGIN * float(np.linalg.norm(wanted))
+    return (second, first) if swapped else (first, second)

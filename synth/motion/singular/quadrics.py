@@ -1,0 +1,188 @@
+"""Quadratic equations between the rates at a pose: what each self-stress of the closure equations asks for.
+
+Round a loop the twists x_i of the joints, at rates r_i, sum to zero to first order. To second order the sum over
+i < j of r_i r_j [x_i, x_j] has to be made up for by accelerations, and what is across all twists sees none of
+these: a self-stress w gives the equation w . sum r_i r_j [x_i, x_j] = 0. A loop has self-stresses of its own (a
+flat vertex, the one across the sheet); several loops may have more together, since their accelerations are shared.
+Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from graphs.arrays import Floats
+from graphs.canonical import canonical_basis
+from graphs.loops.loop import Centre
+from synth.motion.linkage import PosedLinkage, PosedLoop
+
+__all__ = [
+    "MOST_ROWS",
+    "ZERO",
+    "Quadric",
+    "all_quadrics",
+    "local_forms",
+    "quadrics_of",
+    "rows_of",
+    "shared_quadrics",
+]
+
+ZERO = 1e-9
+"""Singular values and eigenvalues below this part of the largest are zero."""
+
+MOST_ROWS = 600
+"""Self-stresses of several loops together are looked for up to so many closure equations."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quadric:
+    """A quadratic equation between the rates of a few joints.
+
+    Attributes
+    ----------
+    joints : tuple of int
+        Places of the joints, k of them.
+    form : float[k, k]
+        Symmetric; ``r @ form @ r`` has to vanish.
+    """
+
+    joints: tuple[int, ...]
+    form: Floats
+
+
+def quadrics_of(linkage: PosedLinkage) -> list[Quadric]:
+    """Return what the self-stresses of each loop alone ask of the rates at the pose.
+
+    Examples
+    --------
+    Four creases at right angles: the lines fold one at a time.
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> [equation] = quadrics_of(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
+    >>> one_line, both = np.array([0, 1.0, 0, 1.0]), np.ones(4)
+    >>> bool(abs(one_line @ equation.form @ one_line) < 1e-12), bool(abs(both @ equation.form @ both) > 1)
+    (True, True)
+    """
+    quadrics = []
+    for loop in linkage.loops:
+        twists = _twists(linkage, loop)
+        stresses = canonical_basis(scipy.linalg.null_space(twists.T, rcond=ZERO))
+        if not stresses.shape[1]:
+            continue
+        for form in np.moveaxis(_second_order(twists) @ stresses, -1, 0):
+            if np.abs(form).max(initial=0.0) > ZERO:
+                quadrics.append(Quadric(loop.joints, form))
+    return quadrics
+
+
+def shared_quadrics(
+    linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float = ZERO
+) -> list[Quadric]:
+    """Return what self-stresses of several loops ask for beyond those of the loops alone.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    tangent : float[J, s]
+        The rates that agree to first order, orthonormal columns: the equations are written for these.
+    alone : sequence of Quadric
+        `quadrics_of` the linkage.
+    zero : float, optional
+        Values below this part of the largest are zero.
+
+    Returns
+    -------
+    list of Quadric
+        None of them a sum of others, or of those of the loops alone, on these rates.
+
+    Notes
+    -----
+    The matrix of all closure equations is dense here: for `rows_of` up to `MOST_ROWS`.
+    """
+    size = tangent.shape[1]
+    twists = [_twists(linkage, loop) for loop in linkage.loops]
+    rows = np.cumsum([0, *map(len, twists)])
+    matrix = np.zeros((rows[-1], len(tangent)))
+    seen = np.zeros((size, size, rows[-1]))  # by each closure equation, on the tangent space
+    for loop, block, start, end in zip(linkage.loops, twists, rows, rows[1:], strict=False):
+        joints = list(loop.joints)
+        matrix[start:end, joints] = block
+        here = tangent[joints]
+        seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
+    stresses = scipy.linalg.null_space(matrix.T, rcond=zero) if size and rows[-1] else np.zeros((rows[-1], 0))
+    if not stresses.shape[1]:
+        return []
+    forms = (seen @ stresses).reshape(size * size, -1).T
+    known = local_forms(tangent, alone).reshape(-1, size * size)
+    return [
+        Quadric(tuple(range(len(tangent))), tangent @ form.reshape(size, size) @ tangent.T)
+        for form in _beyond(forms, known, zero)
+    ]
+
+
+def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = ZERO) -> list[Quadric]:
+    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, those they have together.
+
+    Parameters
+    ----------
+    linkage, tangent, zero
+        As in `shared_quadrics`.
+    """
+    alone = quadrics_of(linkage)
+    if rows_of(linkage) > MOST_ROWS:
+        return alone
+    return alone + shared_quadrics(linkage, tangent, alone, zero)
+
+
+def rows_of(linkage: PosedLinkage) -> int:
+    """Return the number of closure equations: three of a loop about a point, six of any other."""
+    return sum(3 if loop.centre is Centre.FINITE else 6 for loop in linkage.loops)
+
+
+def local_forms(basis: Floats, quadrics: Sequence[Quadric]) -> Floats:
+    """Return the forms of equations on a space of rates, each as part of its size: float[n, s, s]."""
+    made = np.zeros((len(quadrics), basis.shape[1], basis.shape[1]))
+    for number, quadric in enumerate(quadrics):
+        local = basis[list(quadric.joints)]
+        made[number] = local.T @ quadric.form @ local / np.abs(quadric.form).max()
+    return made
+
+
+def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
+    """Return orthonormal rows that span, together with known ones, what all rows span."""
+    if len(known):
+        _, values, right = np.linalg.svd(known, full_matrices=False)
+        right = right[values > zero * values.max(initial=0.0)]
+        rows = rows - (rows @ right.T) @ right
+    _, values, right = np.linalg.svd(rows, full_matrices=False)
+    return canonical_basis(
+        right[values > zero].T
+    ).T  # stresses and rates are unit vectors, brackets of the size of one
+
+
+def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
+    """Return the twists of a loop's joints at the pose, as the loop passes them: float[3 or 6, k]."""
+    joints = list(loop.joints)
+    axes = linkage.directions[joints] * np.array(loop.signs, dtype=float)[:, None]
+    if loop.centre is Centre.FINITE:  # about the centre there are no moments
+        return np.asarray(axes.T)
+    points = linkage.points[joints] - linkage.points[joints].mean(axis=0)
+    return np.concatenate([axes, np.cross(points, axes)], axis=1).T
+
+
+def _second_order(twists: Floats) -> Floats:
+    """Return the forms of r -> sum over i < j of r_i r_j [x_i, x_j], one for each coordinate: float[k, k, e]."""
+    turn, shift = twists[:3].T, twists[3:].T
+    brackets = np.cross(turn[:, None], turn[None])
+    if len(twists) > 3:
+        moments = np.cross(turn[:, None], shift[None]) + np.cross(shift[:, None], turn[None])
+        brackets = np.concatenate([brackets, moments], axis=-1)
+    upper = brackets * np.triu(np.ones(brackets.shape[:2]), 1)[..., None]  # twist i comes before twist j
+    return np.asarray(upper + upper.transpose(1, 0, 2)) / 2.0

@@ -1,0 +1,264 @@
+"""Branches followed from a singular pose: rates to begin with, a pose some way along, the freedoms there.
+
+On many branches joints are still: three creases of a vertex that lies flat while a line through it folds. Their
+closure equations are squares there, which Newton's method approaches slowly, so these joints are locked; where
+nothing is found so, they are freed. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import islice
+from math import radians, tan
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.canonical import leading, signed, trailing
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.path import PathOptions, driven_path
+from synth.motion.placement import moved
+from synth.motion.second_order import RateSpace, largest_only, rates_at, spaces_within
+from synth.motion.singular.quadrics import all_quadrics, local_forms
+from synth.motion.walk.stepping import Allowance
+
+__all__ = [
+    "FOLLOWED",
+    "STILL",
+    "Followed",
+    "followed",
+    "freedoms_at",
+    "general_rates",
+    "in_half_tangents",
+    "rates_towards",
+    "same_part",
+    "walked",
+]
+
+FOLLOWED = radians(10.0)
+"""How far each branch is followed, radians of the joint that moves most."""
+_STARTS = 60
+"""Starts of the search for rates on which equations are left, for each pattern of signs."""
+_AGREES = 1e-9
+STILL = 1e-7
+"""Rates below this part of the largest are none."""
+_NEWTON, _ROUNDED = 30, 1e-14
+_NO_SLOPE = 1e-4
+"""Of equations, as part of their size: where they have none Newton's method ends with the root of its error."""
+_BESIDE, _ASIDE = 8, 0.3
+"""So many starts beside wanted rates, so far from them as part of their size."""
+MOVED, _SHORT_OF = 1e-3, 0.7
+"""A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
+_SPACES = 64
+"""At a pose of a branch, after so many spaces of rates second order is said not to tell."""
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """How far one branch was followed.
+
+    Attributes
+    ----------
+    freedoms : int or None
+        At the end, to second order; None where no motion was found or second order does not tell.
+    sample : float[J]
+        Joint angles at the end, radians.
+    error : float
+        By how much loops do not close there.
+    far : float
+        How far the joint that moves most has moved there, radians; 0 where no motion was found.
+    """
+
+    freedoms: int | None
+    sample: Floats
+    error: float
+    far: float
+
+
+def followed(
+    linkage: PosedLinkage,
+    closure: ClosureEquations,
+    rates: Floats,
+    still: tuple[int, ...] = (),
+    allowance: Allowance | None = None,
+) -> Followed:
+    """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        Closed at its pose.
+    closure : ClosureEquations
+        Of this linkage.
+    rates : float[J]
+        To begin with, to second order.
+    still : tuple of int
+        Places of the joints that do not begin to move on it.
+    allowance : Allowance, optional
+        Steps that may be taken.
+    """
+    ways = [closure.locked(still), closure] if still else [closure]
+    for way in ways:
+        end, error = walked(linkage.angles, way, rates, allowance)
+        far = float(np.abs(end - linkage.angles).max())
+        if far > MOVED:
+            break
+    else:
+        return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
+    return Followed(freedoms_at(linkage, closure, end), end, error, far)
+
+
+def walked(
+    start: Floats, closure: ClosureEquations, rates: Floats, allowance: Allowance | None = None
+) -> tuple[Floats, float]:
+    """Return the last general pose of a path that begins at some rates, and by how much it does not close."""
+    driver = leading(rates)
+    options, goal = PathOptions(rates, straight=True), FOLLOWED * float(np.sign(rates[driver]))
+    first = replace(options, allowance=allowance)  # the part that is taken again has no more steps
+    path = driven_path(closure, start, [driver], start[driver] + goal, options=first)
+    reached = float(path.angles[-1][driver] - start[driver])
+    if path.stopped and abs(reached) > MOVED:  # the end of a path may be no general pose
+        path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)
+    return path.angles[-1], float(path.errors[-1])
+
+
+def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> Followed:
+    """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
+    end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
+    return Followed(space.basis.shape[1], end, closure.error(end), FOLLOWED)
+
+
+def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
+
+    Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
+    folded along one straight line, for instance, has creases that lie in one plane.
+    """
+    tangent = rates_at(closure, angles)
+    quadrics = all_quadrics(moved(linkage, angles), tangent)
+    spaces = largest_only(list(islice(spaces_within(tangent, quadrics), _SPACES)))
+    if len(spaces) != 1 or spaces[0].left:
+        return None if spaces else 0
+    return int(spaces[0].basis.shape[1])
+
+
+def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
+    """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none.
+
+    By symmetry the way from wanted rates onto the equations may lead to where parts of their solutions meet, at
+    the apex of a cone for instance: there Newton's method finds rates to half their digits only. Then starts
+    beside the wanted ones are tried, and of what they come to the rates that point along these best are taken.
+    """
+    start = np.asarray(space.basis.T @ wanted)
+    size = float(np.linalg.norm(start))
+    if size <= _AGREES * np.linalg.norm(wanted):
+        return np.zeros_like(wanted)
+    forms = local_forms(space.basis, space.left)
+    x = _on_equations(forms, start)
+    if x is not None and (rank := _slopes(forms, x)) < len(forms):
+        beside = [
+            np.random.default_rng((*space.basis.shape, number)).normal(size=len(start))
+            for number in range(_BESIDE)
+        ]
+        found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
+        general = [one for one in found if one is not None and _slopes(forms, one) > rank]
+        x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
+    return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
+
+
+def general_rates(
+    space: RateSpace, most: int, towards: Floats | None = None, late: Callable[[], bool] = lambda: False
+) -> tuple[list[Floats], bool]:
+    """Return general rates of a space, one for each part that its equations leave, up to sign.
+
+    Where two equations or more are left the parts are looked for from random starts: there may be others. Rates at
+    which the equations have fewer independent slopes than at others, where parts meet, are left out. The second
+    value is whether no limit ended the search.
+
+    Parameters
+    ----------
+    space : RateSpace
+    most : int
+        After so many the search ends.
+    towards : float[J], optional
+        If it ends so, the part near to these rates is among those returned.
+    late : callable, optional
+        Whether it is time to end the search, with one part at least if there is one.
+    """
+    size = space.basis.shape[1]
+    if not space.left:
+        chance = np.random.default_rng(space.basis.shape)
+        x = chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)
+        return [signed(_scaled(space.basis @ x))], True
+    forms = local_forms(space.basis, space.left)
+    halves = _halves(space)
+    parts = 2 ** max(len(halves) - 1, 0)
+    found: dict[tuple[int, ...], Floats] = {}
+    highest = 0
+    for number in range(_STARTS * 2 ** min(len(halves), 6)):
+        chance = np.random.default_rng((*space.basis.shape, number))
+        x = _on_equations(forms, np.asarray(chance.normal(size=size)))
+        if x is None or (rank := _slopes(forms, x)) < highest:
+            continue
+        if rank > highest:
+            found, highest = {}, rank
+        rates = signed(_scaled(space.basis @ x))
+        signs = _side(halves, rates)
+        found.setdefault(max(signs, tuple(-one for one in signs)), rates)
+        if len(found) == parts or len(found) == most or late():
+            break
+    others = [found[signs] for signs in sorted(found, reverse=True)]
+    whole = len(found) == parts or not (len(found) == most or late())
+    if whole or towards is None:
+        return others, whole
+    near = rates_towards(space, towards)
+    first = [near] if near.any() and not any(same_part(space, near, one) for one in others) else []
+    return [*first, *others], False
+
+
+def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
+    """Tell whether two rates of a space are, up to their sign, on the same part of what its equations leave."""
+    halves = _halves(space)
+    mine, theirs = _side(halves, one), _side(halves, other)
+    return mine in (theirs, tuple(-sign for sign in theirs))
+
+
+def _scaled(rates: Floats) -> Floats:
+    """Return rates the largest of which is 1 or -1; those that are none but for rounding are zero."""
+    scaled = rates / np.abs(rates).max()
+    return np.where(np.abs(scaled) > STILL, scaled, 0.0)
+
+
+def _on_equations(forms: Floats, x: Floats) -> Floats | None:
+    """Return a unit vector at which forms float[n, s, s] vanish, by Newton's method from a start float[s]."""
+    for _ in range(_NEWTON):
+        x = x / np.linalg.norm(x)
+        slopes = forms @ x
+        off = slopes @ x
+        if np.abs(off).max(initial=0.0) <= _ROUNDED:
+            return x
+        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
+    return None
+
+
+def _slopes(forms: Floats, x: Floats) -> int:
+    """Return how many independent slopes forms float[n, s, s] have at a unit vector at which they vanish."""
+    return int((np.linalg.svd(forms @ x, compute_uv=False) > _NO_SLOPE * np.abs(forms).max(initial=0.0)).sum())
+
+
+def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
+    """Return on which half of each equation's solutions rates are."""
+    return tuple(int(np.sign(half @ rates)) for half in halves)
+
+
+def _halves(space: RateSpace) -> list[Floats]:
+    """Return, for each equation whose solutions are two cones tip to tip, what has one sign on one of them."""
+    found = []
+    for form in local_forms(space.basis, space.left):
+        values, vectors = np.linalg.eigh(form)
+        there = np.abs(values) > _AGREES * np.abs(values).max()
+        singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
+        found += [signed(space.basis @ vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
+    return found

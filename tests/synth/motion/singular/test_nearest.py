@@ -1,0 +1,95 @@
+"""Spaces of rates near to wanted ones, of linkages too large for all of them: against all of them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from synth.folding import prepared as preparing
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_sheet
+from synth.motion.second_order import largest_only, rates_at, spaces_within
+from synth.motion.singular import nearest
+from synth.motion.singular.nearest import begun_near, spaces_near
+from synth.motion.singular.quadrics import quadrics_of
+from synth.patterns.creases.bases import fan
+from synth.patterns.creases.tessellations import map_sheet, miura
+from synth.verdict.judged import mobility
+
+
+def posed(sheet):
+    linkage = linkage_of_sheet(sheet)
+    return linkage, ClosureEquations(linkage), quadrics_of(linkage)
+
+
+def projectors(spaces):
+    return [space.basis @ space.basis.T for space in spaces]
+
+
+def bent(sheet):
+    """A sheet whose vertices are somewhere near, written in full: no geometry of it is special."""
+    places = np.array(sheet.coordinates) + np.random.default_rng(1).uniform(-0.05, 0.05, (sheet.vertices, 2))
+    return replace(sheet, coordinates=tuple(map(tuple, places.tolist())))
+
+
+@pytest.mark.parametrize("sheet", [miura(4, 4, 1.0), map_sheet(4, 3), fan(np.radians([0, 60, 180, 300]))])
+def test_all_spaces_are_those_of_the_search_of_all(sheet):
+    linkage, closure, quadrics = posed(sheet)
+    tangent = rates_at(closure, linkage.angles)
+    every = projectors(largest_only(list(spaces_within(tangent, quadrics))))
+    wanted = np.random.default_rng(3).normal(size=closure.joints)
+    near = projectors(
+        largest_only([space for space in spaces_near(tangent, quadrics, wanted) if space is not None])
+    )
+    assert len(near) == len(every)
+    for one in near:
+        assert min(np.abs(one - other).max() for other in every) < 1e-9
+
+
+def test_the_space_that_holds_the_wanted_rates_comes_first():
+    linkage, closure, quadrics = posed(miura(4, 4, 1.0))
+    tangent = rates_at(closure, linkage.angles)
+    for space in largest_only(list(spaces_within(tangent, quadrics))):
+        wanted = space.basis.sum(axis=1)
+        first = next(iter(spaces_near(tangent, quadrics, wanted)))
+        assert np.abs(wanted - first.basis @ (first.basis.T @ wanted)).max() < 1e-9
+
+
+def test_where_newtons_method_finds_nothing_the_nearest_space_is_taken(monkeypatch):
+    """A map folds along its lines of one direction; across them all joints are still."""
+    linkage, closure, _ = posed(map_sheet(7, 5))
+    wanted = np.random.default_rng(0).choice([-1.0, 1.0], closure.joints)
+    monkeypatch.setattr(nearest, "rates_near", lambda *_: None)
+    begun = begun_near(closure, linkage, wanted)
+    assert np.abs(closure.at(linkage.angles)[1] @ begun.rates).max() < 1e-9
+    headings = np.abs(linkage.directions[np.abs(begun.rates) > 1e-7])
+    assert np.ptp(headings, axis=0).max() < 1e-9
+    assert not begun.rigid
+
+
+@pytest.mark.parametrize("sheet", [fan(np.radians([0, 30, 70, 100])), bent(miura(4, 4, 1.0))])
+def test_where_all_choices_leave_nothing_it_is_rigid(sheet):
+    linkage, closure, quadrics = posed(sheet)
+    assert not list(spaces_within(rates_at(closure, linkage.angles), quadrics))
+    begun = begun_near(closure, linkage, np.ones(closure.joints))
+    assert (begun.rates, begun.rigid) == (None, True)
+
+
+def test_large_sheets_are_judged_so(monkeypatch):
+    monkeypatch.setattr(preparing, "MOST_JOINTS", 20)
+    sheet = map_sheet(7, 5)
+    unmarked = "".join(letter if letter == "B" else "U" for letter in sheet.assignments)
+    verdict = mobility(replace(sheet, assignments=unmarked), exact=False).verdict
+    assert (verdict.freedoms, verdict.certainty) in ((6, "numerical"), (4, "numerical"))
+    assert not verdict.exhaustive
+    assert ", on the one way that was looked for; followed to 10 degrees" in verdict.text
+    rigid = mobility(bent(map_sheet(5, 5)), exact=False).verdict
+    assert (rigid.freedoms, rigid.certainty, rigid.text) == (0, "proved", "Rigid: nothing moves.")
+    monkeypatch.undo()
+    assert mobility(bent(map_sheet(5, 5)), exact=False).verdict.text == rigid.text
+
+
+@pytest.mark.slow
+def test_a_map_of_four_hundred_panels_folds_along_its_lines():
+    verdict = mobility(map_sheet(20, 20), exact=False).verdict
+    assert (verdict.freedoms, verdict.certainty) == (19, "numerical")
