@@ -241,7 +241,7 @@ def test_files_hold_every_pose(tmp_path):
 def test_the_command_line(tmp_path, data):
     bird = data / "patterns" / "bird-base.fold"
     listed = run("fold", bird, "--branches", "--frames", 2).stdout
-    assert "from this pose 16 way(s) to move" in listed
+    assert "from this pose 16 ways to move" in listed
     told = json.loads(run("fold", bird, "--drive", "0=20", "--branch", 3, "--frames", 2, "--json").stdout)
     assert {"freedoms", "branches", "exhaustive", "frames", "closure", "stopped"} <= set(told)
     assert (told["freedoms"], len(told["branches"]), told["frames"], told["branch"]) == (5, 16, 3, 3)

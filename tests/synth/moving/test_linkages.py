@@ -118,7 +118,7 @@ def test_synth_fold_moves_what_has_no_panels(data, tmp_path):
     assert told["stopped"] is None
     assert np.diff(told["joint_angles_deg"]["0"]) == pytest.approx([20, 20, 20])
     assert told["joint_angles_deg"]["2"][-1] == pytest.approx(-60)
-    assert "1 freedom(s), numerical" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
+    assert "1 freedom, numerical" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
     assert "no panels to write" in run("fold", file, "-o", tmp_path / "a.fold", code=2).stderr
     assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 

@@ -26,7 +26,7 @@ def test_kinds_of_patterns(data, name, kinds):
 
 
 def test_links_without_shape_have_finite_ones(data):
-    linkage = configuration_of(read(data / "surfaces" / "fig11-stephenson.json")).linkage
+    linkage = configuration_of(read(data / "surfaces" / "fig11-stephenson.json"))
     (centre,) = centres_of(linkage)
     assert centre.kind == "finite"
     assert centre.loops == 2
