@@ -142,7 +142,7 @@ export class TangentSpace {
    * @param {number[]} held - Places of joints that are not to move, if they need not.
    */
   step(residual, held) {
-    return this.#without(this.#leastExactly(residual.map((x) => -x)), held);
+    return this.#without(added(new Float64Array(this.closure.joints), -1, this.#leastExactly(residual)), held);
   }
 
   /**
@@ -190,8 +190,9 @@ export class TangentSpace {
    * @param {Float64Array} rates - The solution.
    */
   #sumOfRows(off, rates) {
-    const image = this.closure.image(this.derivatives, rates);
-    return this.closure.gathered(this.derivatives, off.map((x, row) => (x - image[row]) / this.regular));
+    const left = this.closure.image(this.derivatives, rates);
+    for (let row = 0; row < left.length; row++) left[row] = (off[row] - left[row]) / this.regular;
+    return this.closure.gathered(this.derivatives, left);
   }
 
   /**
