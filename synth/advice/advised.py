@@ -22,6 +22,7 @@ from graphs.ids import JointId, LinkId
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
 from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
 from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, general_pose_of_sheet
@@ -40,11 +41,8 @@ _STEPS = 300_000
 """Steps of a search, however small the matrices."""
 _ONE_MORE = 1
 """Diagonals beyond the fewest that are looked for if nothing is said."""
-_STILL = 1e-7
 _DIGITS = 6
 """Of how much joints move: what moves alike is told apart by its place."""
-_ERROR = 1e-10
-"""Of the derivatives at a pose that closes to 1e-12."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,13 +208,13 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     every = list(pose.linkage.graph.joints)
     chosen = set(places)
     _, holds, turned = np.linalg.svd(pose.rates[list(places)])
-    left = np.abs(pose.rates @ turned[len(places) :].T).max(axis=1, initial=0.0)
+    still = np.abs(pose.rates @ turned[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     flaps = set(pose.flaps)
     return Locked(
         tuple(every[place] for place in places),
         sum(costs[place][0] for place in places),
         tuple(every[place] for place in places if place in flaps),
-        tuple(joint for place, joint in enumerate(every) if place not in chosen and left[place] <= _STILL),
+        tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
         float(1.0 / holds[-1]) if holds[-1] else inf,
         _freedoms_without(pose, places),
     )
@@ -226,7 +224,7 @@ def _freedoms_without(pose: GeneralPose, places: tuple[int, ...]) -> int | None:
     """Return the freedoms with joints locked: those left, less the rank of their closure equations."""
     matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
     others = np.delete(matrix, list(places), axis=1)
-    rank = spectrum(others, _ERROR).rank
+    rank = spectrum(others, DOUBLE.derivative).rank
     return None if rank is None else others.shape[1] - rank
 
 

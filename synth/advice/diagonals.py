@@ -18,15 +18,11 @@ from graphs.errors import NumericalError
 from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import sides_of_face
+from graphs.tolerances import DOUBLE
 from synth.advice.general_pose import GeneralPose
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["Diagonal", "diagonals_of", "loads_on_stresses"]
-
-_ON_LINE = 1e-9
-"""A corner this close to a line, in units of the extent (squared: areas), lies on it."""
-_ZERO = 1e-8
-"""Singular values below this part of the largest are zero; all others at a general pose are far larger."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +126,7 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
             twist = _twist(linkage.points[joint], linkage.directions[joint])
             matrix[6 * number : 6 * number + 6, joint] += sign * twist
     left, values, _ = np.linalg.svd(matrix)
-    rank = int((values > _ZERO * values.max(initial=0.0)).sum())
+    rank = int((values > DOUBLE.zero * values.max(initial=0.0)).sum())
     expected = len(linkage.angles) - pose.rates.shape[1]
     if rank != expected:
         raise NumericalError(
@@ -215,7 +211,7 @@ def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
     if min(map(len, parts)) < 3:
         return False
     whole, areas = _area(corners), [_area(part) for part in parts]
-    if min(area * np.sign(whole) for area in areas) <= _ON_LINE:
+    if min(area * np.sign(whole) for area in areas) <= DOUBLE.same_point:
         return False
     start, end = corners[list(pair)]
     count = len(corners)
@@ -231,9 +227,8 @@ def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
     """Tell whether two segments share a point."""
     over = _area(np.array([a, b, c])), _area(np.array([a, b, d]))
     under = _area(np.array([c, d, a])), _area(np.array([c, d, b]))
-    return bool(
-        min(over) <= _ON_LINE and max(over) >= -_ON_LINE and min(under) <= _ON_LINE and max(under) >= -_ON_LINE
-    )
+    near = DOUBLE.same_point
+    return all(min(areas) <= near and max(areas) >= -near for areas in (over, under))
 
 
 def _area(corners: Floats) -> float:

@@ -13,8 +13,9 @@ import scipy.linalg
 
 from graphs.arrays import Floats
 from graphs.errors import NumericalError
+from graphs.tolerances import DOUBLE
 from synth.compliance.springs import Bent, ElasticLinkage
-from synth.motion.newton import CLOSED, corrected, exactly_held
+from synth.motion.newton import corrected, exactly_held
 from synth.motion.path import driven_path
 
 __all__ = ["Equilibrium", "LoadPath", "equilibrium", "load_path"]
@@ -199,7 +200,7 @@ def _lower(
         pose = corrected(elastic.closure, angles + part * step, places)
         if places:
             pose = exactly_held(elastic.closure, pose, places, values)
-        if pose.error > CLOSED or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
+        if pose.error > DOUBLE.closed or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
             continue
         if elastic.energy(pose.angles) <= before + _DOWN * part * float(slope @ step) + rounding:
             return pose.angles

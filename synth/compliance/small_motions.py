@@ -19,15 +19,13 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.tolerances import DOUBLE
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.springs import ElasticLinkage
 from synth.motion.linkage import PosedLinkage
 from synth.motion.placement import joints_outwards, link_motions
 
 __all__ = ["Mass", "Masses", "SmallMotion", "mass_matrix", "sheet_masses", "small_motions"]
-
-_NO_MASS = 1e-12
-"""Motions that move less than this part of the largest mass move none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +145,7 @@ def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> l
     tangent = elastic.tangent(at.angles)
     inertia = tangent.rates.T @ mass_matrix(elastic.linkage, at.angles, masses) @ tangent.rates
     sizes = np.linalg.eigvalsh(inertia)
-    if sizes[0] <= _NO_MASS * sizes[-1]:
+    if sizes[0] <= DOUBLE.clear**2 * sizes[-1]:  # squares of speeds
         raise UnsolvableError("some motion moves no mass: expected masses on the links that move")
     curvature = elastic.bent(at.angles, tangent, tangent.rates, ()).curvature
     squares, vectors = scipy.linalg.eigh(curvature, inertia)

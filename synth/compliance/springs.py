@@ -15,6 +15,7 @@ from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.motion.beginning import MOST_JOINTS, search_for
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
@@ -24,8 +25,6 @@ from synth.motion.linkage import PosedLinkage
 __all__ = ["Bent", "ElasticLinkage", "Springs", "Tangent"]
 
 _NUDGE = 1e-5
-_CLEAR = 1e-6
-"""Singular values that count are larger than this beside the largest: else the pose is singular."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +165,7 @@ class ElasticLinkage:
             return Tangent(jacobian, np.eye(len(angles)))
         _, values, right = np.linalg.svd(jacobian)
         rank = len(angles) - self.freedoms
-        if rank and values[rank - 1] <= _CLEAR * values[0]:
+        if rank and values[rank - 1] <= DOUBLE.clear * values[0]:
             raise NumericalError("springs led to a singular pose, where it is open which way the linkage goes")
         return Tangent(jacobian, right[rank:].T)
 

@@ -17,11 +17,10 @@ import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
 from graphs.mechanism.precision import extent_of
+from graphs.tolerances import DOUBLE, Tolerances
 
 __all__ = ["Collision", "Panels", "Poses", "first_collision"]
 
-_TOUCHING = 1e-7
-"""In units of the extent: what is no deeper is no collision."""
 _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
 _HALVINGS = 30
@@ -59,6 +58,8 @@ class Panels:
         The panel that each face is part of.
     flat : float[vertices, 3]
         Places of the vertices in a pose in which faces are plane.
+    tolerances : Tolerances, optional
+        Panels that go no deeper into each other than configurations are told apart touch.
 
     Examples
     --------
@@ -67,7 +68,13 @@ class Panels:
     ((0, 1), None)
     """
 
-    def __init__(self, faces: Sequence[Sequence[int]], panel_of: Sequence[int], flat: Floats) -> None:
+    def __init__(
+        self,
+        faces: Sequence[Sequence[int]],
+        panel_of: Sequence[int],
+        flat: Floats,
+        tolerances: Tolerances = DOUBLE,
+    ) -> None:
         pieces = [
             (piece, panel) for face, panel in zip(faces, panel_of, strict=True) for piece in _convex(face, flat)
         ]
@@ -76,7 +83,8 @@ class Panels:
             [[*piece, *[piece[-1]] * (most - len(piece))] for piece, _ in pieces], dtype=np.int64
         )
         self._panel = np.array([panel for _, panel in pieces], dtype=np.int64)
-        self._touching = _TOUCHING * (extent_of(flat) or 1.0)
+        deep = max(tolerances.same_configuration, tolerances.same_point)  # less is what angles may be wrong by
+        self._touching = deep * (extent_of(flat) or 1.0)
 
     def crossing(self, places: Floats) -> tuple[int, int] | None:
         """Return two panels that cross where vertices are at float[vertices, 3]; None if there are none."""

@@ -14,6 +14,7 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.folding.mending.misfit import least_misfit
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import (
@@ -22,7 +23,6 @@ from synth.folding.mending.repair import (
     doubt_of,
     flattened,
     mended,
-    nearly,
     nearly_agreeing,
     precision_of,
 )
@@ -33,7 +33,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.second_order import rate_spaces, rates_at, rates_near
-from synth.motion.singular.quadrics import ZERO, quadrics_of
+from synth.motion.singular.quadrics import quadrics_of
 
 __all__ = ["Prepared", "prepared"]
 
@@ -165,7 +165,7 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
     if precision.size <= EXACT:
         return None
     wanted, most = _wanted(marks_of(sheet, linkage)), _most(linkage)
-    nearly_all = () if most is None else _ways(linkage, nearly(precision))
+    nearly_all = () if most is None else _ways(linkage, Tolerances.of(precision.size).zero)
 
     def moves(linkage: PosedLinkage) -> bool:
         if most is not None:
@@ -196,7 +196,7 @@ def _most(linkage: PosedLinkage) -> int | None:
     return MOST_BRANCHES if len(linkage.graph.joints) <= _ALL_WAYS else None
 
 
-def _ways(linkage: PosedLinkage, zero: float = ZERO) -> tuple[int, ...]:
+def _ways(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> tuple[int, ...]:
     """Return the dimensions of the spaces of rates that agree, the largest first."""
     quadrics = quadrics_of(linkage)
     spaces, _ = rate_spaces(ClosureEquations(linkage), linkage.angles, quadrics, MOST_BRANCHES, zero)

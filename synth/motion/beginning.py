@@ -12,6 +12,7 @@ from graphs.arrays import Floats
 from graphs.canonical import canonical_basis
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches, Search
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
@@ -33,7 +34,6 @@ _FOLLOWED = 2500
 how fast a machine is."""
 
 _LARGE = 10**9
-_STILL = 1e-9
 _DIGITS = 6
 """Of a cosine: branches that point along rates alike are told apart by their order."""
 
@@ -148,7 +148,7 @@ def _agreement(branch: Branch, wanted: Wanted) -> float:
         sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
         return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
     rates = rates_as_marked(branch, marks)
-    return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+    return int((np.sign(np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)) * marks).sum())
 
 
 def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
@@ -156,7 +156,7 @@ def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates
-    return -branch.rates if branch.rates @ marks < -_STILL else branch.rates
+    return -branch.rates if branch.rates @ marks < -DOUBLE.zero_rate else branch.rates
 
 
 def _rates(branch: Branch, wanted: Wanted) -> Floats:
@@ -166,7 +166,7 @@ def _rates(branch: Branch, wanted: Wanted) -> Floats:
         return rates_as_marked(branch, wanted.marks) if wanted.branch is None else branch.rates
     for start in (wanted.marks, space.basis.sum(axis=1)):
         towards = rates_towards(space, start)
-        if np.abs(towards[list(wanted.driven)]).max() > _STILL:
+        if np.abs(towards[list(wanted.driven)]).max() > DOUBLE.zero_rate:
             return towards
     which = "joints" if wanted.along else "driven joints"
     raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
@@ -177,4 +177,4 @@ def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
     across = scipy.linalg.null_space(wanted.turns[None])
     normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
     turned, sizes, _ = np.linalg.svd(normals)
-    return replace(space, basis=canonical_basis(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))
+    return replace(space, basis=canonical_basis(space.basis @ turned[:, int((sizes > DOUBLE.zero).sum()) :]))

@@ -25,11 +25,9 @@ from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.rank.closure import independent_cycles
+from graphs.tolerances import DOUBLE, Tolerances
 
 __all__ = ["PosedLinkage", "PosedLoop", "linkage_of_axes", "linkage_of_sheet"]
-
-_ON_EACH_OTHER = 1e-6
-"""Panels this close to a fold of 180 degrees, in radians, lie on each other: the file says which way."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +121,9 @@ def linkage_of_axes(
     return _posed(graph, points, directions, np.zeros(len(points)), points)
 
 
-def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> PosedLinkage:
+def linkage_of_sheet(
+    sheet: Sheet, mechanism: SheetMechanism | None = None, tolerances: Tolerances = DOUBLE
+) -> PosedLinkage:
     """Return the linkage that a crease pattern is as it lies: panels are links, creases are joints.
 
     Joint angles are fold angles. Where panels lie on each other, the fold angles of the file say to which side, or
@@ -135,6 +135,8 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
         With coordinates, flat or folded.
     mechanism : SheetMechanism, optional
         Of this sheet, where it is at hand.
+    tolerances : Tolerances, optional
+        Of its coordinates: panels whose fold is 180 degrees but for rounding lie on each other.
 
     Raises
     ------
@@ -176,7 +178,8 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
     normals = panels.normals(corners)
     pairs = np.array(beside, dtype=np.int64).reshape(-1, 2)
     angles = _fold_angles(normals[pairs[:, 0]], normals[pairs[:, 1]], directions)
-    on_each_other = np.pi - np.abs(angles) < _ON_EACH_OTHER
+    turned = tolerances.parallel * extent_of(corners) / lengths  # how far rounding may turn a panel about a crease
+    on_each_other = np.pi - np.abs(angles) < np.maximum(tolerances.same_configuration, turned)
     if on_each_other.any():
         marks = _marks(sheet)
         marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])

@@ -13,11 +13,11 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 
 __all__ = ["ShapeFigures", "crossings", "figures_of"]
 
-_TOUCHING = 1e-9
 _SHARP, _RATIO = float(np.radians(15.0)), 0.15
 
 
@@ -100,8 +100,9 @@ def crossings(pattern: Pattern, places: Floats) -> int:
     one, other = np.triu_indices(len(pattern.edges), 1)
     a, b = (places[ends] for ends in pattern.edges[one].T)
     c, d = (places[ends] for ends in pattern.edges[other].T)
-    met = (_side(a, b, c) * _side(a, b, d) < -_TOUCHING) & (_side(c, d, a) * _side(c, d, b) < -_TOUCHING)
-    return int(met.sum()) + int((_from_edges(pattern, places) < _TOUCHING * extent_of(places)).sum())
+    same = DOUBLE.same_point
+    met = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
+    return int(met.sum()) + int((_from_edges(pattern, places) < same * extent_of(places)).sum())
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:

@@ -15,6 +15,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.mechanism.sheet import sides_of_face
+from graphs.tolerances import DOUBLE
 from synth.motion.walk.stepping import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
@@ -34,7 +35,7 @@ _OFF = 30.0
 """What a crease off its centre costs."""
 _SEEN = np.radians(6.0)
 """Sides of bent panels that are seen from the hub under less than this cost more than they should."""
-_CLOSED = 1e-14
+_TIGHT = 1e-14
 _ENOUGH = 1e-3
 """A step that gains less than this part is the last, where creases are near to their centres."""
 _LEAST = 1e-9
@@ -153,12 +154,12 @@ def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | 
     """Return the drawing with all creases on their centres and all conditions met, moved as little as possible."""
     for _ in range(12):
         off, by = exactly(unknowns)
-        if np.abs(off).max(initial=0.0) <= _CLOSED:
+        if np.abs(off).max(initial=0.0) <= _TIGHT:
             break
         unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
     angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
     off, _ = exactly(unknowns)
-    if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_drawn(pattern, angles):
+    if np.abs(off).max(initial=0.0) > DOUBLE.closed or not is_drawn(pattern, angles):
         return None
     return unknowns
 

@@ -12,9 +12,9 @@ import networkx as nx
 from graphs.errors import shown
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Certainty
 from synth.motion.linkage import PosedLinkage
-from synth.motion.newton import CLOSED
 from synth.verdict.marked import Marked
 from synth.verdict.verdict import Way
 
@@ -124,7 +124,7 @@ def _start(told: Told) -> str:
 
 
 def _followed(way: Way) -> str:
-    return f"followed to {degrees(way.followed):.3g} degrees, loops closed to {CLOSED:.0e}"
+    return f"followed to {degrees(way.followed):.3g} degrees, loops closed to {DOUBLE.closed:.0e}"
 
 
 def _freedom(number: int) -> str:

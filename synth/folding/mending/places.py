@@ -16,11 +16,10 @@ from graphs.convert.duality import SheetMechanism
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["VertexPlaces"]
-
-_FLAT = 1e-12
 
 
 class VertexPlaces:
@@ -158,7 +157,7 @@ def _with_all_equations(loop: PosedLoop) -> PosedLoop:
 def _plane_of(points: Floats) -> Floats:
     """Return two directions of the plane of flat points, or three of space: float[d, 3]."""
     sizes, directions = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[1:]
-    flat = len(sizes) < 3 or sizes[2] <= _FLAT * sizes[0]
+    flat = len(sizes) < 3 or sizes[2] <= DOUBLE.same_point * sizes[0]
     return np.asarray(directions[:2]) if flat else np.eye(3)
 
 

@@ -18,6 +18,7 @@ from graphs.arrays import Floats
 from graphs.canonical import MARGIN
 from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import Fitting
 from synth.folding.mending.misfit import TURNED
@@ -33,22 +34,18 @@ __all__ = [
     "doubt_of",
     "flattened",
     "mended",
-    "nearly",
     "nearly_agreeing",
     "precision_of",
 ]
 
-EXACT = 1e-12
-"""Coordinates that are precise to this part of the extent are taken at their word."""
+EXACT = DOUBLE.closed
+"""Coordinates that are precise to this part of the extent are taken at their word: loops of them close."""
 
 _FARTHEST = 4.0
 """Vertices are moved by this times the precision at most."""
 
 _TRIES = 4
 """So many motions are tried, those first that agree best with the marks."""
-
-_BLURRED, _COARSEST = 30.0, 3e-3
-"""Rates agree if they do to this times the precision; to no less than the second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,11 +123,6 @@ def doubt_of(precision: Precision, misfit: float | None = None) -> str:
     return f", with the coordinates as they are written{near}; they are precise to {told}, and exact ones may move"
 
 
-def nearly(precision: Precision) -> float:
-    """Return what part of the largest a singular value or eigenvalue is zero below, by rounded coordinates."""
-    return min(_COARSEST, _BLURRED * precision.size)
-
-
 def mended(
     sheet: Sheet,
     places: VertexPlaces,
@@ -188,12 +180,13 @@ def nearly_agreeing(
 ) -> Iterator[Floats]:
     """Yield rates that agree but for what the coordinates cannot tell, those nearest to wanted ones first."""
     closure, quadrics = ClosureEquations(linkage), quadrics_of(linkage)
+    zero = Tolerances.of(precision.size).zero
     if most is None:
-        near = rates_near(closure, linkage.angles, quadrics, wanted, nearly(precision))
+        near = rates_near(closure, linkage.angles, quadrics, wanted, zero)
         if near is not None:
             yield near
         return
-    spaces, _ = rate_spaces(closure, linkage.angles, quadrics, most, nearly(precision))
+    spaces, _ = rate_spaces(closure, linkage.angles, quadrics, most, zero)
     found = []
     for space in spaces:
         rates = space.basis @ (space.basis.T @ wanted)

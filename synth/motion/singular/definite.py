@@ -14,10 +14,7 @@ from scipy.optimize import nnls
 
 from graphs.arrays import Floats
 
-__all__ = ["CLEAR", "definite_weights"]
-
-CLEAR = 1e-6
-"""A smallest eigenvalue that is this part of the largest is none that rounding made."""
+__all__ = ["definite_weights"]
 
 _MOST = 300
 """Eigenvectors looked at; beyond, what is left to gain is next to nothing."""

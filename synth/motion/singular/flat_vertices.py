@@ -15,12 +15,10 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import MARGIN
 from graphs.loops.loop import Centre
+from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["FlatVertices"]
-
-_AGREES = 1e-9
-_STILL = 1e-7
 
 
 class FlatVertices:
@@ -50,7 +48,7 @@ class FlatVertices:
     def __init__(self, linkage: PosedLinkage) -> None:
         self._loops = linkage.loops
         self._ways: list[Floats | None] = []
-        flat = [np.abs(linkage.angles).max(initial=0.0) <= _AGREES]
+        flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
         for loop in linkage.loops:
             outward = _outward(linkage, loop)
             flat.append(outward is not None and _opposite_make_a_half(outward))
@@ -81,7 +79,7 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
     alike = folds[:2] * folds[2:]
     same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
     first, second = sorted(loop.joints[same::2])
-    return (first, second) if alike[same] > _STILL**2 else None
+    return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
 
 
 def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
@@ -92,7 +90,7 @@ def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
 
 def _opposite_make_a_half(outward: Floats) -> bool:
     sectors = _sectors(outward)
-    return bool(abs(sectors[0] + sectors[2] - pi) <= _AGREES)
+    return bool(abs(sectors[0] + sectors[2] - pi) <= DOUBLE.parallel)
 
 
 def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
@@ -102,10 +100,10 @@ def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
         return None
     away = linkage.points[joints] - _meeting_point(linkage, joints)
     lengths = np.linalg.norm(away, axis=1, keepdims=True)
-    if lengths.min() <= _AGREES:  # an axis is known by its meeting point alone: no crease
+    if lengths.min() <= DOUBLE.same_point:  # an axis is known by its meeting point alone: no crease
         return None
     outward = np.asarray(away / lengths)
-    return outward if abs(_sectors(outward).sum() - 2 * pi) <= _AGREES else None
+    return outward if abs(_sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None
 
 
 def _sectors(outward: Floats) -> Floats:

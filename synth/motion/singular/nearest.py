@@ -15,10 +15,11 @@ import scipy.linalg
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, rates_at, rates_near
-from synth.motion.singular.quadrics import ZERO, Quadric, quadrics_of
+from synth.motion.singular.quadrics import Quadric, quadrics_of
 from synth.motion.singular.sampling import rates_towards
 
 __all__ = ["MOST_RATES", "Begun", "begun_near", "spaces_near"]
@@ -27,7 +28,6 @@ MOST_RATES = 1500
 """Of more joints the rates that close to first order are not all looked for: their matrix is dense."""
 _DEAD_ENDS = 200
 """After so many choices that leave nothing the search ends."""
-_EVEN = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,9 @@ class Begun:
     rigid: bool
 
 
-def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
+def begun_near(
+    closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats, zero: float = DOUBLE.zero
+) -> Begun:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
     By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
@@ -58,15 +60,17 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
     linkage : PosedLinkage
     wanted : float[J]
         Rates, or signs of them.
+    zero : float, optional
+        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     """
-    quadrics = quadrics_of(linkage)
-    rates = rates_near(closure, linkage.angles, quadrics, wanted)
+    quadrics = quadrics_of(linkage, zero)
+    rates = rates_near(closure, linkage.angles, quadrics, wanted, zero)
     if rates is not None:
         return Begun(rates / np.abs(rates).max(), rigid=False)
     if closure.joints > MOST_RATES:
         return Begun(None, rigid=False)
-    tangent = rates_at(closure, linkage.angles)
-    spaces, nothing = spaces_near(tangent, quadrics, wanted), True
+    tangent = rates_at(closure, linkage.angles, zero)
+    spaces, nothing = spaces_near(tangent, quadrics, wanted, zero), True
     for space in islice(spaces, _DEAD_ENDS):
         if space is None:
             continue
@@ -80,7 +84,7 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
 
 
 def spaces_near(
-    tangent: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = ZERO
+    tangent: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = DOUBLE.zero
 ) -> Iterator[RateSpace | None]:
     """Yield spaces of rates that agree to second order, those near to wanted ones first; None for what is empty.
 
@@ -188,7 +192,9 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tu
     factors = np.stack([up + down, up - down], axis=1)
     factors /= np.linalg.norm(factors, axis=2, keepdims=True)
     off = np.abs(factors @ wanted)
-    best = trailing(off.min(axis=1) / np.maximum(off.max(axis=1), _EVEN), scale=1.0)
+    least, most = off.min(axis=1), off.max(axis=1)
+    told = most > DOUBLE.zero_rate * np.linalg.norm(wanted)  # others are on both factors, but for rounding
+    best = trailing(np.where(told, least / np.where(told, most, 1.0), 1.0), scale=1.0)
     first, second = (
         factors[best][place] for place in canonical_order([signed(basis @ one) for one in factors[best]])
     )

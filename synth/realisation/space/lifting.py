@@ -14,12 +14,11 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import MARGIN, canonical_basis
 from graphs.errors import UnsolvableError, shown
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 
 __all__ = ["evenly_folded", "folds_of", "lifted", "planes_over"]
 
-_ZERO = 1e-9
-_STILL = 1e-6
 _STEEPEST = 0.8
 """Difference in slope of the two panels at the crease that is folded most: 39 degrees if one is level."""
 _STARTS, _ROUNDS = 12, 12
@@ -48,12 +47,12 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> tup
     middle = places.mean(axis=0)
     planes = planes_over(pattern, places - middle)
     folds = folds_of(pattern, places, planes)
-    still = np.abs(folds).max(axis=1, initial=0.0) <= _STILL
+    still = np.abs(folds).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     if still.any():
         names = ", ".join(shown(pattern.joints[place]) for place in np.flatnonzero(still))
         raise UnsolvableError(f"in every pose above this drawing the panels at joint(s) {names} are one plane")
     weights = evenly_folded(folds, random)
-    weights *= _STEEPEST / np.abs(folds @ weights).max(initial=_STILL)
+    weights *= _STEEPEST / np.abs(folds @ weights).max(initial=DOUBLE.zero_rate)
     chosen = (planes @ weights).reshape(-1, 3)
     return _above(pattern, places, places - middle, chosen), folds @ weights
 
@@ -70,7 +69,7 @@ def planes_over(pattern: Pattern, places: Floats) -> Floats:
             matrix[2 * row + end, 3 * other : 3 * other + 3] = [-value for value in point]
     level = np.eye(3, matrix.shape[1])
     _, singular, vt = np.linalg.svd(np.vstack([matrix, level]))
-    rank = int((singular > _ZERO * singular[0]).sum())
+    rank = int((singular > DOUBLE.zero * singular[0]).sum())
     return canonical_basis(vt[rank:].T)
 
 
@@ -109,7 +108,7 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
 
 def _evenness(turns: Floats) -> float:
     """Return the least turn by the largest."""
-    return float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=_STILL))
+    return float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=DOUBLE.zero_rate))
 
 
 def _above(pattern: Pattern, places: Floats, centred: Floats, planes: Floats) -> Floats:

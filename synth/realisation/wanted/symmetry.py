@@ -15,12 +15,11 @@ import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
 from graphs.mechanism.sheet import Edge
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.walking import Sides, sides_of
 
 __all__ = ["Symmetry", "off_symmetry", "symmetries"]
-
-_LEVEL = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,7 +203,7 @@ def _map_of(pattern: Pattern, image: Ints, matrix: Floats) -> _Map | None:
         goes = place_of.get((creases, one.infinite))
         if goes is None:
             return None
-        turned = np.linalg.det(matrix) > 0.0 and abs(matrix[1, 0]) > _LEVEL
+        turned = np.linalg.det(matrix) > 0.0 and abs(matrix[1, 0]) > DOUBLE.parallel
         if one.infinite and goes == place and turned:
             return None
         if one.vertex is None:
