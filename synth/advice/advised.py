@@ -22,6 +22,7 @@ from graphs.ids import JointId, LinkId
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
+from graphs.rank.spaces import split
 from graphs.tolerances import DOUBLE
 from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
@@ -207,15 +208,15 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     """Return a set of joints with what comes of locking them, its freedoms by a rank."""
     every = list(pose.linkage.graph.joints)
     chosen = set(places)
-    _, holds, turned = np.linalg.svd(pose.rates[list(places)])
-    still = np.abs(pose.rates @ turned[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
+    parts = split(pose.rates[list(places)])
+    still = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     flaps = set(pose.flaps)
     return Locked(
         tuple(every[place] for place in places),
         sum(costs[place][0] for place in places),
         tuple(every[place] for place in places if place in flaps),
         tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
-        float(1.0 / holds[-1]) if holds[-1] else inf,
+        float(1.0 / parts.values[-1]) if parts.values[-1] else inf,
         _freedoms_without(pose, places),
     )
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.errors import NumericalError, UnsolvableError
+from graphs.rank.spaces import rank_of
 from graphs.tolerances import DOUBLE
 from synth.assembly.family import Family
 from synth.assembly.kernel import CLOSED, Complexes
@@ -69,8 +70,9 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
     number, inputs = len(family.joints), family.driven
     here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
     known = np.zeros((1, family.unknowns), dtype=complex)  # the pose at which the axes are told
-    values = np.linalg.svd(family.derivatives(here, known[0]), compute_uv=False)
-    if len(values) and values[-1] <= DOUBLE.zero * values[0]:
+    derivatives = family.derivatives(here, known[0])
+    parts = np.block([[derivatives.real, -derivatives.imag], [derivatives.imag, derivatives.real]])
+    if rank_of(parts) < min(parts.shape):
         raise UnsolvableError("the driven joints do not determine the others: drive joints that do")
     known = apart(np.concatenate([known, _by_newton(family, here, random)]))
     quiet = 0

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
 
 from graphs.arrays import Floats
 from graphs.errors import NumericalError
+from graphs.rank.spaces import null_space
 from graphs.tolerances import DOUBLE
 from synth.compliance.springs import Bent, ElasticLinkage
 from synth.motion.newton import corrected, exactly_held
@@ -175,7 +175,7 @@ def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.A
 def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, Bent]:
     """Return the rates that leave held joints still, float[J, n], and how the energy bends along them."""
     tangent = elastic.tangent(angles)
-    along = tangent.rates @ scipy.linalg.null_space(tangent.rates[list(held)]) if held else tangent.rates
+    along = tangent.rates @ null_space(tangent.rates[list(held)]) if held else tangent.rates
     return along, elastic.bent(angles, tangent, along, held)
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError
+from graphs.geometry import angles_between, lines_meet
 from graphs.ids import LinkId
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
@@ -177,16 +178,14 @@ def _corner(
         rays = rays - np.outer(rays @ along, along)
         corner = Corner(*_pairs(rays, lambda a, b: float(np.linalg.norm(a - b))), parallel=True)
     else:
-        corner = Corner(*_pairs(rays, lambda a, b: atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b))))
+        corner = Corner(*_pairs(rays, lambda a, b: float(angles_between(a, b))))
     one, other = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))
     return corner, atan2(float(np.cross(one, other) @ along), float(one @ other)) % tau
 
 
 def _rays(points: Floats, axes: Floats, same: float) -> Floats:
     """Return unit vectors along axes from where they meet, towards their points where these lie off it."""
-    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    centre = np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0]
-    out = ((points - centre) * axes).sum(axis=1)
+    out = ((points - lines_meet(points, axes).point) * axes).sum(axis=1)
     return np.asarray(axes * np.where(np.abs(out) > same, np.sign(out), 1.0)[:, None])
 
 

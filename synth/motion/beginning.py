@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.linalg
 
 from graphs.arrays import Floats
 from graphs.canonical import canonical_basis
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.rank.spaces import null_space
 from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches, Search
 from synth.motion.closure import ClosureEquations
@@ -174,7 +174,6 @@ def _rates(branch: Branch, wanted: Wanted) -> Floats:
 
 def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
     """Return the part of a space in which driven joints turn in proportion."""
-    across = scipy.linalg.null_space(wanted.turns[None])
+    across = null_space(wanted.turns[None])
     normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
-    turned, sizes, _ = np.linalg.svd(normals)
-    return replace(space, basis=canonical_basis(space.basis @ turned[:, int((sizes > DOUBLE.zero).sum()) :]))
+    return replace(space, basis=canonical_basis(space.basis @ null_space(normals.T, scale=1.0)))

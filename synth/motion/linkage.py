@@ -17,6 +17,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.geometry import unit
 from graphs.ids import JointId
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Centre
@@ -117,8 +118,7 @@ def linkage_of_axes(
             )
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    return _posed(graph, points, directions, np.zeros(len(points)), points)
+    return _posed(graph, points, unit(directions), np.zeros(len(points)), points)
 
 
 def linkage_of_sheet(
@@ -237,8 +237,7 @@ class _Panels:
         of = np.repeat(np.arange(len(self._faces)), [len(face) for face in self._faces])
         normals = np.zeros((len(self._faces), 3))
         np.add.at(normals, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
-        sizes = np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.asarray(normals / np.where(sizes == 0.0, 1.0, sizes))
+        return unit(normals)
 
 
 def _fold_angles(first: Floats, second: Floats, axes: Floats) -> Floats:

@@ -20,6 +20,7 @@ import scipy.sparse
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import canonical_basis, canonical_order, signed
+from graphs.rank.spaces import inertia, null_space, split
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
@@ -160,7 +161,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zer
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:
-        return canonical_basis(np.asarray(scipy.linalg.null_space(matrix, rcond=zero)))
+        return null_space(matrix, zero)
     columns, triangle, _ = scipy.linalg.qr(matrix.T, pivoting=True, overwrite_a=True, check_finite=False)
     sizes = np.abs(np.diag(triangle))
     return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
@@ -205,7 +206,8 @@ class _Case:
 
     def across(self, normals: Floats) -> _Case:
         """Return the part of the space across one normal, float[s], or several, float[s, n]."""
-        part = scipy.linalg.null_space(normals.reshape(len(normals), -1).T, rcond=self.zero)
+        parts = split(normals.reshape(len(normals), -1).T, self.zero)
+        part = parts.right[parts.rank :].T
         return replace(self, basis=self.basis @ part, forms=part.T @ self.forms @ part)
 
 
@@ -234,14 +236,13 @@ def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:
         case = case.only(np.flatnonzero(np.abs(case.forms).max(axis=(1, 2), initial=0.0) > case.zero))
         if not case.left:
             return case, None
-        values, vectors = np.linalg.eigh(case.forms)
-        there = np.abs(values) > case.zero * np.abs(values).max(axis=1, keepdims=True)
-        positive, negative = (there & (values > 0)).sum(axis=1), (there & (values < 0)).sum(axis=1)
-        definite = np.flatnonzero((positive == 0) | (negative == 0))
+        found = inertia(case.forms, case.zero)
+        definite = np.flatnonzero((found.positive == 0) | (found.negative == 0))
         if not len(definite):
-            products = np.flatnonzero((positive == 1) & (negative == 1))
-            return case, _factors(values[products[0]], vectors[products[0]]) if len(products) else None
-        case = case.across(np.concatenate([vectors[one][:, there[one]] for one in definite], axis=1))
+            products = np.flatnonzero((found.positive == 1) & (found.negative == 1))
+            return case, _factors(found.values[products[0]], found.vectors[products[0]]) if len(products) else None
+        normals = [found.vectors[one][:, found.signs[one] != 0] for one in definite]
+        case = case.across(np.concatenate(normals, axis=1))
     return case.only(np.zeros(0, dtype=np.int64)), None
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import leading
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.geometry import frame_about, unit
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import precision_of
 from graphs.mechanism.sc import SCGraph
@@ -121,8 +122,7 @@ def _directions(rods: list[tuple[Any, Any]], ends: Floats) -> Floats:
     sizes = np.abs(along).max(axis=1)
     for rod in np.flatnonzero(sizes == 0.0):
         raise InvariantError("rod", f"the rod between vertices {shown(rods[rod])} has no length")
-    along /= sizes[:, None]
-    return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))
+    return unit(along / sizes[:, None])
 
 
 def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hashable, list[int]]:
@@ -158,8 +158,9 @@ def _beginning(touching: nx.Graph, directions: Floats, parallel: float) -> tuple
     if len(directions) == 1:
         return 0, None
     pairs = list(touching.edges)
-    sines = [float(np.linalg.norm(np.cross(directions[a], directions[b]))) for a, b in pairs]
-    best = leading(np.array(sines))
+    ends = np.array(pairs).T
+    sines = np.linalg.norm(np.cross(directions[ends[0]], directions[ends[1]]), axis=1)
+    best = leading(sines)
     if sines[best] <= parallel:
         raise UnsolvableError("all rods are in line: their plane is not known")
     first, second = pairs[best]
@@ -183,9 +184,8 @@ def _across(first: Floats, second: Floats, parallel: float) -> Floats:
     """Return two directions across a rod: that across the rod before it too, if they are not in line, first."""
     normal = np.cross(first, second)
     if np.linalg.norm(normal) <= parallel:
-        normal = np.cross(second, np.eye(3)[np.abs(second).argmin()])
-    normal /= np.linalg.norm(normal)
-    return np.stack([normal, np.cross(second, normal)])
+        return frame_about(second)[:2]
+    return np.stack([unit(normal), np.cross(second, unit(normal))])
 
 
 def _at(model: PolyhedronModel, vertex: Hashable) -> Floats:

@@ -5,23 +5,26 @@ from __future__ import annotations
 from graphs.convert.table import Mechanism
 from graphs.given import check_given
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.motion.linkage import PosedLinkage
 from synth.moving.linkages import linkage_of
 from synth.overconstraint.answer import Explanation, IdleSet
 from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets
 from synth.overconstraint.reasons import reasons_of
-from synth.overconstraint.tolerances import tolerances
+from synth.overconstraint.tolerances import axis_tolerances
 
 __all__ = ["explain"]
 
 
-def explain(thing: Mechanism | PosedLinkage) -> Explanation:
+def explain(thing: Mechanism | PosedLinkage, tolerances: Tolerances = DOUBLE) -> Explanation:
     """Say which loops of a mechanism at its pose hold idle equations, why, and how far its axes may err.
 
     Parameters
     ----------
     thing : Mechanism or PosedLinkage
         With coordinates; of a sheet with several frames the first that has them.
+    tolerances : Tolerances, optional
+        Of its coordinates: what special geometry they can show.
 
     Raises
     ------
@@ -41,18 +44,18 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
     if isinstance(thing, Sheet) and thing.frames is not None:
         thing = thing.frames.first_placed()
     linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
-    return _explained(linkage)
+    return _explained(linkage, tolerances)
 
 
-def _explained(linkage: PosedLinkage) -> Explanation:
-    order = first_order(linkage)
+def _explained(linkage: PosedLinkage, tolerances: Tolerances) -> Explanation:
+    order = first_order(linkage, tolerances)
     names = list(linkage.graph.joints)
     active = active_at_second_order(linkage, order)
     sets = tuple(
         IdleSet(
             tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
             number,
-            tuple(reasons_of(linkage, loops)),
+            tuple(reasons_of(linkage, loops, tolerances)),
         )
         for loops, number in smallest_sets(linkage, order)
     )
@@ -63,7 +66,7 @@ def _explained(linkage: PosedLinkage) -> Explanation:
         idle=idle,
         active=active,
         sets=sets,
-        tolerances=tuple(tolerances(linkage, order)) if idle and freedoms and not active else (),
+        tolerances=tuple(axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
         smallest=order.smallest,
         gap=order.gap,
     )

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import angles_between
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
@@ -75,7 +76,7 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
     points[:, : given.shape[1]] = given
     before, at, after = points[pattern.corners.T]
     back, on = before - at, after - at
-    angles = np.arctan2(np.linalg.norm(np.cross(on, back), axis=1), (on * back).sum(axis=1))
+    angles = angles_between(on, back)
     angles = np.where(bent > np.pi, 2 * np.pi - angles, angles)
     lengths = np.linalg.norm(points[pattern.edges[:, 1]] - points[pattern.edges[:, 0]], axis=1)
     one, other = np.triu_indices(len(points), 1)

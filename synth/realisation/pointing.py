@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import common_direction, unit
 from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern, Pointing
 
@@ -82,5 +83,4 @@ def _common_direction(pattern: Pattern, places: Floats, one: Pointing) -> Floats
     """Return the direction that creases have in the mean, whichever way they run."""
     ends = places[[pattern.creases[crease] for crease in one.creases]]
     along = ends[:, 1] - ends[:, 0]
-    direction: Floats = np.linalg.svd(along / np.linalg.norm(along, axis=1)[:, None])[2][0]
-    return direction
+    return common_direction(unit(along))

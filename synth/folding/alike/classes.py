@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from graphs.arrays import Flags, Floats, Ints
+from graphs.geometry import lines_meet, principal_axes, unit
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
@@ -125,7 +126,7 @@ def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> _Plane:
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
     used = sorted({vertex for face in sheet.faces for vertex in face})
-    across = np.linalg.svd(local[used] - local[used].mean(axis=0), full_matrices=False)[2][:2]
+    across = principal_axes(local[used])[1][:2]
     count: dict[frozenset[int], int] = {}
     for face in sheet.faces:
         for side in sides_of_face(face):
@@ -142,11 +143,8 @@ def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
         if loop.centre is not Centre.FINITE:
             continue
         joints = np.array(loop.joints, dtype=np.int64)
-        normals = plane.directions[joints][:, ::-1] * (1.0, -1.0)
-        heights = (normals * plane.middles[joints]).sum(axis=1)
-        place = np.linalg.lstsq(normals, heights, rcond=None)[0]
-        arms = plane.middles[joints] - place
-        found.append(_Vertex(place, joints, arms / np.linalg.norm(arms, axis=1, keepdims=True)))
+        place = lines_meet(plane.middles[joints], plane.directions[joints]).point
+        found.append(_Vertex(place, joints, unit(plane.middles[joints] - place)))
     return found
 
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import MARGIN
+from graphs.geometry import across, best_plane
 from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
@@ -89,9 +90,8 @@ def flattened(sheet: Sheet) -> Mended | None:
     off = off_plane(points)
     if not EXACT / 1e3 < off <= _FARTHEST * precision.size:
         return None
-    middle = points.mean(axis=0)
-    normal = np.linalg.svd(points - middle, full_matrices=False)[2][-1]
-    flat = points - ((points - middle) @ normal)[:, None] * normal
+    plane = best_plane(points)
+    flat = plane.middle + across(points - plane.middle, plane.direction)
     return Mended(_placed(sheet, flat), off, precision, "they lie in one plane")
 
 

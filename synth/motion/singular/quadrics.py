@@ -13,11 +13,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from graphs.arrays import Floats
-from graphs.canonical import canonical_basis
 from graphs.loops.loop import Centre
+from graphs.rank.spaces import null_space, row_space
 from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
@@ -76,7 +75,7 @@ def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadri
     quadrics = []
     for loop in linkage.loops:
         twists = _twists(linkage, loop)
-        stresses = canonical_basis(scipy.linalg.null_space(twists.T, rcond=zero))
+        stresses = null_space(twists.T, zero)
         if not stresses.shape[1]:
             continue
         for form in np.moveaxis(_second_order(twists) @ stresses, -1, 0):
@@ -119,7 +118,7 @@ def shared_quadrics(
         matrix[start:end, joints] = block
         here = tangent[joints]
         seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
-    stresses = scipy.linalg.null_space(matrix.T, rcond=zero) if size and rows[-1] else np.zeros((rows[-1], 0))
+    stresses = null_space(matrix.T, zero) if size and rows[-1] else np.zeros((rows[-1], 0))
     if not stresses.shape[1]:
         return []
     forms = (seen @ stresses).reshape(size * size, -1).T
@@ -161,13 +160,9 @@ def local_forms(basis: Floats, quadrics: Sequence[Quadric]) -> Floats:
 def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
     """Return orthonormal rows that span, together with known ones, what all rows span."""
     if len(known):
-        _, values, right = np.linalg.svd(known, full_matrices=False)
-        right = right[values > zero * values.max(initial=0.0)]
-        rows = rows - (rows @ right.T) @ right
-    _, values, right = np.linalg.svd(rows, full_matrices=False)
-    return canonical_basis(
-        right[values > zero].T
-    ).T  # stresses and rates are unit vectors, brackets of the size of one
+        spanned = row_space(known, zero)
+        rows = rows - (rows @ spanned) @ spanned.T
+    return row_space(rows, zero, scale=1.0).T  # stresses and rates are unit vectors, brackets of the size of one
 
 
 def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:

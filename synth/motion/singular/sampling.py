@@ -16,6 +16,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import leading, signed, trailing
+from graphs.rank.spaces import inertia, singular_values
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
@@ -241,7 +242,7 @@ def _on_equations(forms: Floats, x: Floats) -> Floats | None:
 def _slopes(forms: Floats, x: Floats) -> int:
     """Return how many independent slopes forms float[n, s, s] have at a unit vector at which they vanish."""
     least = DOUBLE.zero**0.5 * np.abs(forms).max(initial=0.0)  # Newton's method ends with the root there
-    return int((np.linalg.svd(forms @ x, compute_uv=False) > least).sum())
+    return int((singular_values(forms @ x) > least).sum())
 
 
 def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
@@ -252,9 +253,7 @@ def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
 def _halves(space: RateSpace) -> list[Floats]:
     """Return, for each equation whose solutions are two cones tip to tip, what has one sign on one of them."""
     found = []
-    for form in local_forms(space.basis, space.left):
-        values, vectors = np.linalg.eigh(form)
-        there = np.abs(values) > DOUBLE.zero * np.abs(values).max()
-        singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
-        found += [signed(space.basis @ vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
+    for one in map(inertia, local_forms(space.basis, space.left)):
+        singles = [np.flatnonzero(one.signs == sign) for sign in (1, -1)]
+        found += [signed(space.basis @ one.vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
     return found

@@ -12,8 +12,10 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.canonical import MARGIN, canonical_basis
+from graphs.canonical import MARGIN
 from graphs.errors import UnsolvableError, shown
+from graphs.geometry import unit
+from graphs.rank.spaces import null_space
 from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 
@@ -68,9 +70,7 @@ def planes_over(pattern: Pattern, places: Floats) -> Floats:
             matrix[2 * row + end, 3 * one : 3 * one + 3] = point
             matrix[2 * row + end, 3 * other : 3 * other + 3] = [-value for value in point]
     level = np.eye(3, matrix.shape[1])
-    _, singular, vt = np.linalg.svd(np.vstack([matrix, level]))
-    rank = int((singular > DOUBLE.zero * singular[0]).sum())
-    return canonical_basis(vt[rank:].T)
+    return null_space(np.vstack([matrix, level]))
 
 
 def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
@@ -80,7 +80,7 @@ def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
     rows = []
     for a, b in pattern.creases:
         along = places[b] - places[a]
-        across = np.array([-along[1], along[0]]) / np.linalg.norm(along)
+        across = unit([-along[1], along[0]])
         rows.append(across @ (slopes[panel_at[a, b]] - slopes[panel_at[b, a]]))
     return np.array(rows).reshape(len(pattern.creases), -1)
 
@@ -93,7 +93,7 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
     """
     best: Floats = np.zeros(folds.shape[1])
     weights: Floats
-    most, inverse = -1.0, np.linalg.pinv(folds)
+    most, inverse = -1.0, np.linalg.pinv(folds, rcond=DOUBLE.zero)
     for _ in range(_STARTS):
         weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
         for _ in range(_ROUNDS):
