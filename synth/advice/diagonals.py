@@ -229,9 +229,3 @@ def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
     over, under = signed_area([[(a, b, c), (a, b, d)], [(c, d, a), (c, d, b)]])
     near = DOUBLE.same_point
     return all(min(areas) <= near and max(areas) >= -near for areas in (over, under))
-
-
-def _area(corners: Floats) -> float:
-    """Return the area of a polygon, counter-clockwise positive."""
-    x, y = corners.T
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2.0)

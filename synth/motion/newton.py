@@ -32,7 +32,6 @@ _HOLDS = 2
 """Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
-_MISSED = 1e-4
 _FREE = 1e-3
 """Part of a vector across the freedoms that is left where it has become one of them."""
 
@@ -124,7 +123,8 @@ class TangentSpace:
         places = list(joints)
         shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=DOUBLE.zero)
         rates = shares @ moves
-        possible = rank and np.abs(rates[places] - wanted).max() <= _MISSED * np.abs(wanted).max()
+        # normal equations keep half the digits
+        possible = rank and np.abs(rates[places] - wanted).max() <= DOUBLE.zero**0.5 * np.abs(wanted).max()
         return rates if possible and moves[:, places].max() > DOUBLE.zero else np.zeros_like(rates)
 
 

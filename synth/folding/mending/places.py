@@ -166,10 +166,3 @@ def _plane_of(points: Floats) -> Floats:
 def _crossing(vectors: Floats) -> Floats:
     """Return the matrices of cross products with vectors: float[n, 3, 3]."""
     return np.asarray(np.cross(vectors[:, None, :], np.eye(3)).transpose(0, 2, 1))
-
-
-def _onto(columns: Floats) -> Floats:
-    """Return the projection onto columns."""
-    basis, sizes, _ = np.linalg.svd(columns, full_matrices=False)
-    kept = basis[:, sizes > 1e-9 * sizes.max()]
-    return np.asarray(kept @ kept.T)
