@@ -38,10 +38,32 @@ from synth.motion.singular.sampling import (
 )
 from synth.motion.walk.stepping import Allowance
 
-__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of", "first_branch"]
+__all__ = [
+    "MOST_BRANCHES",
+    "MOST_JOINTS",
+    "Branch",
+    "Branches",
+    "Certainty",
+    "Search",
+    "branches_of",
+    "first_branch",
+    "search_for",
+    "signs_of",
+]
 
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
+
+MOST_JOINTS = 600
+"""Of larger linkages the branches are not looked for: matrices are dense."""
+
+MOST_BRANCHES, MOST_WORK = 128, 1e10
+"""So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
+row of panels more."""
+
+_FOLLOWED = 2500
+"""Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
+how fast a machine is."""
 
 _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
@@ -76,6 +98,11 @@ class Search:
     towards: Floats | None = None
 
 
+def search_for(joints: int, towards: Floats | None) -> Search:
+    """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
+    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
+
+
 @dataclass(frozen=True, slots=True)
 class Branch:
     """One way to move from a pose.
@@ -107,10 +134,10 @@ class Branch:
     Examples
     --------
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.prepared import prepared
+    >>> from synth.folding.configuration import configuration_of_sheet
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> branches = prepared(Sheet(5, (), "", faces, corners)).branches.branches
+    >>> branches = configuration_of_sheet(Sheet(5, (), "", faces, corners)).branches.branches
     >>> [(one.freedoms, one.certainty) for one in branches]
     [(1, 'proved'), (1, 'proved')]
     """
@@ -128,7 +155,7 @@ class Branch:
     @property
     def signs(self) -> str:
         """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-        return _signs(self.rates)
+        return signs_of(self.rates)
 
     def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
         """Return plain data, joints by their ids: those of the linkage, in order."""
@@ -368,12 +395,18 @@ class _Looking:
         return Branch(freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far)
 
 
-def _signs(rates: Floats) -> str:
-    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
+def signs_of(rates: Floats) -> str:
+    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all.
+
+    Examples
+    --------
+    >>> signs_of(np.array([1.0, -0.5, 1e-12]))
+    '+-0'
+    """
     return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
 
 
 def _rank_of(space: RateSpace, rates: Floats) -> Floats:
     """Return what branches are listed by: most joints that move, most rates, signs in order of joints, rates."""
-    signs = [" +-0".index(sign) for sign in _signs(rates)]
+    signs = [" +-0".index(sign) for sign in signs_of(rates)]
     return np.array([signs.count(3), -space.basis.shape[1], *signs, *rates], dtype=float)

@@ -26,7 +26,7 @@ from synth.motion.second_order import rates_at
 from synth.moving.circuits import Circuit, circuit_through
 from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense
 from synth.moving.conical_words import blocks_of_motion
-from synth.moving.linkages import linkage_on_cone
+from synth.moving.made import linkage_on_cone
 
 __all__ = ["ConicalMotion", "move_on_cone"]
 

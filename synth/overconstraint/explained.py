@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from graphs.convert.table import Mechanism
 from graphs.given import check_given
-from graphs.mechanism.sheet import Sheet
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import Tolerances
 from synth.motion.linkage import PosedLinkage
-from synth.moving.linkages import linkage_of
+from synth.moving.made import Movable, configuration_of
 from synth.overconstraint.answer import Explanation, IdleSet
 from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets
 from synth.overconstraint.reasons import reasons_of
@@ -16,15 +15,13 @@ from synth.overconstraint.tolerances import axis_tolerances
 __all__ = ["explain"]
 
 
-def explain(thing: Mechanism | PosedLinkage, tolerances: Tolerances = DOUBLE) -> Explanation:
+def explain(thing: Mechanism | PosedLinkage) -> Explanation:
     """Say which loops of a mechanism at its pose hold idle equations, why, and how far its axes may err.
 
     Parameters
     ----------
     thing : Mechanism or PosedLinkage
         With coordinates; of a sheet with several frames the first that has them.
-    tolerances : Tolerances, optional
-        Of its coordinates: what special geometry they can show.
 
     Raises
     ------
@@ -40,27 +37,24 @@ def explain(thing: Mechanism | PosedLinkage, tolerances: Tolerances = DOUBLE) ->
     >>> found.freedoms, found.count, found.idle, found.sets[0].reasons[0]
     (1, -2, 3, 'opposite links alike, lengths as the sines of the twists (Bennett)')
     """
-    check_given("explain", thing, Mechanism | PosedLinkage)
-    if isinstance(thing, Sheet) and thing.frames is not None:
-        thing = thing.frames.first_placed()
-    linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
-    return _explained(linkage, tolerances)
-
-
-def _explained(linkage: PosedLinkage, tolerances: Tolerances) -> Explanation:
-    order = first_order(linkage, tolerances)
+    check_given("explain", thing, Movable)
+    at = configuration_of(thing)
+    linkage = at.linkage
+    order = first_order(linkage, at.tolerances)
+    meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
     names = list(linkage.graph.joints)
     active = active_at_second_order(linkage, order)
     sets = tuple(
         IdleSet(
             tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
             number,
-            tuple(reasons_of(linkage, loops, tolerances)),
+            tuple(reasons_of(linkage, loops, meant)),
         )
         for loops, number in smallest_sets(linkage, order)
     )
     freedoms, idle = order.rates.shape[1], order.stresses.shape[1]
     return Explanation(
+        configuration=at,
         freedoms=freedoms,
         count=len(names) - len(order.loop_of),
         idle=idle,

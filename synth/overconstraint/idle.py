@@ -13,15 +13,14 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from graphs.canonical import canonical_basis
 from graphs.errors import NumericalError
-from graphs.geometry import lines_meet
 from graphs.loops.loop import Centre
 from graphs.rank.singular_values import spectrum
 from graphs.rank.spaces import row_space, singular_values, split
 from graphs.tolerances import DOUBLE, Tolerances
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 
-__all__ = ["FirstOrder", "active_at_second_order", "first_order", "lengths_of", "loop_alone", "smallest_sets"]
+__all__ = ["FirstOrder", "active_at_second_order", "first_order", "loop_alone", "smallest_sets"]
 
 _NUDGE = 1e-4
 
@@ -72,14 +71,14 @@ def first_order(linkage: PosedLinkage, tolerances: Tolerances = DOUBLE) -> First
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
-    >>> found = first_order(linkage_of(generate("bennett").mechanism))
+    >>> found = first_order(configuration_of(generate("bennett").mechanism).linkage)
     >>> found.rates.shape[1], found.stresses.shape[1]
     (1, 3)
     """
     matrix, loop_of = _by_loops(linkage, linkage.angles)
-    found = spectrum(matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / lengths_of(linkage)))
+    found = spectrum(matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / axis_lengths(linkage)))
     if found.rank is None:
         raise NumericalError("the rank of the closure equations at the pose cannot be told")
     parts = split(matrix)
@@ -129,22 +128,6 @@ def active_at_second_order(linkage: PosedLinkage, order: FirstOrder) -> int:
     stacked = np.stack(forms, axis=1)  # [idle, f, f]
     symmetric = (stacked + stacked.transpose(0, 2, 1)).reshape(stresses.shape[1], -1)
     return int((singular_values(symmetric) > order.tolerances.clear).sum())  # of unit rates and stresses
-
-
-def lengths_of(linkage: PosedLinkage) -> Floats:
-    """Return how long the pieces of the axes are by which their directions are known: float[J], of the extent.
-
-    A crease lies half on either side of its point, from the vertex that its loop goes round. Other axes are taken
-    to be known as if they were as long as the extent.
-    """
-    lengths = np.ones(len(linkage.angles))
-    for loop in linkage.loops:
-        joints = list(loop.joints)
-        if loop.centre is Centre.FINITE:
-            points = linkage.points[joints]
-            off = 2.0 * np.linalg.norm(points - lines_meet(points, linkage.directions[joints]).point, axis=1)
-            lengths[joints] = np.where(off > DOUBLE.same_point, off, 1.0)
-    return lengths
 
 
 def loop_alone(linkage: PosedLinkage, loop: PosedLoop) -> PosedLinkage:

@@ -16,8 +16,7 @@ from graphs.geometry import lines_meet, rigid_motion, sectors
 from graphs.loops.loop import Centre
 from graphs.rank.spaces import singular_values
 from graphs.tolerances import DOUBLE, Tolerances
-from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.overconstraint.idle import lengths_of
+from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 
 __all__ = ["reasons_of"]
 
@@ -34,13 +33,13 @@ def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolera
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
-    >>> reasons_of(linkage_of(generate("bricard-plane-symmetric").mechanism), (0,))
+    >>> reasons_of(configuration_of(generate("bricard-plane-symmetric").mechanism).linkage, (0,))
     ['plane symmetry: a mirror takes the axes to each other']
     """
     chosen = [linkage.loops[loop] for loop in loops]
-    turned = tolerances.parallel / lengths_of(linkage)
+    turned = tolerances.parallel / axis_lengths(linkage)
     near = [float(turned[list(loop.joints)].sum()) for loop in chosen]  # what rounding of all its axes comes to
     if len(chosen) == 1:
         return list(_of_one_loop(linkage, chosen[0], near[0]))

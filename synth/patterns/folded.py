@@ -28,4 +28,5 @@ def folded(sheet: Sheet, angle: float) -> Sheet:
     >>> folded(miura(2, 2, 1.0), 0.5)
     <Sheet: 4 faces, 4 creases, 9 vertices, folded>
     """
-    return fold_to(sheet, angle).folding.frames()[-1]
+    last: Sheet = fold_to(sheet, angle).folding.frames()[-1]
+    return last

@@ -11,7 +11,7 @@ import numpy as np
 from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.beginning import Wanted, beginning
 from synth.verdict.of_motion import verdict_of_motion
 
@@ -62,7 +62,7 @@ def motions_by_verdict(sheet: Sheet) -> Motions:
     >>> set(motions.of.values()), motions.clusters, motions.said
     ({'still'}, ((0, 1, 2),), 'no crease moves (grey, dotted; proved); panels of one colour move as one')
     """
-    pattern = prepared(sheet)
+    pattern = configuration_of_sheet(sheet)
     verdict = verdict_of_motion(pattern)
     still = set() if verdict.certainty == "not known" else set(verdict.stiff_joints)
     ways = [set(way.stiff_joints) for way in verdict.ways if way.certainty != "not known"]
@@ -119,11 +119,10 @@ def motions_on_branch(sheet: Sheet, branch: int | str | None = None) -> Motions:
     >>> list(motions_on_branch(sheet).of.values())
     ['mountain', 'valley', 'valley', 'valley']
     """
-    pattern = prepared(sheet)
+    pattern = configuration_of_sheet(sheet)
     linkage, found = pattern.linkage, pattern.branches
     joints = list(linkage.graph.joints)
-    marks = pattern.wanted
-    number, rates = beginning(pattern.closure, linkage, found, Wanted(branch, marks, [], np.zeros(0)))
+    number, rates = beginning(pattern, Wanted(branch))
     taken = found.branches[number or 0] if found is not None else None
     for_good = set(taken.still) if taken is not None else set()
     of: dict[JointId, Doing] = {}

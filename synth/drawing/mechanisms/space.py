@@ -25,7 +25,7 @@ from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, S
 from synth.drawing.space.bodies import bodies_of
 from synth.drawing.space.panels import Panels, panel_shapes, panels_of
 from synth.drawing.space.view import view_from_above
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 
 __all__ = ["folded_scene", "model_scene", "solids_scene"]
 
@@ -102,7 +102,7 @@ def solids_scene(
     >>> [layer.name for layer in solids_scene(HingedSolids(ring, axes)).layers]
     ['solids', 'labels', 'caption']
     """
-    panels, points = bodies_of(linkage_of(solids))
+    panels, points = bodies_of(configuration_of(solids).linkage)
     view = view_from_above(points)
     seen = view.places(points)
     extent = float(np.ptp(seen, axis=0).max()) or 1.0

@@ -15,7 +15,7 @@ from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.space.bodies import bodies_of, hinge_ends, places_of_hinges
 from synth.drawing.space.panels import panel_shapes
 from synth.drawing.space.view import view_from_above
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.moving.motion import move
 
 LINKAGES = Path(__file__).resolve().parents[4] / "data" / "linkages"
@@ -23,7 +23,7 @@ LINKAGES = Path(__file__).resolve().parents[4] / "data" / "linkages"
 
 @pytest.fixture(scope="module")
 def kaleidocycle():
-    return linkage_of(read(LINKAGES / "kaleidocycle-6.json"))
+    return configuration_of(read(LINKAGES / "kaleidocycle-6.json")).linkage
 
 
 def faces_of(panels, link):
@@ -45,7 +45,7 @@ def test_links_of_a_kaleidocycle_are_tetrahedra(kaleidocycle):
 
 def test_links_of_a_sarrus_linkage_are_plates_but_two():
     """Hinges of a leg are parallel: plates, to be seen from both sides. Base and top join two directions."""
-    linkage = linkage_of(read(LINKAGES / "sarrus.json"))
+    linkage = configuration_of(read(LINKAGES / "sarrus.json")).linkage
     panels, _ = bodies_of(linkage)
     sizes = {link: sorted(map(len, faces_of(panels, link))) for link in linkage.graph}
     assert sorted(sizes.values()).count([4, 4]) == 4
@@ -61,7 +61,7 @@ def test_axes_through_one_point_have_hinges_beside_it():
     ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     axes = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1)]
     ends = hinge_ends(
-        linkage_of(HingedSolids(ring, {joint: ((0, 0, 0), axis) for joint, axis in enumerate(axes)}))
+        configuration_of(HingedSolids(ring, {joint: ((0, 0, 0), axis) for joint, axis in enumerate(axes)})).linkage
     )
     middles = ends.mean(axis=1)
     assert min(np.linalg.norm(a - b) for a, b in combinations(middles, 2)) > 0.5
