@@ -12,6 +12,7 @@ import numpy as np
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
+from graphs.tolerances import DOUBLE
 from synth.folding.prepared import Prepared
 from synth.motion.beginning import MOST_JOINTS, Wanted, beginning, search_for
 from synth.motion.branches import Branch, Branches, branches_of
@@ -23,7 +24,6 @@ from synth.motion.walk.freedoms import free_rates, independent_joints
 __all__ = ["Ways", "ways_of_linkage", "ways_of_pattern"]
 
 _NEAREST = "near to the marks"
-_STILL = 1e-9
 _MOST_DRIVERS = 40
 """Joints with a slider of their own, at most; others can be dragged."""
 
@@ -158,7 +158,7 @@ def _ways(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | No
 def _nearest(linkage: PosedLinkage, closure: ClosureEquations, rates: Floats) -> Beginning:
     """Return the one way of a linkage whose branches are not looked for."""
     first, end = leading(rates), walked(linkage.angles, closure, rates)[0]
-    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
+    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > DOUBLE.immobile)
     freedoms, drivers = _driven(closure, end, moving, first)
     return Beginning(_NEAREST, rates, drivers, freedoms=freedoms)
 
