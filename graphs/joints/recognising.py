@@ -238,8 +238,9 @@ class _Seen:
         return [self._well_begun(leg) for leg in legs(self._graph())]
 
     def _well_begun(self, leg: Leg) -> Leg:
+        """Return a ring of binary links as it begins between two joints; other rows begin where they must."""
         first = leg.links[0]
-        if first != leg.links[-1] or first == self._chain.ground or self._degree(first) != 2:
+        if first == self._chain.ground or self._degree(first) != 2:
             return leg
         for shift in range(len(leg.joints)):
             joints, links = leg.joints[shift:] + leg.joints[:shift], leg.links[shift:-1] + leg.links[: shift + 1]

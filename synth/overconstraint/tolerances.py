@@ -49,10 +49,10 @@ def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.overconstraint.idle import first_order
     >>> from synth.patterns import generate
-    >>> linkage = linkage_of(generate("bennett").mechanism)
+    >>> linkage = configuration_of(generate("bennett").mechanism).linkage
     >>> len(tolerances(linkage, first_order(linkage)))
     4
     """
