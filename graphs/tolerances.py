@@ -20,6 +20,8 @@ _BLURRED, _COARSEST = 30.0, 3e-3
 above the second value: within it nothing that moves is told from what does not."""
 _MEANT_FLAT = 1e-5
 """Whoever draws or solves for points of one plane puts them this close to it."""
+_MEANT = 1e-6
+"""Whoever draws lines of one point puts them this close to it."""
 _MOVED = 4.0
 """A length between two rounded points, or an angle over a length of 1, is wrong by so many precisions at most."""
 
@@ -53,6 +55,8 @@ class Tolerances:
         Two points that are nearer than this are one; two lines or planes that pass nearer meet.
     parallel : float
         Directions that differ by less, in radians, are parallel.
+    meant : float
+        Lines that pass a point, or are off parallel, by less are meant to meet there or to be parallel.
     flat : float
         Points that are this close to one plane, in units of their own extent, are meant to lie in it.
 
@@ -75,6 +79,7 @@ class Tolerances:
     same_configuration: float
     same_point: float
     parallel: float
+    meant: float
     flat: float
 
     @classmethod
@@ -105,6 +110,7 @@ class Tolerances:
             same_configuration=1e-6,
             same_point=max(1e-9, wrong),
             parallel=max(1e-9, wrong),
+            meant=max(_MEANT, 6.0 * precision),
             flat=max(_MEANT_FLAT, 2.0 * precision),
         )
 

@@ -43,7 +43,7 @@ def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: 
     """
     points = in_space(sheet.coordinates or ())
     points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
-    tolerance = Tolerances.of(precision_of_sheet(sheet).size).same_point
+    tolerance = Tolerances.of(precision_of_sheet(sheet).size).meant
     centres = [axes_meet(points, [hinges[joint] for joint in cycle], tolerance) for cycle in cycles]
     return [
         Loop(cycle, centre) for cycle, centre in zip(cycles, centres, strict=True) if centre is not Centre.NONE
