@@ -98,6 +98,7 @@ class Sensitivity:
     Parameters
     ----------
     closure : ClosureEquations
+        Without locked joints: what is held is driven.
     angles : float[J]
         A closed configuration, radians.
     driven : sequence of int, optional

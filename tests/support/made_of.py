@@ -7,7 +7,7 @@ any coordinates of their vertices.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
 
 import numpy as np
@@ -70,7 +70,7 @@ def random_made(kind, seed):
         except SynthedraError:
             continue
         if made is not None and _far_from_singular(made):
-            return made
+            return replace(made, direction=made.direction / np.linalg.norm(made.direction))
     raise AssertionError(f"no {kind} moves")
 
 

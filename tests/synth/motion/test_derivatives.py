@@ -26,6 +26,7 @@ from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import folded_miura, miura
+from synth.patterns.panels import sheet_of_faces
 from synth.patterns.rings.bennett import bennett
 
 QUICK = [
@@ -280,6 +281,23 @@ def test_fold_angles_that_a_folded_sheet_has_change_with_its_vertices(rng):
     flat = miura(2, 3, 1.1)
     mechanism = mechanism_of_sheet(flat)
     assert abs(dependence_on_vertices(flat, mechanism, linkage_of_sheet(flat, mechanism)).zeros).max() == 0.0
+
+
+def test_creases_of_a_tube_that_are_turned_out_of_parallel_are_inconsistent():
+    """A loop of parallel creases closes with three equations, of which none sees it."""
+    corners = [(x, y, z) for z in (0.0, 1.5) for x, y in [(0.0, 0.0), (1.0, 0.0), (1.2, 1.0), (0.2, 1.0)]]
+    faces = [(i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4) for i in range(4)]
+    sheet = sheet_of_faces(corners, faces)
+    mechanism = mechanism_of_sheet(sheet)
+    linkage = linkage_of_sheet(sheet, mechanism)
+    assert [loop.centre.value for loop in linkage.loops] == ["infinite"]
+    angles = driven_path(ClosureEquations(linkage), linkage.angles, [0], [linkage.angles[:1] + 0.3]).angles[-1]
+    at = SheetDerivatives(sheet, mechanism, linkage).at(angles, [0])
+    sheared, turned = np.zeros((8, 3)), np.zeros((8, 3))
+    sheared[[2, 6], 0] = 1.0
+    turned[6, 0] = 1.0
+    assert np.abs(at.forward(sheared).residual).max() < 1e-14
+    assert np.abs(at.forward(turned).residual).max() > 1e-2
 
 
 def test_vertices_of_no_panel_stay_where_their_coordinates_are():
