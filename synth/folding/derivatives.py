@@ -97,7 +97,8 @@ def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: Pos
 def _fold_angles(creases: Creases, corners: Floats) -> scipy.sparse.csr_matrix:
     """Return the derivatives of the fold angles that a sheet has: sparse float[J, 3 V].
 
-    The angle is atan2((m x n) . a, m . n), m and n the normals beside the crease and a its axis.
+    The angle is atan2((m x n) . a, m . n), m and n the normals beside the crease and a its axis. Panels are
+    planar, so m x n is along a, and how a turns does not count.
     """
     vectors = creases.area_vectors(corners)
     sizes = np.linalg.norm(vectors, axis=1)
@@ -114,18 +115,12 @@ def _fold_angles(creases: Creases, corners: Floats) -> scipy.sparse.csr_matrix:
 
     axes = creases.directions(corners)
     m, n = normals[creases.sides[:, 0]], normals[creases.sides[:, 1]]
-    product = np.cross(m, n)
-    sine, cosine = (product * axes).sum(axis=1, keepdims=True), (m * n).sum(axis=1, keepdims=True)
-    whole = sine**2 + cosine**2
-    first = (cosine * np.cross(n, axes) - sine * n) / whole
-    second = (cosine * np.cross(axes, m) - sine * m) / whole
+    sine = (np.cross(m, n) * axes).sum(axis=1, keepdims=True)
+    cosine = (m * n).sum(axis=1, keepdims=True)
+    first = cosine * np.cross(n, axes) - sine * n
+    second = cosine * np.cross(axes, m) - sine * m
     beside = _in_blocks(np.stack([first, second], axis=1)[:, :, None, :], creases.sides, len(creases.faces))
-    ends = corners[creases.ends]
-    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    onto = product - sine * axes  # what turns the axis out of the line of both panels
-    turned = (cosine / whole) * onto * (creases.ways / lengths)[:, None]
-    by_ends = _in_blocks(np.stack([-turned, turned], axis=1)[:, :, None, :], creases.ends, len(corners))
-    return (beside @ by_normals + by_ends).tocsr()
+    return (beside @ by_normals).tocsr()
 
 
 @dataclass(frozen=True, slots=True)
