@@ -21,8 +21,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
 
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
-from synth.folding.prepared import prepared
 from synth.folding.vertices import largest_panel
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.bodies import bodies_of_sheet
@@ -37,7 +37,7 @@ FRAMES = 100
 
 def question(n: int) -> dict[str, object]:
     """Return what the solver is asked of one size."""
-    pattern = prepared(fold(miura(n, n, SECTOR), frames=9).frames()[1])  # 20 degrees of 179
+    pattern = configuration_of_sheet(fold(miura(n, n, SECTOR), frames=9).frames()[1])  # 20 degrees of 179
     driver = int(np.abs(pattern.linkage.angles).argmax())
     begun = float(pattern.linkage.angles[driver])
     bodies = bodies_of_sheet(pattern.sheet, pattern.mechanism, pattern.linkage)

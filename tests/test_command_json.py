@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = (ROOT / "docs" / "command-json.md").read_text(encoding="utf-8")
 NAMED = set(re.findall(r"`\"?([A-Za-z]\w*)\"?`", PAGE))
 BY_NAME = {"parameters", "equations", "counts", "driven", "driven_deg", "angles_deg", "joint_angles_deg", "azimuths_deg",
-           "fold_angles_deg", "turns", "by_size"}  # fmt: skip
+           "turns", "by_size"}  # fmt: skip
 """Keys of objects whose own keys are names: of parameters, equations, joints."""
 
 COMMANDS = [

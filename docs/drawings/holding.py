@@ -23,7 +23,7 @@ from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.plot import Plot, round_steps, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape
 from synth.drawing.space.poses import pose_scenes
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 
 __all__ = ["DRAWINGS"]
 
@@ -62,7 +62,7 @@ def _set_of_loops(corners: Sequence[Point], number: int) -> list[Shape]:
 
 def compliance() -> Scene:
     """A four-bar with a spring: energy and moment while its crank is driven once round."""
-    linkage = linkage_of(generated_solids("four-bar", arc1=0.5, arc2=1.3, arc3=1.2, arc4=1.4))
+    linkage = configuration_of(generated_solids("four-bar", arc1=0.5, arc2=1.3, arc3=1.2, arc4=1.4)).linkage
     elastic = ElasticLinkage(linkage, Springs({2: 1.0}, {2: 0.5}))
     rest = equilibrium(elastic)
     start = rest.angles

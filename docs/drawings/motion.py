@@ -16,6 +16,7 @@ from drawings.patterned import Patterned
 from drawings.pieces import head, on_air
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
@@ -25,14 +26,14 @@ from synth.drawing.scene.plot import Plot, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Shape
 from synth.drawing.space.bodies import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.derivatives import SheetDerivatives
-from synth.folding.motion import Folding
-from synth.folding.prepared import prepared
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
+from synth.motion.motion import Motion
 from synth.moving.circuits import circuit_through
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 
 __all__ = ["DRAWINGS"]
 
@@ -48,7 +49,7 @@ _ASLANT, _LARGER = 0.4, 300
 def folding() -> Scene:
     """The branches of a flat Miura sheet: creases as they begin, and a pose on each."""
     sheet = generated_sheet("miura", rows=3, columns=3)
-    branches = prepared(sheet).branches
+    branches = configuration_of_sheet(sheet).branches
     assert branches is not None
     columns = [_branch(sheet, number, branch.freedoms) for number, branch in enumerate(branches.branches)]
     words = "creases as each way begins: mountains red, valleys blue and dashed, creases that lie still dotted"
@@ -64,7 +65,7 @@ def _branch(sheet: Sheet, number: int, freedoms: int | None) -> Scene:
     return said(above(pattern, pose, gap=0.0), f"way {number}: {numbered(freedoms, 'freedom')}")
 
 
-def _lettered(sheet: Sheet, followed: Folding, frame: int) -> Sheet:
+def _lettered(sheet: Sheet, followed: Motion, frame: int) -> Sheet:
     """Return a sheet with the letters that its creases have in a frame; those that lie still are unassigned."""
     angles = dict(zip(followed.joints, followed.path.angles[frame].tolist(), strict=True))
     letters = {joint: "U" if abs(angle) < _STILL else "V" if angle > 0 else "M" for joint, angle in angles.items()}
@@ -74,7 +75,7 @@ def _lettered(sheet: Sheet, followed: Folding, frame: int) -> Sheet:
 
 def moving() -> Scene:
     """A kaleidocycle at four poses of its circuit."""
-    linkage = linkage_of(generated_solids("kaleidocycle", solids=6))
+    linkage = configuration_of(generated_solids("kaleidocycle", solids=6)).linkage
     circuit = circuit_through(ClosureEquations(linkage), linkage.angles).angles
     poses = circuit[[round(eighth * (len(circuit) - 1) / 8) for eighth in range(4)]]
     panels, _ = bodies_of(linkage)
@@ -106,7 +107,7 @@ def positions() -> Scene:
 def _circuits(four_bar: HingedSolids, driven: float) -> Scene:
     """Return the angle of joint 2 against that of joint 0, degrees, on all circuits that a driven angle meets."""
     found = synth.positions(four_bar, {0: radians(driven)})
-    closure = ClosureEquations(linkage_of(four_bar))
+    closure = ClosureEquations(configuration_of(four_bar).linkage)
     plot = Plot(34.0, 20.0, 170.0, 150.0, (-180.0, 180.0), (-180.0, 180.0))
     shapes: list[Shape] = [*plot.below((-180, -90, 0, 90, 180), "driven angle, degrees")]
     shapes += plot.beside((-180, -90, 0, 90, 180), "angle of another joint")
@@ -145,7 +146,7 @@ def mending() -> Scene:
     """A Miura sheet with rounded coordinates, its errors enlarged, beside the mended one and a pose of that."""
     rounded = _rounded(generated_sheet("miura", rows=3, columns=4, sector=1.2))
     assert not branches_of(linkage_of_sheet(rounded)).branches
-    found = prepared(rounded)
+    found = configuration_of_sheet(rounded)
     assert found.branches is not None
     (repair,) = found.repairs
     _, pose = pose_scenes(found.sheet, synth.fold(found.sheet, frames=6).places[[0, 3]], 120.0)
@@ -191,8 +192,7 @@ def derivatives() -> Scene:
     towards = places[ends[1]] - places[ends[0]]
     by_places = np.zeros_like(places)
     by_places[ends, :] = np.outer([-1.0, 1.0], towards / np.linalg.norm(towards))
-    found = prepared(sheet)
-    shape = SheetDerivatives(found.sheet, found.mechanism, found.linkage)
+    shape = SheetDerivatives(sheet, mechanism_of_sheet(sheet), followed.linkage)
     at = shape.at(followed.path.angles[_HALF_FOLDED], [0])
     moves = -at.adjoint(by_places=by_places)
     pattern = Patterned(sheet, 150.0)

@@ -181,7 +181,7 @@ def viewer() -> Scene:
     folding = synth.fold(synth.generate("miura").mechanism, frames=4)
     [(joint, goal)] = folding.driven.items()
     angles = folding.path.angles[:, folding.joints.index(joint)].tolist()
-    poses = [cropped(thinned(scene)) for scene in pose_scenes(folding.sheet, folding.places, 104.0)]
+    poses = [cropped(thinned(scene)) for scene in pose_scenes(folding.configuration.sheet, folding.places, 104.0)]
     high = max(pose.height for pose in poses)
     columns = [
         above(_slider(angle / goal, f"{signed(round(degrees(angle)))}°"), on_air(pose, 92.0, high), gap=4.0)

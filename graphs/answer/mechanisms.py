@@ -15,7 +15,7 @@ import numpy as np
 from graphs.answer.jointed import mobility_of_jointed
 from graphs.answer.ranks import model_with_exact, model_with_pose, notes_of_pose, with_exact, with_pose
 from graphs.answer.report import MobilityAnswer
-from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
@@ -26,16 +26,13 @@ from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.pose import pose_mobility_of_axes
+from graphs.tolerances import DOUBLE
 
-__all__ = ["lying", "mobility"]
+__all__ = ["lying", "mobility", "precision_of_steps"]
 
 _ASSUMED = "a link-joint graph without centres: each face of a drawing was given a finite one, which decides M"
 _ANY_CONE = pi / 4
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
-
-
-_SOLVED = 1e-12
-"""Error of steps that a solver found, in radians."""
 
 
 def mobility(
@@ -45,6 +42,7 @@ def mobility(
     hinge_flat: bool = False,
     pose: int | Literal[False] | None = None,
     geometry: bool = True,
+    dual: SheetMechanism | None = None,
 ) -> MobilityAnswer:
     """Say how many degrees of freedom a mechanism has, and which formula tells.
 
@@ -63,6 +61,8 @@ def mobility(
         freedoms out.
     geometry : bool, optional
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
+    dual : SheetMechanism, optional
+        Of the crease pattern as it lies, made with the same options, where it is at hand.
 
     Returns
     -------
@@ -85,7 +85,9 @@ def mobility(
     """
     demanded, wanted = bool(exact), exact is not False
     if isinstance(mechanism, Sheet):
-        return _of_sheet(mechanism, exact, hinge_flat, pose, geometry)
+        drawn = lying(mechanism, None if pose is False else pose)
+        dual = dual or mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
+        return _of_sheet(drawn, dual, exact, pose, hinged=(hinge_flat, geometry))
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
         if wanted:
@@ -125,25 +127,29 @@ def _conformed(answer: MobilityAnswer, linkage: ConicalLinkage) -> MobilityAnswe
         joint: ((0.0, 0.0, 0.0), (sin(tilt) * cos(t), sin(tilt) * sin(t), cos(tilt)))
         for joint, t in zip(linkage.chain.joints, linkage.places(), strict=True)
     }
-    pose = replace(pose_mobility_of_axes(linkage.chain, axes, _precision_of_steps(linkage)), flat=False)
+    pose = replace(pose_mobility_of_axes(linkage.chain, axes, precision_of_steps(linkage)), flat=False)
     return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
 
 
-def _precision_of_steps(linkage: ConicalLinkage) -> Precision:
+def precision_of_steps(linkage: ConicalLinkage) -> Precision:
     """Return how precise places are, in radians: the steps as files write them, in degrees, or solved for."""
     assert linkage.steps is not None
     steps = np.degrees(list(linkage.steps.values()))[:, None]
     written = precision_of(steps.tolist())
-    size = max(np.radians(written.size * extent_of(steps)), _SOLVED) * len(linkage.chain.joints) ** 0.5
+    size = max(np.radians(written.size * extent_of(steps)), DOUBLE.closed) * len(linkage.chain.joints) ** 0.5
     return Precision(float(size), written.source)
 
 
 def _of_sheet(
-    sheet: Sheet, exact: bool | None, hinge_flat: bool, pose: int | Literal[False] | None, geometry: bool
+    drawn: Sheet,
+    dual: SheetMechanism,
+    exact: bool | None,
+    pose: int | Literal[False] | None,
+    *,
+    hinged: tuple[bool, bool],
 ) -> MobilityAnswer:
     """Answer for a crease pattern; where flat edges matter, say what it is the other way round."""
-    drawn = lying(sheet, None if pose is False else pose)
-    dual = mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
+    hinge_flat, geometry = hinged
     answer = MobilityAnswer.of(mobility_report(dual.sc))
     answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
     notes = []

@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.table import Mechanism
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.given import check_given
@@ -24,12 +23,14 @@ from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
 from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
-from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, general_pose_of_sheet
+from synth.advice.general_pose import GeneralPose, general_pose
 from synth.advice.locks import Cost, cheapest_sets, held
 from synth.advice.search import Bounds, Candidates, freedoms_when_left_out, smallest_sets
+from synth.folding.configuration import SheetConfiguration
 from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
 from synth.motion.walk.stepping import Allowance
-from synth.moving.linkages import linkage_of, sheet_of
+from synth.moving.made import Movable, configuration_of
 
 __all__ = ["advise"]
 
@@ -66,7 +67,7 @@ class _Locks(NamedTuple):
 
 
 def advise(
-    thing: Mechanism,
+    thing: Movable,
     freedoms: int,
     *,
     branch: int | str | None = None,
@@ -125,18 +126,13 @@ def advise(
     >>> advice, advice.locks[0].joints, advice.locks[0].weight
     (<Advice: 3 to 0 freedoms, 1 sets>, (1, 3, 4), 3.0)
     """
-    check_given("advise", thing, Mechanism)
+    check_given("advise", thing, Movable)
     kept = _Kept(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)
-    sheet = sheet_of(thing)
-    if sheet is not None and sheet.frames is not None:
-        sheet = sheet.frames.first_placed()
-    pose = (
-        general_pose_of_linkage(linkage_of(thing), branch)
-        if sheet is None
-        else general_pose_of_sheet(sheet, branch)
-    )
+    at = configuration_of(thing)
+    sheet = at.drawn if isinstance(at, SheetConfiguration) else None
+    pose = general_pose(at, branch)
     _check_names(pose, kept)
     every = list(pose.linkage.graph.joints)
     flapping = tuple(every[place] for place in pose.flaps)
@@ -144,6 +140,7 @@ def advise(
         found = _locks(pose, pose.freedoms - freedoms, kept, limit)
         locks = tuple(_with_left_out(lock, sheet) for lock in found.sets) if leave_out else found.sets
         return Advice(
+            at,
             pose.freedoms,
             freedoms,
             pose.branch,
@@ -151,11 +148,10 @@ def advise(
             locks,
             more=found.more,
             used_up=found.used_up,
-            mended=pose.mended,
         )
     largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
     _check_number("size", largest, freedoms - pose.freedoms)
-    return _creased(pose, freedoms, kept, (largest, limit), sheet)
+    return _creased(at, pose, freedoms, kept, (largest, limit))
 
 
 def _locks(pose: GeneralPose, size: int, kept: _Kept, limit: int) -> _Locks:
@@ -230,9 +226,9 @@ def _freedoms_without(pose: GeneralPose, places: tuple[int, ...]) -> int | None:
     return None if rank is None else others.shape[1] - rank
 
 
-def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int], given: Sheet | None) -> Advice:
+def _creased(at: Configuration, pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int]) -> Advice:
     """Return the smallest sets of diagonals that bring the freedoms wanted."""
-    if pose.sheet is None:
+    if pose.sheet is None or not isinstance(at, SheetConfiguration):
         raise UnsolvableError(
             f"{numbered(pose.freedoms, 'freedom')}, and {freedoms} wanted: only panels of a sheet can be creased"
         )
@@ -245,7 +241,7 @@ def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int
     found = smallest_sets(pose.sheet, candidates, bounds, limit)
     creases = tuple(
         Creased(
-            tuple(_as_given(candidates.diagonals[place], given) for place in places),
+            tuple(_as_given(candidates.diagonals[place], at.drawn) for place in places),
             sum(flaps[chosen[place]] for place in places),
             freedoms,
         )
@@ -253,6 +249,7 @@ def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int
     )
     every = list(pose.linkage.graph.joints)
     return Advice(
+        at,
         pose.freedoms,
         freedoms,
         pose.branch,
@@ -262,13 +259,11 @@ def _creased(pose: GeneralPose, freedoms: int, kept: _Kept, most: tuple[int, int
         used_up=found.used_up,
         searched=found.searched,
         refused=found.refused,
-        mended=pose.mended,
     )
 
 
-def _as_given(diagonal: Diagonal, sheet: Sheet | None) -> Diagonal:
+def _as_given(diagonal: Diagonal, sheet: Sheet) -> Diagonal:
     """Return a diagonal with the vertices that the sheet had before it was opened along its cuts."""
-    assert sheet is not None
     around = sheet.faces[diagonal.face]
     first, last = diagonal.corners
     return Diagonal(diagonal.panel, diagonal.face, diagonal.corners, (around[first], around[last]))

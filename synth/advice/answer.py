@@ -12,6 +12,8 @@ from graphs.errors import numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
 from synth.advice.diagonals import Diagonal
+from synth.motion.branches import Branch
+from synth.motion.configuration import Configuration
 
 __all__ = ["Advice", "Creased", "Locked"]
 
@@ -91,6 +93,8 @@ class Advice(Printed):
 
     Attributes
     ----------
+    configuration : Configuration
+        Where it was asked.
     freedoms : int
         That there are, M.
     wanted : int
@@ -112,10 +116,9 @@ class Advice(Printed):
         The largest number of diagonals that was looked through.
     refused : int
         Sets of diagonals that have the rates and, folded, not the freedoms.
-    mended : tuple of str
-        What was done to rounded coordinates before.
     """
 
+    configuration: Configuration
     freedoms: int
     wanted: int
     branch: int | None
@@ -126,11 +129,16 @@ class Advice(Printed):
     used_up: bool = False
     searched: int | None = None
     refused: int = 0
-    mended: tuple[str, ...] = ()
+
+    @property
+    def taken(self) -> Branch | None:
+        """The way to move on which that holds; None where nothing moves."""
+        return self.configuration.branch(self.branch or 0)
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
+            "configuration": self.configuration.to_json(self.taken),
             "freedoms": self.freedoms,
             "wanted": self.wanted,
             "branch": self.branch,
@@ -141,13 +149,13 @@ class Advice(Printed):
             "used_up": self.used_up,
             "searched": self.searched,
             "refused": self.refused,
-            "mended": list(self.mended),
+            "mended": list(self.configuration.mended),
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
         where = "at the pose given" if self.branch is None else f"beside it, on way {self.branch}"
-        lines: list[Block] = [f"mended: {repair}" for repair in self.mended]
+        lines: list[Block] = [f"mended: {repair}" for repair in self.configuration.mended]
         lines.append(f"{numbered(self.freedoms, 'freedom')} {where}; wanted {self.wanted}")
         if self.flaps:
             joints = ", ".join(map(shown, self.flaps))

@@ -69,9 +69,10 @@ def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[
 
     Examples
     --------
-    >>> from synth.advice.general_pose import general_pose_of_sheet
+    >>> from synth.advice.general_pose import general_pose
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns.creases.tessellations import miura
-    >>> len(diagonals_of(general_pose_of_sheet(miura(3, 3, 1.0)), protected={4}))
+    >>> len(diagonals_of(general_pose(configuration_of(miura(3, 3, 1.0))), protected={4}))
     16
     """
     if pose.sheet is None or pose.mechanism is None:
@@ -116,9 +117,10 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
 
     Examples
     --------
-    >>> from synth.advice.general_pose import general_pose_of_sheet
+    >>> from synth.advice.general_pose import general_pose
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns.creases.tessellations import miura
-    >>> pose = general_pose_of_sheet(miura(3, 3, 1.0))
+    >>> pose = general_pose(configuration_of(miura(3, 3, 1.0)))
     >>> loads, flaps = loads_on_stresses(pose, diagonals_of(pose))
     >>> sum(flaps), int((abs(loads).max(axis=0) < 1e-8).sum())
     (4, 10)

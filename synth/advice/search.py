@@ -17,7 +17,7 @@ from graphs.arrays import Floats
 from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
 from synth.advice.diagonals import Diagonal
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.walk.stepping import Allowance
 
 __all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
@@ -177,7 +177,7 @@ def freedoms_when_left_out(sheet: Sheet, joints: Sequence[int]) -> int | None:
 
 
 def _freest(sheet: Sheet) -> int | None:
-    pattern = prepared(sheet)
+    pattern = configuration_of_sheet(sheet)
     if not pattern.linkage.graph.joints:
         return 0
     found = pattern.branches

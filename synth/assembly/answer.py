@@ -13,8 +13,11 @@ from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock, plain
+from synth.motion.configuration import Configuration
 
 __all__ = ["Position", "Positions"]
+
+_OTHER_QUESTION = "positions finds all configurations at angles of driven joints, whatever branch they are on"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +44,8 @@ class Positions(Printed):
 
     Attributes
     ----------
+    configuration : Configuration
+        Where it was asked.
     joints : tuple of joint ids
     driven : mapping of joint id to float
         Radians.
@@ -59,6 +64,7 @@ class Positions(Printed):
     notes : tuple of str
     """
 
+    configuration: Configuration
     joints: tuple[JointId, ...]
     driven: Mapping[JointId, float]
     positions: tuple[Position, ...]
@@ -77,6 +83,7 @@ class Positions(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "driven_deg": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
             "positions": [
                 {

@@ -10,7 +10,6 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
-from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, shown
 from graphs.given import check_given
 from graphs.ids import JointId
@@ -19,9 +18,8 @@ from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of
 from synth.assembly.general import GeneralPositions, apart, general_positions
 from synth.assembly.kernel import Complexes
-from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
-from synth.moving.linkages import linkage_of
+from synth.moving.made import Movable, configuration_of
 
 __all__ = ["positions", "solutions"]
 
@@ -36,7 +34,7 @@ _SURER = (SMALL, SMALL / 30, SMALL / 1000)
 
 
 def positions(
-    thing: Mechanism | PosedLinkage, drive: Mapping[JointId, float], *, circuits: bool = True, seed: int = 0
+    thing: Movable, drive: Mapping[JointId, float], *, circuits: bool = True, seed: int = 0
 ) -> Positions:
     """Find all positions of a spherical linkage at given angles of as many joints as it has freedoms.
 
@@ -71,8 +69,9 @@ def positions(
     >>> len(found.positions), found.general, found.exhaustive
     (2, 2, True)
     """
-    check_given("positions", thing, Mechanism | PosedLinkage)
-    linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
+    check_given("positions", thing, Movable)
+    at = configuration_of(thing)
+    linkage = at.linkage
     for joint, angle in drive.items():
         if not isfinite(angle):
             raise InvariantError("angle", f"the angle of joint {shown(joint)} is {angle}", "a finite number")
@@ -85,6 +84,7 @@ def positions(
     real = np.abs(values.imag).max(axis=1, initial=0.0) <= _REAL
     found = _in_order([_angles(linkage, family, member, one) for one in values.real[real]])
     answer = Positions(
+        at,
         tuple(names),
         dict(drive),
         tuple(Position(one) for one in found),
@@ -94,7 +94,7 @@ def positions(
         lost,
         general.curves,
     )
-    return _with_circuits(answer, linkage) if circuits and len(drive) == 1 else answer
+    return _with_circuits(answer) if circuits and len(drive) == 1 else answer
 
 
 def solutions(
@@ -157,11 +157,13 @@ def _in_order(found: list[Floats]) -> list[Floats]:
     return [found[place] for place in canonical_order(found)]
 
 
-def _with_circuits(answer: Positions, linkage: PosedLinkage) -> Positions:
+def _with_circuits(answer: Positions) -> Positions:
     """Add circuits and branches, or say why they are not told."""
     driver = answer.joints.index(next(iter(answer.driven)))
     try:
-        members = members_of_circuits(ClosureEquations(linkage), [one.angles for one in answer.positions], driver)
+        members = members_of_circuits(
+            answer.configuration.closure, [one.angles for one in answer.positions], driver
+        )
     except SynthedraError as error:
         return replace(answer, notes=(*answer.notes, f"circuits are not told: {error}"))
     found = tuple(

@@ -18,6 +18,7 @@ from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.freedoms import State
 from synth.compliance.members import Members
 from synth.compliance.small_motions import SmallMotion
+from synth.motion.configuration import Configuration
 
 __all__ = ["Elastic", "PathPose", "RestPassed", "States", "Transition"]
 
@@ -25,6 +26,8 @@ _LISTED = 20
 """Sets, transitions, poses and modes that are printed; data has all."""
 _LEVEL = 1e-9
 """Moments below this part of the largest of a path are printed as zero."""
+
+_OTHER_QUESTION = "states asks of each set of active members which freedoms it has, on the freest branch"
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +213,8 @@ class States(Printed):
 
     Attributes
     ----------
+    configuration : Configuration
+        Where it was asked.
     compliant : Members
     now : State
         Members are active whose springs are not at rest.
@@ -228,6 +233,7 @@ class States(Printed):
     <States: rigid immobile; compliant mechanism>
     """
 
+    configuration: Configuration
     compliant: Members
     now: State
     sets: tuple[State, ...]
@@ -242,6 +248,7 @@ class States(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "compliant": self.compliant.to_json(),
             "state": self.now.to_json(),
             "sets": [one.to_json() for one in self.sets],

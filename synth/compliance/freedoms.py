@@ -13,8 +13,7 @@ import networkx as nx
 from graphs.errors import UnsolvableError, numbered
 from graphs.rank.singular_values import spectrum
 from synth.compliance.members import Members, released
-from synth.motion.beginning import MOST_JOINTS, search_for
-from synth.motion.branches import Certainty, branches_of
+from synth.motion.branches import MOST_JOINTS, Certainty, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 
@@ -41,7 +40,7 @@ class State:
         Of finite motion, with resting members rigid and active ones released; on the freest way. None where it is
         not known.
     certainty : {"proved", "numerical", "not known"}
-        Proved: no rates close to first order, or the equations are independent; or as `synth.folding.branches_of`
+        Proved: no rates close to first order, or the equations are independent; or as `synth.motion.branches_of`
         says.
 
     Examples
@@ -93,9 +92,9 @@ def state_of(linkage: PosedLinkage, compliant: Members, active: Members) -> Stat
     A four-bar in the plane, one joint of which is a flexure:
 
     >>> from synth.compliance.members import NONE
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
-    >>> four_bar = linkage_of(generate("four-bar").mechanism)
+    >>> four_bar = configuration_of(generate("four-bar").mechanism).linkage
     >>> [state_of(four_bar, Members((0,)), active).kind for active in (NONE, Members((0,)))]
     ['rigid immobile', 'compliant mobile']
     """

@@ -12,19 +12,16 @@ from math import acos, atan2, inf, pi, tau
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError
 from graphs.ids import LinkId
-from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
 from synth.compliance.freedoms import state_of
 from synth.compliance.limits_answer import End, Limits, RideAlong, Truss
 from synth.compliance.members import NONE, Members, released
 from synth.motion.closure import ClosureEquations
-from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage
-from synth.moving.linkages import linkage_of
+from synth.moving.made import Movable, configuration_of
 
 __all__ = ["Corner", "angles_left", "limits"]
 
@@ -110,7 +107,7 @@ def angles_left(corner: Corner, angle: float) -> tuple[End | None, End | None]:
     return End(narrowest, "folded"), End(widest, "stretched")
 
 
-def limits(thing: Mechanism | PosedLinkage, keep: Collection[LinkId] = ()) -> Limits:
+def limits(thing: Movable, keep: Collection[LinkId] = ()) -> Limits:
     """Say what range of angles the ride-alongs of a mechanism leave, and what remains where they are straight.
 
     Parameters
@@ -134,15 +131,13 @@ def limits(thing: Mechanism | PosedLinkage, keep: Collection[LinkId] = ()) -> Li
     >>> found, found.truss.freedoms
     (<Limits: 6 ride-alongs>, 0)
     """
-    if isinstance(thing, Sheet) and thing.frames is not None:
-        thing = thing.frames.first_placed()
-    linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
-    check_closed(ClosureEquations(linkage), linkage)
+    at = configuration_of(thing)
+    linkage = at.linkage
     steps = [step for step in reduce(linkage.graph, keep=keep).steps if step.joint is not None]
     if not steps:
         raise UnsolvableError("there are no ride-alongs: expected two binary links on two adjacent ones")
     middles = Members(tuple(step.joints[1] for step in steps))
-    return Limits(tuple(_ride_alongs(linkage, steps)), _truss(linkage, middles))
+    return Limits(at, tuple(_ride_alongs(linkage, steps)), _truss(linkage, middles))
 
 
 def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep]) -> Iterator[RideAlong]:

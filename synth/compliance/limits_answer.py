@@ -9,10 +9,13 @@ from typing import Any, Literal
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
+from synth.motion.configuration import Configuration
 
 __all__ = ["End", "Limits", "RideAlong", "Truss"]
 
 _LISTED = 40
+
+_OTHER_QUESTION = "limits looks at ride-alongs, each with the links that it sits on, and at no branch"
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +118,8 @@ class Limits(Printed):
 
     Attributes
     ----------
+    configuration : Configuration
+        Where it was asked.
     ride_alongs : tuple of RideAlong
         Those that sit on others come before these.
     truss : Truss
@@ -127,12 +132,17 @@ class Limits(Printed):
     0
     """
 
+    configuration: Configuration
     ride_alongs: tuple[RideAlong, ...]
     truss: Truss
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        return {"ride_alongs": [one.to_json() for one in self.ride_alongs], "truss": self.truss.to_json()}
+        return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
+            "ride_alongs": [one.to_json() for one in self.ride_alongs],
+            "truss": self.truss.to_json(),
+        }
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""

@@ -15,8 +15,7 @@ from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
 from graphs.ids import JointId
-from synth.motion.beginning import MOST_JOINTS, search_for
-from synth.motion.branches import branches_of
+from synth.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage
@@ -126,9 +125,10 @@ class ElasticLinkage:
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
-    >>> bent = ElasticLinkage(linkage_of(generate("four-bar").mechanism), Springs({0: 2.0}, {0: 0.5}))
+    >>> four_bar = configuration_of(generate("four-bar").mechanism).linkage
+    >>> bent = ElasticLinkage(four_bar, Springs({0: 2.0}, {0: 0.5}))
     >>> bent.freedoms, bent.energy(bent.linkage.angles)
     (1, 0.25)
     """

@@ -11,22 +11,19 @@ import numpy as np
 from scipy.optimize import brentq
 
 from graphs.arrays import Floats
-from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.given import check_given
 from graphs.ids import JointId, LinkId
-from graphs.mechanism.sheet import Sheet
 from synth.compliance.answer import Elastic, PathPose, RestPassed, States, Transition
 from synth.compliance.equilibrium import LoadPath, equilibrium, load_path
 from synth.compliance.freedoms import State, state_of, states_of_sets
 from synth.compliance.members import Members
 from synth.compliance.small_motions import Masses, small_motions
 from synth.compliance.springs import ElasticLinkage, Springs
-from synth.motion.closure import ClosureEquations
-from synth.motion.driving import check_closed, goals_of
+from synth.motion.driving import goals_of
 from synth.motion.linkage import PosedLinkage
 from synth.motion.placement import moved
-from synth.moving.linkages import linkage_of
+from synth.moving.made import Movable, configuration_of
 
 __all__ = ["Drive", "states"]
 
@@ -59,7 +56,7 @@ class Drive:
 
 
 def states(
-    thing: Mechanism | PosedLinkage,
+    thing: Movable,
     joints: Collection[JointId] = (),
     links: Collection[LinkId] = (),
     *,
@@ -101,11 +98,9 @@ def states(
     >>> found.classes, [(len(one.active), one.freedoms) for one in found.sets]
     (('compliant mechanism',), [(0, 0), (1, 1)])
     """
-    check_given("states", thing, Mechanism | PosedLinkage)
-    if isinstance(thing, Sheet) and thing.frames is not None:
-        thing = thing.frames.first_placed()
-    linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
-    check_closed(ClosureEquations(linkage), linkage)
+    check_given("states", thing, Movable)
+    at = configuration_of(thing)
+    linkage = at.linkage
     stiff = () if springs is None else tuple(one for one, value in springs.stiffness.items() if value)
     compliant = Members(tuple(dict.fromkeys((*joints, *stiff))), tuple(dict.fromkeys(links)))
     compliant.checked(linkage.graph)
@@ -118,7 +113,7 @@ def states(
     active = asked.active(linkage.angles)
     now = next(one for one in sets if one.active.within(active) and active.within(one.active))
     elastic = None if springs is None else asked.elastic(drive, masses)
-    return States(compliant, now, sets, tuple(_transitions(sets)), elastic)
+    return States(at, compliant, now, sets, tuple(_transitions(sets)), elastic)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from graphs.lazy import offered
 
 if TYPE_CHECKING:
     from synth.drawing.conformed import draw_conformed as draw_conformed
-    from synth.drawing.foldings import write_folding as write_folding
+    from synth.drawing.foldings import write_motion as write_motion
     from synth.drawing.mechanisms.pictures import draw as draw
     from synth.drawing.order_map import draw_map as draw_map
     from synth.drawing.scene.shapes import Scene as Scene
@@ -28,7 +28,7 @@ else:
         __name__,
         {
             "conformed": "draw_conformed",
-            "foldings": "write_folding",
+            "foldings": "write_motion",
             "synth.drawing.mechanisms.pictures": "draw",
             "synth.drawing.space.poses": "save_moving_poses strip_of_poses",
             "synth.drawing.scene.shapes": "Scene",

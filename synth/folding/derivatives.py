@@ -14,13 +14,14 @@ import scipy.sparse
 from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError
+from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
 from synth.folding.vertices import largest_panel
 from synth.motion.bodies import BodyPoses, BodyTree
 from synth.motion.closure import ClosureEquations
-from synth.motion.derivatives import AxisDependence, Sensitivity, crossing, spatial
+from synth.motion.derivatives import AxisDependence, Sensitivity, spatial
 from synth.motion.linkage import Creases, PosedLinkage, creases_of
 
 __all__ = ["SheetChange", "SheetDerivatives", "SheetSensitivity", "axis_motions", "dependence_on_vertices"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy.linalg
@@ -12,25 +12,14 @@ from graphs.arrays import Floats
 from graphs.canonical import canonical_basis
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from synth.motion.branches import Branch, Branches, Search
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
+from synth.motion.branches import MOST_JOINTS, Branch, Branches
+from synth.motion.configuration import Configuration
+from synth.motion.marked import rates_as_marked
 from synth.motion.second_order import RateSpace
 from synth.motion.singular.nearest import begun_near
-from synth.motion.singular.sampling import rates_towards, same_part
+from synth.motion.singular.sampling import rates_towards
 
-__all__ = ["MOST_BRANCHES", "MOST_JOINTS", "Wanted", "beginning", "rates_as_marked", "search_for"]
-
-MOST_JOINTS = 600
-"""Of larger linkages the branches are not looked for: matrices are dense."""
-
-MOST_BRANCHES, MOST_WORK = 128, 1e10
-"""So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
-row of panels more."""
-
-_FOLLOWED = 2500
-"""Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
-how fast a machine is."""
+__all__ = ["Wanted", "beginning"]
 
 _LARGE = 10**9
 _STILL = 1e-9
@@ -38,74 +27,66 @@ _DIGITS = 6
 """Of a cosine: branches that point along rates alike are told apart by their order."""
 
 
-def search_for(joints: int, towards: Floats | None) -> Search:
-    """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
-    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
-
-
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What is asked of a folding.
+    """What is asked of the beginning of a motion.
 
     Attributes
     ----------
     branch : int, str or None
-        Number or signs of a branch.
-    marks : float[J]
-        1 for valleys, -1 for mountains, 0 for what is not marked.
+        Number or signs of a branch; by default that which the configuration chooses.
     driven : sequence of int
         Places of the joints that are driven.
     turns : float[D]
         How far each is to turn, radians.
-    doubt : str
-        What is to be said beside "no": coordinates may be rounded. Empty if they are not.
     along : bool
-        Whether the turns are rates, of which the marks are what they are made of: the branch that they point along
-        best is taken.
+        Whether the turns are rates: the branch that points along them best is taken.
     """
 
-    branch: int | str | None
-    marks: Floats
-    driven: Sequence[int]
-    turns: Floats
-    doubt: str = ""
+    branch: int | str | None = None
+    driven: Sequence[int] = ()
+    turns: Floats = field(default_factory=lambda: np.zeros(0))
     along: bool = False
 
+    def towards(self, configuration: Configuration) -> Floats:
+        """Return the rates that are wanted, float[J]: those given, or as joints are assigned."""
+        if not self.along:
+            return configuration.wanted
+        rates = np.zeros(len(configuration.joints))
+        rates[list(self.driven)] = self.turns
+        return rates
 
-def beginning(
-    closure: ClosureEquations, linkage: PosedLinkage, found: Branches | None, wanted: Wanted
-) -> tuple[int | None, Floats]:
-    """Return the branch to take, None where there is no choice, and rates on it, near to what is marked.
+
+def beginning(configuration: Configuration, wanted: Wanted) -> tuple[int | None, Floats]:
+    """Return the branch to take, None where there is no choice, and rates on it, near to what is assigned.
 
     Parameters
     ----------
-    closure : ClosureEquations
-    linkage : PosedLinkage
-    found : Branches or None
-        The branches, where they were looked for.
+    configuration : Configuration
     wanted : Wanted
 
     Raises
     ------
     UnsolvableError
-        If no motion begins at the pose, or none with the driven joints.
+        If no motion begins there, or none with the driven joints.
     InvariantError
         If there is no such branch.
     """
+    found, towards = configuration.branches, wanted.towards(configuration)
     if found is None:
         if wanted.branch is not None:
             raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
-        near = begun_near(closure, linkage, wanted.marks).rates
+        near = begun_near(configuration.closure, configuration.linkage, towards).rates
         if near is None:
             raise UnsolvableError(
-                f"no motion near to how the edges are marked was found at this pose{wanted.doubt}"
+                f"no motion near to how the edges are marked was found at this pose{configuration.doubt}"
             )
         return None, near
     if not found.branches:
-        raise UnsolvableError(f"{_how_surely(found)}: no motion begins at this pose{wanted.doubt}")
-    number = _chosen(found, wanted)
-    taken = found.branches[number]
-    return None if found.regular else number, _rates(taken, wanted)
+        raise UnsolvableError(f"{_how_surely(found)}: no motion begins at this pose{configuration.doubt}")
+    number = _chosen(configuration, found, wanted)
+    rates = _rates(found.branches[number], wanted, towards)
+    return None if found.regular else number, rates
 
 
 def _how_surely(found: Branches) -> str:
@@ -119,7 +100,7 @@ def _how_surely(found: Branches) -> str:
     return f"nothing folds, which is proved ({told[proof]})" if proof else "nothing that folds was found"
 
 
-def _chosen(found: Branches, wanted: Wanted) -> int:
+def _chosen(configuration: Configuration, found: Branches, wanted: Wanted) -> int:
     every, asked = found.branches, wanted.branch
     if isinstance(asked, int):
         if not 0 <= asked < len(every):
@@ -133,41 +114,28 @@ def _chosen(found: Branches, wanted: Wanted) -> int:
                 return number
         signs = known([one.signs for one in every], asked)
         raise InvariantError("branch", f"no branch has the signs {shown(asked)}", signs)
-    return max(range(len(every)), key=lambda number: (_agreement(every[number], wanted), -number))
+    if not wanted.along:
+        return configuration.chosen or 0
+    towards = wanted.towards(configuration)
+    return max(range(len(every)), key=lambda number: (_cosine(every[number], wanted, towards), -number))
 
 
-def _agreement(branch: Branch, wanted: Wanted) -> float:
-    """Return how many marked joints begin on a branch as they are marked, less those that do not.
-
-    Where rates are wanted: the cosine between these and the nearest ones of the branch, of the joints that have
-    any.
-    """
-    marks = wanted.marks
-    if wanted.along:
-        begun = rates_towards(branch.space, marks)[list(wanted.driven)]
-        sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
-        return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
-    rates = rates_as_marked(branch, marks)
-    return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+def _cosine(branch: Branch, wanted: Wanted, towards: Floats) -> float:
+    """Return the cosine between wanted rates and the nearest ones of a branch, of the joints that have any."""
+    begun = rates_towards(branch.space, towards)[list(wanted.driven)]
+    sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
+    return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
 
 
-def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
-    """Return rates near to what is marked, on the part of the space that the branch is."""
-    rates = rates_towards(branch.space, marks)
-    if rates.any() and same_part(branch.space, rates, branch.rates):
-        return rates
-    return -branch.rates if branch.rates @ marks < -_STILL else branch.rates
-
-
-def _rates(branch: Branch, wanted: Wanted) -> Floats:
+def _rates(branch: Branch, wanted: Wanted, towards: Floats) -> Floats:
     """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
     if len(wanted.driven) < 2 and not wanted.along:
-        return rates_as_marked(branch, wanted.marks) if wanted.branch is None else branch.rates
-    for start in (wanted.marks, space.basis.sum(axis=1)):
-        towards = rates_towards(space, start)
-        if np.abs(towards[list(wanted.driven)]).max() > _STILL:
-            return towards
+        return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
+    for start in (towards, space.basis.sum(axis=1)):
+        begun = rates_towards(space, start)
+        if np.abs(begun[list(wanted.driven)]).max() > _STILL:
+            return begun
     which = "joints" if wanted.along else "driven joints"
     raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
 

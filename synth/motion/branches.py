@@ -38,10 +38,31 @@ from synth.motion.singular.sampling import (
 )
 from synth.motion.walk.stepping import Allowance
 
-__all__ = ["Branch", "Branches", "Certainty", "Search", "branches_of", "first_branch"]
+__all__ = [
+    "MOST_BRANCHES",
+    "MOST_JOINTS",
+    "Branch",
+    "Branches",
+    "Certainty",
+    "Search",
+    "branches_of",
+    "first_branch",
+    "search_for",
+]
 
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
+
+MOST_JOINTS = 600
+"""Of larger linkages the branches are not looked for: matrices are dense."""
+
+MOST_BRANCHES, MOST_WORK = 128, 1e10
+"""So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
+row of panels more."""
+
+_FOLLOWED = 2500
+"""Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
+how fast a machine is."""
 
 _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
@@ -78,6 +99,11 @@ class Search:
     towards: Floats | None = None
 
 
+def search_for(joints: int, towards: Floats | None) -> Search:
+    """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
+    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
+
+
 @dataclass(frozen=True, slots=True)
 class Branch:
     """One way to move from a pose.
@@ -109,10 +135,10 @@ class Branch:
     Examples
     --------
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.prepared import prepared
+    >>> from synth.folding.configuration import configuration_of_sheet
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> branches = prepared(Sheet(5, (), "", faces, corners)).branches.branches
+    >>> branches = configuration_of_sheet(Sheet(5, (), "", faces, corners)).branches.branches
     >>> [(one.freedoms, one.certainty) for one in branches]
     [(1, 'proved'), (1, 'proved')]
     """

@@ -17,6 +17,7 @@ import scipy.sparse
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
@@ -361,25 +362,6 @@ def dependence_on_axes(linkage: PosedLinkage) -> AxisDependence:
     joints = len(blocks)
     twists = scipy.sparse.bsr_matrix((blocks, np.arange(joints), np.arange(joints + 1)), shape=(6 * joints,) * 2)
     return AxisDependence(twists.tocsr(), scipy.sparse.csr_matrix((joints, 6 * joints)))
-
-
-def crossing(vectors: Floats) -> Floats:
-    """Return the matrices of cross products with vectors.
-
-    Parameters
-    ----------
-    vectors : float[n, 3]
-
-    Returns
-    -------
-    float[n, 3, 3]
-
-    Examples
-    --------
-    >>> (crossing(np.array([[0.0, 0.0, 1.0]]))[0] @ [1.0, 0.0, 0.0]).tolist()
-    [0.0, 1.0, 0.0]
-    """
-    return np.asarray(np.cross(vectors[:, None, :], np.eye(3)).transpose(0, 2, 1))
 
 
 def spatial(linkage: PosedLinkage) -> PosedLinkage:

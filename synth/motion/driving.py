@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from math import degrees, pi
-from sys import float_info
 
 import numpy as np
 
@@ -19,8 +18,8 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.extent import LEAST, MOST, in_reach
 from graphs.ids import JointId
 from synth.motion.beginning import Wanted, beginning
-from synth.motion.branches import Branches
 from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.newton import CLOSED
 from synth.motion.path import DrivenPath, PathOptions, driven_path
@@ -41,34 +40,22 @@ class Asked:
     Attributes
     ----------
     drive : mapping of joint id to float
-        Angles of driven joints, radians. If there are none the joint that moves most goes `whole`.
-    whole : float
-        Radians, from the zero of the joint.
+        Angles of driven joints, radians. If there are none the joint that moves most goes as far as it goes.
+    along : mapping of joint id to float
+        In place of driven joints: rates to begin with. The path goes straight on.
     branch : int, str or None
         Number or signs of a branch.
-    marks : float[J]
-        1 for valleys, -1 for mountains, 0 for what is not marked.
     frames : int
         How many after the first.
-    limited : bool
-        Whether joints end at 180 degrees, where panels lie on each other.
-    doubt : str
-        What is to be said beside "no".
     report : callable or None
         Called with the number of frames after each.
-    along : mapping of joint id to float, optional
-        In place of driven joints: rates to begin with. The path goes straight on.
     """
 
-    drive: Mapping[JointId, float]
-    whole: float
-    branch: int | str | None
-    marks: Floats
-    frames: int
-    limited: bool
-    doubt: str = ""
-    report: Callable[[int], None] | None = None
+    drive: Mapping[JointId, float] = field(default_factory=dict)
     along: Mapping[JointId, float] = field(default_factory=dict)
+    branch: int | str | None = None
+    frames: int = 20
+    report: Callable[[int], None] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,17 +109,12 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
     return places, np.array(list(drive.values()), dtype=float)
 
 
-def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | None, asked: Asked) -> Driven:
-    """Drive joints from the pose of a linkage, on the branch that is asked for.
+def driven_from(configuration: Configuration, asked: Asked) -> Driven:
+    """Drive joints from a configuration, on the branch that is asked for.
 
     Parameters
     ----------
-    linkage : PosedLinkage
-        Closed at its pose.
-    closure : ClosureEquations
-        Of this linkage.
-    found : Branches or None
-        The ways to move from the pose, where they were looked for.
+    configuration : Configuration
     asked : Asked
 
     Raises
@@ -142,20 +124,23 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
     InvariantError
         If there is no such joint or branch, or an angle is out of range.
     """
-    joints = tuple(linkage.graph.joints)
-    places, goals = goals_of(joints, asked.drive, pi if asked.limited else float_info.max)
-    wanted = Wanted(asked.branch, asked.marks, places, goals - linkage.angles[places], asked.doubt)
+    linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
+    joints = configuration.joints
+    places, goals = goals_of(joints, asked.drive, configuration.most)
     if asked.along:
-        wanted = _along(joints, asked)
-    number, rates = beginning(closure, linkage, found, wanted)
+        wanted = _along(configuration, asked)
+    else:
+        turns = goals - linkage.angles[places]
+        wanted = Wanted(asked.branch, places, turns)
+    number, rates = beginning(configuration, wanted)
     if not places:
         places = [leading(rates)]
-        goals = asked.whole * np.sign(rates[places])
+        goals = configuration.whole * np.sign(rates[places])
     start = linkage.angles[places]
     if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
         rates = -rates
     steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
-    limited = np.full(len(joints), asked.limited)
+    limited = np.full(len(joints), configuration.limited)
     by_least_rates = found is not None and found.regular and len(asked.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
@@ -163,8 +148,8 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
     values = start + steps * (goals - start)
     still = () if number is None or found is None else found.branches[number].still
     path = _path(closure, linkage.angles, places, values, replace(options, locked=still))
-    told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
-    return Driven(number, places, told, path)
+    ends = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
+    return Driven(number, places, ends, path)
 
 
 def _path(
@@ -181,17 +166,16 @@ def _path(
     return free if lead[1] > lead[0] + _FARTHER or not free.stopped else path
 
 
-def _along(joints: tuple[JointId, ...], asked: Asked) -> Wanted:
+def _along(configuration: Configuration, asked: Asked) -> Wanted:
     """Return what is wanted where rates are given: these of their joints, the least ones of others."""
     if asked.drive:
         raise InvariantError("along", "joints are driven too", "rates or angles, not both")
+    joints = configuration.joints
     places, rates = _places(joints, asked.along), np.array(list(asked.along.values()), dtype=float)
     if not (in_reach(rates) and np.abs(rates).max(initial=0.0) >= LEAST):
-        told = f"rates are {', '.join(map(str, rates))}"
-        raise InvariantError("along", told, f"finite ones, not all zero, the largest from {LEAST:g} to {MOST:g}")
-    wanted = np.zeros(len(joints))
-    wanted[places] = rates
-    return Wanted(asked.branch, wanted, places, rates, asked.doubt, along=True)
+        given = f"rates are {', '.join(map(str, rates))}"
+        raise InvariantError("along", given, f"finite ones, not all zero, the largest from {LEAST:g} to {MOST:g}")
+    return Wanted(asked.branch, places, rates, along=True)
 
 
 def _places(joints: tuple[JointId, ...], names: Iterable[JointId]) -> list[int]:

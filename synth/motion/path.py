@@ -47,6 +47,11 @@ class DrivenPath:
     events: tuple[PathEvent, ...] = ()
     watched: bool = True
 
+    def up_to(self, frames: int) -> DrivenPath:
+        """Return the first frames, and what was met before the last of them."""
+        events = tuple(event for event in self.events if event.frame < frames - 1)
+        return replace(self, angles=self.angles[:frames], errors=self.errors[:frames], events=events)
+
 
 def driven_path(
     closure: ClosureEquations,

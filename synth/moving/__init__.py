@@ -1,6 +1,6 @@
 """Linkages of any kind moved: solids hinged at edges, polyhedron models, conical linkages, guided four-bars.
 
-`linkage_of` makes the linkage at a pose of anything that has coordinates, `move` drives its joints,
+`configuration_of` makes a mechanism at a configuration of anything that has coordinates, `move` drives its joints,
 `circuit_through` goes round past dead points, `move_on_cone` says what conical linkages do all along. What it
 stands on is in `synth.folding`. Theory: docs/theory/moving.md.
 """
@@ -16,9 +16,8 @@ if TYPE_CHECKING:
     from synth.moving.circuits import circuit_through as circuit_through
     from synth.moving.conical import ConicalMotion as ConicalMotion
     from synth.moving.conical import move_on_cone as move_on_cone
-    from synth.moving.linkages import linkage_of as linkage_of
-    from synth.moving.linkages import linkage_on_cone as linkage_on_cone
-    from synth.moving.motion import Motion as Motion
+    from synth.moving.made import configuration_of as configuration_of
+    from synth.moving.made import linkage_on_cone as linkage_on_cone
     from synth.moving.motion import move as move
     from synth.moving.rods import linkage_of_rods as linkage_of_rods
     from synth.moving.tables import table_text as table_text
@@ -28,8 +27,8 @@ else:
         {
             "circuits": "Circuit circuit_through",
             "conical": "ConicalMotion move_on_cone",
-            "linkages": "linkage_of linkage_on_cone",
-            "motion": "Motion move",
+            "made": "configuration_of linkage_on_cone",
+            "motion": "move",
             "rods": "linkage_of_rods",
             "tables": "table_text",
         },

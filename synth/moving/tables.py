@@ -18,7 +18,7 @@ from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
-from synth.moving.linkages import linkage_of, sheet_of
+from synth.moving.made import configuration_of, sheet_of
 
 __all__ = ["TABLES", "table_text"]
 
@@ -96,7 +96,7 @@ def _stand_alike(first: Sheet, second: Sheet) -> bool:
 
 
 def _axes(thing: Mechanism) -> Iterator[tuple[_Cell, ...]]:
-    linkage = linkage_of(thing)
+    linkage = configuration_of(thing).linkage
     points = linkage.points * linkage.extent + linkage.middle
     for number, (joint, (first, second)) in enumerate(linkage.graph.joints.items()):
         angle = degrees(float(linkage.angles[number]))

@@ -9,12 +9,17 @@ from typing import Any
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock, plain
+from synth.motion.configuration import Configuration
 from synth.overconstraint.tolerances import Tolerance
 
 __all__ = ["Explanation", "IdleSet"]
 
 _LISTED = 12
 """Axes of which tolerances are printed; data has all."""
+
+_OTHER_QUESTION = (
+    "explain looks at the equations of one configuration, to first and second order, and at no branch"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +50,8 @@ class Explanation(Printed):
 
     Attributes
     ----------
+    configuration : Configuration
+        Where it was asked.
     freedoms : int
         Of first order, at the pose.
     count : int
@@ -60,6 +67,7 @@ class Explanation(Printed):
         The smallest singular value that counts, and it over the largest that does not.
     """
 
+    configuration: Configuration
     freedoms: int
     count: int
     idle: int
@@ -72,6 +80,7 @@ class Explanation(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "freedoms": self.freedoms,
             "count": self.count,
             "h": self.idle,

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from graphs.convert.table import Mechanism
 from graphs.given import check_given
-from graphs.mechanism.sheet import Sheet
 from synth.motion.linkage import PosedLinkage
-from synth.moving.linkages import linkage_of
+from synth.moving.made import Movable, configuration_of
 from synth.overconstraint.answer import Explanation, IdleSet
 from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets
 from synth.overconstraint.reasons import reasons_of
@@ -37,14 +36,9 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
     >>> found.freedoms, found.count, found.idle, found.sets[0].reasons[0]
     (1, -2, 3, 'opposite links alike, lengths as the sines of the twists (Bennett)')
     """
-    check_given("explain", thing, Mechanism | PosedLinkage)
-    if isinstance(thing, Sheet) and thing.frames is not None:
-        thing = thing.frames.first_placed()
-    linkage = thing if isinstance(thing, PosedLinkage) else linkage_of(thing)
-    return _explained(linkage)
-
-
-def _explained(linkage: PosedLinkage) -> Explanation:
+    check_given("explain", thing, Movable)
+    at = configuration_of(thing)
+    linkage = at.linkage
     order = first_order(linkage)
     names = list(linkage.graph.joints)
     active = active_at_second_order(linkage, order)
@@ -58,6 +52,7 @@ def _explained(linkage: PosedLinkage) -> Explanation:
     )
     freedoms, idle = order.rates.shape[1], order.stresses.shape[1]
     return Explanation(
+        configuration=at,
         freedoms=freedoms,
         count=len(names) - len(order.loop_of),
         idle=idle,

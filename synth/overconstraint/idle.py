@@ -65,9 +65,9 @@ def first_order(linkage: PosedLinkage) -> FirstOrder:
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
-    >>> found = first_order(linkage_of(generate("bennett").mechanism))
+    >>> found = first_order(configuration_of(generate("bennett").mechanism).linkage)
     >>> found.rates.shape[1], found.stresses.shape[1]
     (1, 3)
     """

@@ -13,7 +13,7 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from graphs.loops.loop import Centre
 from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.moving.linkages import off_one_point
+from synth.moving.made import off_one_point
 
 __all__ = ["reasons_of"]
 
@@ -26,9 +26,9 @@ def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...]) -> list[str]:
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
-    >>> reasons_of(linkage_of(generate("bricard-plane-symmetric").mechanism), (0,))
+    >>> reasons_of(configuration_of(generate("bricard-plane-symmetric").mechanism).linkage, (0,))
     ['plane symmetry: a mirror takes the axes to each other']
     """
     chosen = [linkage.loops[loop] for loop in loops]

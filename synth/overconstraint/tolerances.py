@@ -14,9 +14,9 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
+from graphs.geometry import crossing
 from graphs.ids import JointId
 from synth.motion.closure import ClosureEquations
-from synth.motion.derivatives import crossing
 from synth.motion.linkage import PosedLinkage
 from synth.overconstraint.idle import FirstOrder, loop_alone
 
@@ -50,10 +50,10 @@ def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
 
     Examples
     --------
-    >>> from synth.moving.linkages import linkage_of
+    >>> from synth.moving.made import configuration_of
     >>> from synth.overconstraint.idle import first_order
     >>> from synth.patterns import generate
-    >>> linkage = linkage_of(generate("bennett").mechanism)
+    >>> linkage = configuration_of(generate("bennett").mechanism).linkage
     >>> len(tolerances(linkage, first_order(linkage)))
     4
     """
@@ -63,7 +63,7 @@ def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
         axis, point = linkage.directions[place], linkage.points[place]
         across = np.eye(3) - np.outer(axis, axis)
         turned, shifted = growth[:, 6 * place : 6 * place + 3], growth[:, 6 * place + 3 : 6 * place + 6]
-        about_itself = (turned + shifted @ crossing(point[None])[0]) @ across
+        about_itself = (turned + shifted @ crossing(point)) @ across
         found.append(
             Tolerance(
                 joint,

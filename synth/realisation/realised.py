@@ -25,8 +25,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
-from synth.motion.beginning import search_for
-from synth.motion.branches import first_branch
+from synth.motion.branches import first_branch, search_for
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.walk.stepping import Allowance
 from synth.realisation.drawing import Drawn, drawings

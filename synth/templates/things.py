@@ -13,7 +13,7 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from synth.conformed.linkages import OnCone, cone_of_number, linkage_on_cones
 from synth.drawing.mechanisms.orders import OrderOnCircle
-from synth.moving.linkages import sheet_of
+from synth.moving.made import sheet_of
 
 if TYPE_CHECKING:
     from synth.realisation.realised import Kind

@@ -15,7 +15,6 @@ from graphs.lazy import offered
 if TYPE_CHECKING:
     from synth.verdict.judged import JudgedMobility as JudgedMobility
     from synth.verdict.judged import mobility as mobility
-    from synth.verdict.of_motion import verdict_of_linkage as verdict_of_linkage
     from synth.verdict.of_motion import verdict_of_motion as verdict_of_motion
     from synth.verdict.verdict import Verdict as Verdict
     from synth.verdict.verdict import Way as Way
@@ -24,7 +23,7 @@ else:
         __name__,
         {
             "judged": "JudgedMobility mobility",
-            "of_motion": "verdict_of_linkage verdict_of_motion",
+            "of_motion": "verdict_of_motion",
             "verdict": "Verdict Way",
         },
     )

@@ -6,7 +6,7 @@ Theory: docs/theory/verdict.md.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import networkx as nx
 
@@ -14,20 +14,18 @@ from graphs.answer.mechanisms import lying
 from graphs.answer.mechanisms import mobility as counted
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.given import check_given
-from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
-from synth.folding.prepared import Prepared, prepared
-from synth.moving.linkages import linkage_of
-from synth.verdict.of_motion import verdict_of_linkage, verdict_of_motion
+from synth.folding.configuration import SheetConfiguration
+from synth.motion.configuration import Configuration
+from synth.moving.made import configuration_of
+from synth.verdict.of_motion import verdict_of_motion
 from synth.verdict.of_type import verdict_of_type
 from synth.verdict.verdict import Verdict
 
 __all__ = ["MOST_PANELS", "JudgedMobility", "mobility"]
-
-_EXACTLY = Precision(0.0, "exact")
 
 MOST_PANELS = 1200
 """The motion of larger sheets is looked for on request only."""
@@ -40,8 +38,8 @@ class JudgedMobility(MobilityAnswer):
     Attributes
     ----------
     verdict : Verdict
-    mended : tuple of str
-        What was done to rounded coordinates before anything was moved.
+    configuration : Configuration or None
+        Where it moves from; None of a type, and where its motion was not looked for.
 
     Notes
     -----
@@ -49,19 +47,28 @@ class JudgedMobility(MobilityAnswer):
     """
 
     verdict: Verdict | None = None
-    mended: tuple[str, ...] = ()
+    configuration: Configuration | None = None
 
     @classmethod
-    def judged(cls, answer: MobilityAnswer, verdict: Verdict, mended: tuple[str, ...] = ()) -> JudgedMobility:
+    def judged(
+        cls, answer: MobilityAnswer, verdict: Verdict, configuration: Configuration | None = None
+    ) -> JudgedMobility:
         """Return an answer with its verdict."""
         parts = {part.name: getattr(answer, part.name) for part in fields(MobilityAnswer)}
-        return cls(**parts, verdict=verdict, mended=mended)
+        return cls(**parts, verdict=verdict, configuration=configuration)
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         told = super(JudgedMobility, self).to_json()
         verdict = None if self.verdict is None else self.verdict.to_json()
-        return {"verdict": verdict, **told, "mended": list(self.mended)}
+        at = self.configuration
+        here = None if at is None else at.to_json(at.branch(at.chosen))
+        return {"verdict": verdict, "configuration": here, **told, "mended": list(self.mended)}
+
+    @property
+    def mended(self) -> tuple[str, ...]:
+        """What was done to rounded coordinates before anything was moved."""
+        return () if self.configuration is None else self.configuration.mended
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
@@ -75,25 +82,22 @@ class JudgedMobility(MobilityAnswer):
 
 
 def mobility(
-    mechanism: Mechanism | nx.Graph,
+    mechanism: Configuration | Mechanism | nx.Graph,
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
     pose: int | Literal[False] | None = None,
     geometry: bool = True,
     motion: bool | None = None,
-    pattern: Prepared | None = None,
 ) -> JudgedMobility:
     """Say how a mechanism moves, with how many freedoms, and how that is known.
 
     Parameters
     ----------
     mechanism, exact, hinge_flat, pose, geometry
-        As in :func:`graphs.answer.mechanisms.mobility`, which counts.
+        As in :func:`graphs.answer.mechanisms.mobility`, which counts. A Configuration is judged where it is.
     motion : bool, optional
         Look for the motion of a crease pattern from its pose; by default of what is not too large.
-    pattern : Prepared, optional
-        The crease pattern made ready to move, where it is at hand.
 
     Returns
     -------
@@ -114,38 +118,56 @@ def mobility(
     >>> answer.mobility, answer.pose.dof
     (1, 2)
     """
-    check_given("mobility", mechanism, Mechanism | nx.Graph)
-    answer = counted(mechanism, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry)
-    if pose is False or motion is False:
-        left_out = "its motion was left out" if motion is False and answer.pose is not None else ""
-        return JudgedMobility.judged(answer, verdict_of_type(answer, left_out))
-    if not isinstance(mechanism, Sheet):
-        return JudgedMobility.judged(answer, _of_other(mechanism, answer, demanded=bool(motion)))
-    drawn = lying(mechanism, pose)
-    if drawn.coordinates is None and not motion:
-        return JudgedMobility.judged(answer, verdict_of_type(answer))
-    if len(drawn.faces) > MOST_PANELS and not motion:
-        told = f"the motion of {len(drawn.faces)} panels is looked for on request (--motion)"
-        return JudgedMobility.judged(answer, verdict_of_type(answer, told))
-    try:
-        pattern = pattern or prepared(drawn, hinge_flat=hinge_flat)
-    except SynthedraError as error:
-        if motion:
-            raise
-        return JudgedMobility.judged(answer, verdict_of_type(answer, f"its motion was not looked for: {error}"))
-    verdict = verdict_of_motion(pattern, answer.mobility)
-    return JudgedMobility.judged(answer, verdict, tuple(map(str, pattern.repairs)))
+    check_given("mobility", mechanism, Configuration | Mechanism | nx.Graph)
+    given = mechanism.given if isinstance(mechanism, Configuration) else mechanism
+    if given is None:
+        raise UnsolvableError(f"mobility counts what a mechanism is made of, which {mechanism!r} does not say")
+    asked = _Asked(mechanism, pose, hinge_flat, demanded=bool(motion))
+    at, reason = None, "its motion was left out" if motion is False else ""
+    looked_for = pose is not False and motion is not False
+    if looked_for and isinstance(given, Sheet):
+        at, reason = asked.of_sheet(lying(given, pose))
+    dual = at.dual if isinstance(at, SheetConfiguration) and geometry else None
+    answer = counted(given, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry, dual=dual)
+    if looked_for and not isinstance(given, Sheet) and (answer.pose is not None or motion):
+        at, reason = asked.made()
+    if at is None:
+        return JudgedMobility.judged(answer, verdict_of_type(answer, reason if answer.pose is not None else ""))
+    return JudgedMobility.judged(answer, verdict_of_motion(at, answer.mobility), at)
 
 
-def _of_other(mechanism: Mechanism | nx.Graph, answer: MobilityAnswer, *, demanded: bool) -> Verdict:
-    """Return the verdict on what is no crease pattern: solids, rods, a linkage on its cone, or a type."""
-    if answer.pose is None and not demanded:
-        return verdict_of_type(answer)
-    try:
-        linkage = linkage_of(mechanism)
-        precision = _EXACTLY if answer.pose is None else answer.pose.precision
-        return verdict_of_linkage(linkage, precision, answer.mobility)
-    except SynthedraError as error:
-        if demanded:
-            raise
-        return verdict_of_type(answer, f"its motion was not looked for: {error}")
+class _Asked(NamedTuple):
+    """A mechanism whose motion is to be judged.
+
+    Attributes
+    ----------
+    mechanism : Configuration, or what one is made of
+    frame : int or None
+    hinge_flat : bool
+    demanded : bool
+        Whether to raise an error where its motion cannot be looked for; else the reason is given.
+    """
+
+    mechanism: Configuration | Mechanism | nx.Graph
+    frame: int | None
+    hinge_flat: bool
+    demanded: bool
+
+    def of_sheet(self, placed: Sheet) -> tuple[Configuration | None, str]:
+        """Return the configuration of a sheet, or why there is none."""
+        if isinstance(self.mechanism, Configuration):
+            return self.mechanism, ""
+        if placed.coordinates is None and not self.demanded:
+            return None, ""
+        if len(placed.faces) > MOST_PANELS and not self.demanded:
+            return None, f"the motion of {len(placed.faces)} panels is looked for on request (--motion)"
+        return self.made()
+
+    def made(self) -> tuple[Configuration | None, str]:
+        """Return the configuration, or why there is none."""
+        try:
+            return configuration_of(self.mechanism, frame=self.frame, hinge_flat=self.hinge_flat), ""
+        except SynthedraError as error:
+            if self.demanded:
+                raise
+            return None, f"its motion was not looked for: {error}"

@@ -1,4 +1,4 @@
-"""The verdict on a crease pattern that is too large for all its branches to be looked for: one motion, followed.
+"""The verdict on what is too large for all its branches to be looked for: one motion, followed.
 
 Theory: docs/theory/verdict.md.
 """
@@ -8,63 +8,64 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.folding.prepared import Prepared
 from synth.motion.branches import Certainty
+from synth.motion.configuration import Configuration
+from synth.motion.marked import Marked
 from synth.motion.singular.nearest import begun_near
 from synth.motion.singular.sampling import MOVED, walked
 from synth.motion.walk.freedoms import free_rates
-from synth.verdict.marked import Marked
 from synth.verdict.verdict import Verdict, Way, clusters_of
-from synth.verdict.words import Posed, Told, flaps_of, text_of_motion
+from synth.verdict.words import Told, flaps_of, text_of_motion
 
 __all__ = ["verdict_of_large"]
 
 _STILL = 1e-9
 
 
-def verdict_of_large(pattern: Prepared, generic: int | None = None) -> Verdict:
+def verdict_of_large(configuration: Configuration, generic: int | None = None) -> Verdict:
     """Follow one motion, along the marks, and say how many freedoms it has at its end.
 
     Parameters
     ----------
-    pattern : Prepared
+    configuration : Configuration
     generic : int, optional
         The mobility of its type, with which the sentence compares.
     """
-    linkage, closure = pattern.linkage, pattern.closure
-    posed = Posed(linkage, "Folds", pattern.flat, pattern.doubt)
+    linkage, closure = configuration.linkage, configuration.closure
     joints = list(linkage.graph.joints)
     if len(flaps_of(linkage.graph)) == len(joints):
         loose = Way("+" * len(joints), len(joints), "proved", (), 0.0)
-        text = text_of_motion(Told(posed, (loose,), None, True, generic, (), loose), len(joints), "proved")
+        text = text_of_motion(Told(configuration, (loose,), None, True, generic, (), loose), len(joints), "proved")
         return Verdict(len(joints), "pose", "proved", text, (loose,), True)
-    wanted = pattern.wanted
+    wanted = configuration.wanted
     begun = begun_near(closure, linkage, wanted)
     rates = begun.rates
     end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
     far = float(np.abs(end - linkage.angles).max())
     if rates is None or far <= MOVED:
-        return _unmoved(posed, begun.rigid, generic)
+        return _unmoved(configuration, begun.rigid, generic)
     moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
     basis = free_rates(closure, end, moving)
     freedoms = None if basis is None else basis.shape[1]
     still = tuple(joint for place, joint in enumerate(joints) if place not in set(moving.tolist()))
     signs = "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in rates)
     way = Way(signs, freedoms, "numerical", still, far)
-    stiff = still if freedoms == 1 and not posed.flat else ()
-    told = Told(posed, (way,), _as_marked(pattern.marks, rates), False, generic, stiff, way)
+    stiff = still if freedoms == 1 and not configuration.flat else ()
+    told = Told(configuration, (way,), _as_marked(configuration.marks, rates), False, generic, stiff, way)
     text = text_of_motion(told, freedoms, "numerical")
     clusters = clusters_of(linkage.graph, stiff)
     return Verdict(freedoms, "motion", "numerical", text, (way,), False, stiff, clusters)
 
 
-def _unmoved(posed: Posed, rigid: bool, generic: int | None) -> Verdict:
+def _unmoved(configuration: Configuration, rigid: bool, generic: int | None) -> Verdict:
     """Return the verdict on what was not seen to move: rigid, if that is proved."""
     freedoms = 0 if rigid else None
     certainty: Certainty = "proved" if rigid else "not known"
-    text = text_of_motion(Told(posed, (), None, rigid, generic, (), None), freedoms, certainty)
-    stiff = tuple(posed.linkage.graph.joints) if rigid else ()
-    return Verdict(freedoms, "motion", certainty, text, (), rigid, stiff, clusters_of(posed.linkage.graph, stiff))
+    text = text_of_motion(Told(configuration, (), None, rigid, generic, (), None), freedoms, certainty)
+    stiff = tuple(configuration.linkage.graph.joints) if rigid else ()
+    return Verdict(
+        freedoms, "motion", certainty, text, (), rigid, stiff, clusters_of(configuration.linkage.graph, stiff)
+    )
 
 
 def _as_marked(marks: Floats, rates: Floats) -> Marked | None:

@@ -82,11 +82,11 @@ class Verdict:
     Examples
     --------
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.prepared import prepared
+    >>> from synth.folding.configuration import configuration_of_sheet
     >>> from synth.verdict.of_motion import verdict_of_motion
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> verdict = verdict_of_motion(prepared(Sheet(5, (), "", faces, corners)))
+    >>> verdict = verdict_of_motion(configuration_of_sheet(Sheet(5, (), "", faces, corners)))
     >>> verdict.freedoms, verdict.certainty, verdict.exhaustive, len(verdict.ways)
     (1, 'proved', True, 2)
     """

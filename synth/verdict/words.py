@@ -13,12 +13,12 @@ from graphs.errors import shown
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from synth.motion.branches import Certainty
-from synth.motion.linkage import PosedLinkage
+from synth.motion.configuration import Configuration
+from synth.motion.marked import Marked
 from synth.motion.newton import CLOSED
-from synth.verdict.marked import Marked
 from synth.verdict.verdict import Way
 
-__all__ = ["Posed", "Told", "flaps_of", "listed", "text_of_motion"]
+__all__ = ["Told", "flaps_of", "listed", "text_of_motion"]
 
 _MOST = 12
 _MARKED = {
@@ -29,33 +29,12 @@ _MARKED = {
 
 
 @dataclass(frozen=True, slots=True)
-class Posed:
-    """What moves.
-
-    Attributes
-    ----------
-    linkage : PosedLinkage
-    verb : str
-        What it does: panels fold, solids move.
-    flat : bool
-        Whether it is a flat sheet.
-    doubt : str
-        What is to be said beside "rigid": coordinates may be rounded. Empty if they are not.
-    """
-
-    linkage: PosedLinkage
-    verb: str
-    flat: bool
-    doubt: str
-
-
-@dataclass(frozen=True, slots=True)
 class Told:
     """What a sentence about motion is made of.
 
     Attributes
     ----------
-    posed : Posed
+    at : Configuration
     ways : tuple of Way
     marked : {"has", "none has", "none found"} or None
         Whether a way begins with all mountains and valleys as they are marked; None where nothing is.
@@ -68,7 +47,7 @@ class Told:
         The one whose freedoms are told.
     """
 
-    posed: Posed
+    at: Configuration
     ways: Sequence[Way]
     marked: Marked | None
     complete: bool
@@ -90,21 +69,21 @@ def flaps_of(graph: SCGraph) -> list[JointId]:
 
 
 def text_of_motion(told: Told, freedoms: int | None, certainty: Certainty) -> str:
-    """Return the sentence about a crease pattern."""
-    flaps = flaps_of(told.posed.linkage.graph)
+    """Return the sentence about a motion."""
+    flaps = flaps_of(told.at.linkage.graph)
     if told.way is not None and freedoms is None and certainty != "not known":
         how = f"{_followed(told.way)}; with how many freedoms is not known"
-        return f"{told.posed.verb} from {_start(told)}{_ways(told)}; {how}."
+        return f"{told.at.verb} from {_start(told)}{_ways(told)}; {how}."
     if freedoms is None:
-        return f"No motion found, and none excluded{told.posed.doubt}."
+        return f"No motion found, and none excluded{told.at.doubt}."
     if not freedoms:
-        return f"Rigid: nothing moves{told.posed.doubt}."
-    if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.posed.linkage.graph.joints) - len(flaps):
+        return f"Rigid: nothing moves{told.at.doubt}."
+    if flaps and freedoms == len(flaps) and len(told.stiff) == len(told.at.linkage.graph.joints) - len(flaps):
         hang = "freedom is the flap" if len(flaps) == 1 else "freedoms are the flaps"
         if told.stiff:
             stiff = f"joints {listed(told.stiff)} cannot move"
             return f"Rigid but for flaps: {stiff}; {len(flaps)} {hang} {listed(flaps)}."
-    parts = [f"{told.posed.verb} with {freedoms} {_freedom(freedoms)} from {_start(told)}{_ways(told)}"]
+    parts = [f"{told.at.verb} with {freedoms} {_freedom(freedoms)} from {_start(told)}{_ways(told)}"]
     if told.stiff:
         parts.append(f"joint{'s' * (len(told.stiff) > 1)} {listed(told.stiff)} cannot move")
     if certainty != "proved":
@@ -120,7 +99,7 @@ def listed(joints: Sequence[JointId]) -> str:
 
 
 def _start(told: Told) -> str:
-    return "flat" if told.posed.flat else "its pose"
+    return "flat" if told.at.flat else "its pose"
 
 
 def _followed(way: Way) -> str:
@@ -134,7 +113,7 @@ def _freedom(number: int) -> str:
 def _ways(told: Told) -> str:
     marked = "" if told.marked is None else _MARKED[told.marked]
     if len(told.ways) < 2:
-        only = told.posed.flat and told.ways and not told.complete and told.marked != "has"
+        only = told.at.flat and told.ways and not told.complete and told.marked != "has"
         return f"{marked}, on the one way that was looked for" if only else marked
     kinds = Counter(way.freedoms for way in told.ways)
     least = "" if told.complete else "at least "

@@ -16,10 +16,11 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
-from synth.folding.prepared import Prepared
+from synth.folding.configuration import SheetConfiguration
+from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 
-__all__ = ["ShownCentre", "centres_of_linkage", "centres_of_pattern"]
+__all__ = ["ShownCentre", "centres_of"]
 
 Kind = Literal["explicit", "implicit", "finite", "infinite"]
 
@@ -64,48 +65,40 @@ class ShownCentre:
         }
 
 
-def centres_of_pattern(pattern: Prepared) -> tuple[ShownCentre, ...]:
-    """Return the centres of a crease pattern.
+def centres_of(configuration: Configuration) -> tuple[ShownCentre, ...]:
+    """Return the centres of a mechanism: of panels those at vertices are explicit, others implicit.
 
     Parameters
     ----------
-    pattern : Prepared
+    configuration : Configuration
 
     Examples
     --------
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.prepared import prepared
+    >>> from synth.moving.made import configuration_of
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> (centre,) = centres_of_pattern(prepared(Sheet(5, (), "", faces, corners)))
+    >>> (centre,) = centres_of(configuration_of(Sheet(5, (), "", faces, corners)))
     >>> centre.kind, centre.joints, centre.place.round(3).tolist()
     ('explicit', (0, 1, 2, 3), [-0.167, 0.0, 0.0])
-    """
-    mechanism = pattern.mechanism
-    loops = len(mechanism.sc.loops)
-    closing = range(loops, loops + len(mechanism.sc.closing))  # of closed surfaces: they go round vertices too
-    return _centres(pattern.linkage, {*range(len(mechanism.loop_vertices)), *closing}, "implicit")
 
+    Links of a linkage have no shape that would tell:
 
-def centres_of_linkage(linkage: PosedLinkage) -> tuple[ShownCentre, ...]:
-    """Return the centres of a linkage whose links have no shape.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
-
-    Examples
-    --------
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
     >>> from synth.motion.linkage import linkage_of_axes
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
     >>> linkage = linkage_of_axes(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)})
-    >>> [(centre.kind, centre.direction.tolist()) for centre in centres_of_linkage(linkage)]
+    >>> [(centre.kind, centre.direction.tolist()) for centre in centres_of(configuration_of(linkage))]
     [('infinite', [0.0, 0.0, 1.0])]
     """
-    return _centres(linkage, set(), "finite")
+    if not isinstance(configuration, SheetConfiguration):
+        return _centres(configuration.linkage, set(), "finite")
+    mechanism = configuration.mechanism
+    loops = len(mechanism.sc.loops)
+    closing = range(loops, loops + len(mechanism.sc.closing))  # of closed surfaces: they go round vertices too
+    return _centres(configuration.linkage, {*range(len(mechanism.loop_vertices)), *closing}, "implicit")
 
 
 def _centres(linkage: PosedLinkage, at_vertices: set[int], otherwise: Kind) -> tuple[ShownCentre, ...]:

@@ -19,17 +19,16 @@ from graphs.plain_text import plain
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
-from synth.folding.prepared import Prepared, prepared
+from synth.folding.configuration import SheetConfiguration
 from synth.folding.vertices import largest_panel
-from synth.motion.closure import ClosureEquations
-from synth.motion.driving import check_closed
+from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
-from synth.moving.linkages import linkage_of, sheet_of
+from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
 from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet
-from synth.viewer.centres import ShownCentre, centres_of_linkage, centres_of_pattern
+from synth.viewer.centres import ShownCentre, centres_of
 from synth.viewer.solver_data import solver_data
-from synth.viewer.ways import Ways, ways_of_linkage, ways_of_pattern
+from synth.viewer.ways import Ways, ways_of
 
 __all__ = ["Drawn", "Moving", "Report", "Shown", "shown_of"]
 
@@ -201,13 +200,13 @@ def shown_of(
     notes: list[str] = []
     on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
     report("looking for ways to move", 1, _STEPS)
-    pattern, moving = (None, _still(placed, notes)) if on_request else _moving(placed, notes)
+    at, moving = (None, _still(placed, notes)) if on_request else _moving(placed, notes)
     report("counting and judging", 2, _STEPS)
-    answer = mobility(placed, pattern=pattern, motion=motion)
+    answer = mobility(placed if at is None else at, motion=motion)
     verdict = answer.verdict
     assert verdict is not None
     report("drawing", 3, _STEPS)
-    pictures = _pictures(placed, notes)
+    pictures = _pictures(placed if at is None else at, notes)
     return Shown(
         plain(name),
         verdict.text,
@@ -242,43 +241,32 @@ def _drawn(sheet: Sheet) -> Drawn | None:
     return Drawn(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
 
 
-def _moving(thing: Mechanism, notes: list[str]) -> tuple[Prepared | None, Moving | None]:
-    """Return the crease pattern, if it is one, and what moves of a thing at a pose; note why there is nothing."""
+def _moving(thing: Mechanism, notes: list[str]) -> tuple[Configuration | None, Moving | None]:
+    """Return a thing at its configuration, and what moves there; note why there is nothing."""
     try:
-        sheet = sheet_of(thing)
-        if sheet is None:
-            return None, _linkage(linkage_of(thing), notes)
-        pattern = prepared(sheet)
-        return pattern, _pattern(pattern, notes)
+        at = configuration_of(thing)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
+    notes += [f"mended: {repair}" for repair in at.mended]
+    ways = _begun(at, notes) if at.joints else None
+    centres = centres_of(at)
+    if not isinstance(at, SheetConfiguration):
+        return at, Moving(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
+    bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)
+    return at, Moving(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
 
 
-def _linkage(linkage: PosedLinkage, notes: list[str]) -> Moving:
-    check_closed(ClosureEquations(linkage), linkage)
-    ways = _begun(ways_of_linkage, linkage, notes) if len(linkage.angles) else None
-    return Moving(linkage, bodies_of_linkage(linkage), ways, centres_of_linkage(linkage), ground=0, limited=False)
-
-
-def _pattern(pattern: Prepared, notes: list[str]) -> Moving:
-    notes += [f"mended: {repair}" for repair in pattern.repairs]
-    ways = _begun(ways_of_pattern, pattern, notes) if len(pattern.linkage.angles) else None
-    bodies = bodies_of_sheet(pattern.sheet, pattern.mechanism, pattern.linkage)
-    ground = largest_panel(pattern.mechanism.panels)
-    return Moving(pattern.linkage, bodies, ways, centres_of_pattern(pattern), ground, limited=True)
-
-
-def _begun(ways_of: Callable[[_Posed], Ways], posed: _Posed, notes: list[str]) -> Ways | None:
+def _begun(at: Configuration, notes: list[str]) -> Ways | None:
     """Return the ways to begin; note it where there are none, since what is rigid is shown too."""
     try:
-        return ways_of(posed)
+        return ways_of(at)
     except UnsolvableError as error:
         notes.append(str(error))
         return None
 
 
-def _pictures(thing: Mechanism, notes: list[str]) -> dict[str, str]:
+def _pictures(thing: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:
     """Return the picture on light and on dark paper; note why there is none."""
     try:
         scene = draw(thing, box=_BOX, caption=None)

@@ -12,15 +12,15 @@ import numpy as np
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
-from synth.folding.prepared import Prepared
-from synth.motion.beginning import MOST_JOINTS, Wanted, beginning, search_for
-from synth.motion.branches import Branch, Branches, branches_of
+from synth.motion.beginning import Wanted, beginning
+from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import walked
 from synth.motion.walk.freedoms import free_rates, independent_joints
 
-__all__ = ["Ways", "ways_of_linkage", "ways_of_pattern"]
+__all__ = ["Ways", "ways_of"]
 
 _NEAREST = "near to the marks"
 _STILL = 1e-9
@@ -85,64 +85,31 @@ class Ways:
         return {"all": [one.to_json() for one in self.all], "singular": self.singular, "taken": self.taken}
 
 
-def ways_of_pattern(pattern: Prepared) -> Ways:
-    """Return the ways in which a crease pattern can begin to fold.
+def ways_of(configuration: Configuration) -> Ways:
+    """Return the ways in which a mechanism can begin to move.
 
     Parameters
     ----------
-    pattern : Prepared
-        With creases.
+    configuration : Configuration
+        With joints.
 
     Raises
     ------
     UnsolvableError
-        If no motion begins at its pose, or none was found.
+        If no motion begins there, or none was found.
 
     Examples
     --------
     >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.prepared import prepared
+    >>> from synth.folding.configuration import configuration_of_sheet
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> ways = ways_of_pattern(prepared(Sheet(5, (), "", faces, corners)))
+    >>> ways = ways_of(configuration_of_sheet(Sheet(5, (), "", faces, corners)))
     >>> [one.told for one in ways.all], ways.singular
     (['way 0: 1 freedom, proved', 'way 1: 1 freedom, proved'], True)
     """
-    marks = pattern.wanted
-    return _ways(
-        pattern.linkage, pattern.closure, pattern.branches, Wanted(None, marks, [], np.zeros(0), pattern.doubt)
-    )
-
-
-def ways_of_linkage(linkage: PosedLinkage) -> Ways:
-    """Return the ways in which any linkage can begin to move from its pose.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        Closed at its pose, with joints.
-
-    Raises
-    ------
-    UnsolvableError
-        If no motion begins at its pose, or none was found.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
-    >>> ways_of_linkage(hinge).singular
-    False
-    """
-    closure = ClosureEquations(linkage)
-    joints = len(linkage.angles)
-    found = branches_of(linkage, closure, search_for(joints, None)) if joints <= MOST_JOINTS else None
-    return _ways(linkage, closure, found, Wanted(None, np.ones(joints), [], np.zeros(0)))
-
-
-def _ways(linkage: PosedLinkage, closure: ClosureEquations, found: Branches | None, wanted: Wanted) -> Ways:
-    number, rates = beginning(closure, linkage, found, wanted)
+    linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
+    number, rates = beginning(configuration, Wanted())
     rates = rates / np.abs(rates).max()
     if found is None:
         return Ways((_nearest(linkage, closure, rates),), singular=True, taken=0)

@@ -32,7 +32,7 @@ from synth.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
 from synth.motion.newton import corrected
 from synth.motion.path import driven_path
 from synth.motion.placement import link_motions
-from synth.moving.linkages import linkage_on_cone
+from synth.moving.made import linkage_on_cone
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import chickenwire, folded_miura, huffman_grid, miura
 from synth.patterns.creases.triangulated import waterbomb, yoshimura

@@ -10,8 +10,8 @@ from enumerate.scd.graphs import scd_rows
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.drawing import FaceKind
 from graphs.rank.pose import pose_mobility
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
-from synth.folding.prepared import prepared
 
 TURN = radians(10.0)
 
@@ -44,7 +44,7 @@ def explicit_codes_of(links, most, number=None):
 
 def moved(sheet):
     """Turn the joint that moves most by ten degrees from the pose."""
-    ready = prepared(sheet)
+    ready = configuration_of_sheet(sheet)
     rates = ready.branches.branches[0].rates
     driven = int(np.abs(rates).argmax())
     goal = ready.linkage.angles[driven] + TURN * np.sign(rates[driven])

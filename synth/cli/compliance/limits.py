@@ -27,11 +27,11 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
     from graphs.edit.named import link_named
     from graphs.files.formats import read
     from synth.compliance.limited import limits as found_limits
-    from synth.moving.linkages import linkage_of
+    from synth.moving.made import configuration_of
 
     thing = read(file)
     with about(file):
-        graph = linkage_of(thing).graph
+        graph = configuration_of(thing).linkage.graph
         found = found_limits(thing, [link_named(graph, name) for name in keep])
     if as_json:
         print_json({"file": file, **found.to_json()})

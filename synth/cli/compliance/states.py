@@ -75,11 +75,11 @@ def states(
     from graphs.files.formats import read
     from synth.compliance.springs import Springs
     from synth.compliance.stated import states as stated
-    from synth.moving.linkages import linkage_of
+    from synth.moving.made import configuration_of
 
     thing = read(file)
     with about(file):
-        graph = linkage_of(thing).graph
+        graph = configuration_of(thing).linkage.graph
         springs = Springs(
             numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
             driven_angles(graph, rest, "--rest"),
@@ -115,7 +115,7 @@ def _masses(
     from graphs.edit.named import link_named
     from graphs.errors import UnsolvableError
     from synth.compliance.small_motions import Masses, sheet_masses
-    from synth.moving.linkages import sheet_of
+    from synth.moving.made import sheet_of
 
     words, density, ground = asked
     if not words and density is None:

@@ -136,7 +136,7 @@ def _write_solids(
 ) -> tuple[str, ...]:
     from graphs.errors import UnsolvableError
     from graphs.mechanism.conical import ConicalLinkage
-    from synth.moving.linkages import sheet_of
+    from synth.moving.made import sheet_of
     from synth.templates.solids import THICKNESS, write_solids
 
     thickness = THICKNESS if solid["thickness"] is None else solid["thickness"]

@@ -62,12 +62,12 @@ def advise(
     from graphs.edit.named import joint_named, link_named
     from graphs.files.formats import read
     from synth.advice.advised import advise as advised
-    from synth.moving.linkages import linkage_of, sheet_of
+    from synth.moving.made import configuration_of, sheet_of
 
     thing = read(file)
     with about(file):
         sheet = sheet_of(thing)
-        graph = linkage_of(thing).graph if sheet is None else mechanism_of_sheet(sheet).sc
+        graph = configuration_of(thing).linkage.graph if sheet is None else mechanism_of_sheet(sheet).sc
         found = advised(
             thing,
             freedoms,

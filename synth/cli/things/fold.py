@@ -15,10 +15,8 @@ from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json,
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
 if TYPE_CHECKING:
-    from graphs.convert.table import Mechanism
     from graphs.ids import JointId
     from graphs.mechanism.sc import SCGraph
-    from synth.moving.motion import Motion
 
 __all__ = ["fold"]
 
@@ -74,11 +72,10 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from graphs.convert.duality import mechanism_of_sheet
     from graphs.files.formats import read
-    from synth.drawing.foldings import check_output, write_folding, write_motion
-    from synth.folding.motion import fold as folded
-    from synth.moving.linkages import sheet_of
+    from synth.drawing.foldings import check_output, write_motion
+    from synth.moving.made import configuration_of
+    from synth.moving.motion import move
 
     if sum(map(bool, (whole, drive, along))) > 1:
         raise click.UsageError("--drive, --along and --all each say how to move: leave all but one out")
@@ -86,22 +83,11 @@ def fold(
         check_output(output, force=force)
     thing = read(file)
     with about(file):
-        sheet = sheet_of(thing)
-        if sheet is None:
-            moved = _moved(thing, _Joints(drive, along), branch, frames, output)
-            drawn = [] if output is None else write_motion(moved, output, force=force)
-            if as_json:
-                print_json({"file": file, "output": output, **moved.to_json()})
-            else:
-                click.echo(str(moved))
-                tell_written(*drawn)
-            return
-        sheet = sheet.frames.first_placed() if sheet.frames is not None else sheet
-        graph = mechanism_of_sheet(sheet).sc
-        asked = _Joints(drive, along)
+        at = configuration_of(thing)
+        asked, graph = _Joints(drive, along), at.linkage.graph
         with _progress(frames + 1) as report:
-            found = folded(
-                sheet,
+            found = move(
+                at,
                 drive=asked.driven(graph),
                 along=asked.rates(graph),
                 branch=branch,
@@ -109,7 +95,7 @@ def fold(
                 collisions=collisions,
                 report=report,
             )
-        written = [] if output is None else write_folding(found, output, force=force)
+        written = [] if output is None else write_motion(found, output, force=force)
     if as_json:
         print_json({"file": file, "output": output, **found.to_json()})
         return
@@ -122,19 +108,6 @@ def fold(
     for line in str(found).splitlines():
         click.echo(line)
     tell_written(*written)
-
-
-def _moved(thing: Mechanism, asked: _Joints, branch: int | str | None, frames: int, output: str | None) -> Motion:
-    """Move what has no panels: solids hinged at edges, rods, a linkage on its cone."""
-    from synth.drawing.foldings import check_motion_output
-    from synth.moving.linkages import linkage_of
-    from synth.moving.motion import move
-
-    if output is not None:
-        check_motion_output(thing, output)
-    linkage = linkage_of(thing)
-    graph = linkage.graph
-    return move(linkage, drive=asked.driven(graph), along=asked.rates(graph), branch=branch, frames=frames)
 
 
 @contextmanager

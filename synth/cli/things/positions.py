@@ -37,11 +37,11 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
     from graphs.files.formats import read
     from synth.assembly.found import positions as found_at
     from synth.cli.things.driven import driven_angles
-    from synth.moving.linkages import linkage_of
+    from synth.moving.made import configuration_of
 
     thing = read(file)
     with about(file):
-        linkage = linkage_of(thing)
+        linkage = configuration_of(thing).linkage
         found = found_at(linkage, driven_angles(linkage.graph, drive), circuits=circuits, seed=seed)
     if as_json:
         print_json({"file": file, **found.to_json()})

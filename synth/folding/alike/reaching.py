@@ -20,11 +20,12 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
 from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
-from synth.folding.motion import Folding, folding_along
-from synth.folding.prepared import Prepared, prepared
-from synth.motion.beginning import Wanted, beginning, rates_as_marked
+from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
+from synth.motion.beginning import Wanted, beginning
 from synth.motion.closure import ClosureEquations
 from synth.motion.driving import Driven
+from synth.motion.marked import rates_as_marked
+from synth.motion.motion import Motion, motion_along
 from synth.motion.path import PathOptions, driven_path
 from synth.motion.second_order import rates_at
 from synth.motion.singular.nearest import spaces_near
@@ -55,7 +56,7 @@ class _Start:
 
     Attributes
     ----------
-    pattern : Prepared
+    pattern : SheetConfiguration
     closure : ClosureEquations
         Of all motions, or of those that keep classes of joints alike.
     rates : float[J]
@@ -65,7 +66,7 @@ class _Start:
     branch : int or None
     """
 
-    pattern: Prepared
+    pattern: SheetConfiguration
     closure: ClosureEquations
     rates: Floats
     classes: Ints
@@ -78,14 +79,14 @@ class Reached:
 
     Attributes
     ----------
-    folding : Folding
+    folding : Motion
     angle : float
         Of the driven crease at its end, radians, without sign.
     alike : bool
         Whether creases that look alike fold alike on it.
     """
 
-    folding: Folding
+    folding: Motion
     angle: float
     alike: bool
 
@@ -137,17 +138,15 @@ def fold_to(sheet: Sheet, angle: float) -> Reached:
 
 def _starts(sheet: Sheet) -> Iterator[_Start]:
     """Yield motions, the most symmetric one first; all ways to move are looked for only when these are used up."""
-    pattern = prepared(sheet, ways=False)
+    pattern = configuration_of_sheet(sheet)
     if pattern.flat:
         for classes in alike_classes(pattern.sheet, pattern.linkage, pattern.marks):
             closure = AlikeClosure(pattern.linkage, classes)
             rates = _as_marked(pattern, closure)
             if rates is not None:
                 yield _Start(pattern, closure, rates, classes)
-    pattern = prepared(sheet)
     apart = np.arange(len(pattern.linkage.angles))
-    wanted = Wanted(None, pattern.wanted, [], np.zeros(0), pattern.doubt)
-    number, rates = beginning(pattern.closure, pattern.linkage, pattern.branches, wanted)
+    number, rates = beginning(pattern, Wanted())
     yield _Start(pattern, pattern.closure, rates, apart, number)
     for other, branch in enumerate(() if pattern.branches is None else pattern.branches.branches):
         rates = rates_as_marked(branch, pattern.wanted)
@@ -155,7 +154,7 @@ def _starts(sheet: Sheet) -> Iterator[_Start]:
             yield _Start(pattern, pattern.closure, rates, apart, other)
 
 
-def _as_marked(pattern: Prepared, closure: ClosureEquations) -> Floats | None:
+def _as_marked(pattern: SheetConfiguration, closure: ClosureEquations) -> Floats | None:
     """Return rates of a motion on which no marked joint goes against its mark, the largest 1 or -1.
 
     By factors of the equations of second order, and Newton's method in a basis of the rates that close to first
@@ -201,6 +200,6 @@ def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Re
         start.rates, limited, straight=straight, names=joints, allowance=Allowance(_STEPS), locked=still
     )
     path = driven_path(start.closure, pattern.linkage.angles, [driver], [[goal]], options=options)
-    folding = folding_along(pattern, Driven(start.branch, [driver], {joints[driver]: goal}, path))
+    folding = motion_along(pattern, Driven(start.branch, [driver], {joints[driver]: goal}, path))
     alike = int(start.classes.max(initial=0)) + 1 < len(joints)
     return Reached(folding, float(abs(folding.path.angles[-1, driver])), alike)

@@ -13,11 +13,11 @@ import scipy.sparse
 
 from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
+from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
 from synth.folding.derivatives import axis_motions
-from synth.motion.derivatives import crossing
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["VertexPlaces"]

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
-from math import degrees
 
 import numpy as np
 
@@ -20,26 +19,21 @@ from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import Fitting
-from synth.folding.mending.misfit import TURNED
 from synth.folding.mending.places import VertexPlaces
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
+from synth.motion.misfit import EXACT
 from synth.motion.second_order import rate_spaces, rates_near
 from synth.motion.singular.quadrics import quadrics_of
 
 __all__ = [
-    "EXACT",
     "Mended",
-    "doubt_of",
     "flattened",
     "mended",
     "nearly",
     "nearly_agreeing",
     "precision_of",
 ]
-
-EXACT = 1e-12
-"""Coordinates that are precise to this part of the extent are taken at their word."""
 
 _FARTHEST = 4.0
 """Vertices are moved by this times the precision at most."""
@@ -104,26 +98,6 @@ def precision_of(places: VertexPlaces, sheet: Sheet) -> Precision:
     if precision.size <= EXACT < places.bent:
         return Precision(places.bent, "creases of several pieces")
     return precision
-
-
-def doubt_of(precision: Precision, misfit: float | None = None) -> str:
-    """Return what rounded coordinates leave open where nothing moves; empty if they are exact.
-
-    Parameters
-    ----------
-    precision : Precision
-    misfit : float, optional
-        By how much loops stay open when something is turned all the same.
-    """
-    if precision.size <= EXACT:
-        return ""
-    told = f"{precision.size:.0e} of the extent ({precision.source})"
-    near = (
-        ""
-        if misfit is None
-        else f"; turned by {degrees(TURNED):g} degrees its loops close to {misfit:.0e} at best"
-    )
-    return f", with the coordinates as they are written{near}; they are precise to {told}, and exact ones may move"
 
 
 def nearly(precision: Precision) -> float:

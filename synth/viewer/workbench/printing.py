@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 from zipfile import ZipFile
 
 from graphs.errors import UnsolvableError
-from synth.moving.linkages import sheet_of
+from synth.moving.made import sheet_of
 from synth.templates.template import template_of
 from synth.templates.writing import write_template
 from synth.viewer.workbench.reading import read_and_edited, refusal

@@ -13,8 +13,9 @@ from graphs.mechanism.sheet import Sheet
 from graphs.rank.pose import pose_mobility
 from synth.advice.advised import advise
 from synth.advice.diagonals import diagonals_of, loads_on_stresses
-from synth.advice.general_pose import general_pose_of_sheet
+from synth.advice.general_pose import general_pose
 from synth.advice.search import freedoms_when_creased
+from synth.moving.made import configuration_of
 from synth.patterns.generated import generate
 
 
@@ -31,7 +32,7 @@ def creased(sheet, diagonals):
 @pytest.mark.parametrize("sheet", [folded_miura(3), generate("box-pop-up").mechanism], ids=["miura", "pop-up"])
 def test_columns_say_what_the_creased_sheet_does(sheet):
     """Rates by columns on the self-stresses, and by the closure equations of the sheet with the creases."""
-    pose = general_pose_of_sheet(sheet)
+    pose = general_pose(configuration_of(sheet))
     diagonals = diagonals_of(pose)
     loads, flaps = loads_on_stresses(pose, diagonals)
     assert any(flaps)
@@ -57,7 +58,7 @@ def test_a_miura_sheet_gets_its_freedom_in_corner_panels_only():
 
 @pytest.mark.slow
 def test_no_other_diagonal_of_a_miura_sheet_is_a_freedom():
-    pose = general_pose_of_sheet(folded_miura(4))
+    pose = general_pose(configuration_of(folded_miura(4)))
     gained = [one.panel for one in diagonals_of(pose) if freedoms_when_creased(pose.sheet, [one]) == 2]
     assert sorted(gained) == [0, 3, 12, 15]
 
@@ -76,7 +77,7 @@ def test_without_flaps_more_diagonals_are_needed():
 def test_diagonals_are_inside_panels_and_keep_clear_of_corners():
     corners = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (3, 0), (3, 1))
     angle = Sheet(8, ((1, 2),), "V", ((0, 1, 2, 3, 4, 5), (1, 6, 7, 2)), corners)
-    ends = {one.ends for one in diagonals_of(general_pose_of_sheet(angle)) if one.panel == 0}
+    ends = {one.ends for one in diagonals_of(general_pose(configuration_of(angle))) if one.panel == 0}
     assert ends == {
         (0, 2),
         (0, 3),

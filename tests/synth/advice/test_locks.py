@@ -16,7 +16,8 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from graphs.rank.pose import pose_mobility
 from synth.advice.advised import advise
-from synth.advice.general_pose import general_pose_of_sheet
+from synth.advice.general_pose import general_pose
+from synth.moving.made import configuration_of
 from synth.patterns.generated import generate
 
 
@@ -104,7 +105,7 @@ def test_the_cheapest_come_first_and_what_is_protected_stays(seed):
 def test_locked_creases_of_a_sheet_are_rigid_by_its_panels(name, has):
     """The sheet with the creases made flat: its mechanism is another, with fewer links."""
     sheet = generate(name).mechanism
-    placed = general_pose_of_sheet(sheet).sheet
+    placed = general_pose(configuration_of(sheet)).sheet
     assert pose_mobility(placed).dof == has
     for lock in advise(sheet, has - 2, limit=4).locks:
         held = placed

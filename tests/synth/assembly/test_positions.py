@@ -14,7 +14,7 @@ from synth.assembly import general_positions, positions
 from synth.assembly.family import family_of
 from synth.assembly.found import solutions
 from synth.fourbar.position import output_spherical
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.patterns import generate
 from synth.patterns.rings.spherical import spherical_ring
 
@@ -138,7 +138,7 @@ def test_creases_of_a_vertex(data):
 
 
 def test_several_inputs_and_another_seed():
-    made = linkage_of(generate("five-bar").mechanism)
+    made = configuration_of(generate("five-bar").mechanism).linkage
     found = [positions(made, {0: 0.2, 1: -0.1}, seed=seed) for seed in (0, 1)]
     assert [len(one.positions) for one in found] == [2, 2]
     np.testing.assert_allclose(*([p.angles for p in one.positions] for one in found), atol=1e-9)

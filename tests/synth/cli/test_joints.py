@@ -22,6 +22,6 @@ def test_a_platform_becomes_creases_and_is_seen_in_them(tmp_path):
 def test_a_platform_is_moved_and_drawn(tmp_path):
     legs = tmp_path / "legs.json"
     run("generate", "3-rps", "-o", legs)
-    assert "3 freedom(s)" in run("fold", legs, "--drive", "P0-1=3", "--frames", 1).stdout
+    assert "3 freedoms" in run("fold", legs, "--drive", "P0-1=3", "--frames", 1).stdout
     run("draw", legs, "-o", tmp_path / "a.svg")
     assert "hinges orange" in (tmp_path / "a.svg").read_text()

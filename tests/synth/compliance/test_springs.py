@@ -18,7 +18,7 @@ from synth.compliance.equilibrium import equilibrium, load_path
 from synth.compliance.small_motions import mass_matrix, small_motions
 from synth.compliance.springs import ElasticLinkage
 from synth.motion.linkage import linkage_of_axes
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.patterns import generate
 
 GROUND, CRANK, COUPLER, ROCKER = 4.0, 1.5, 3.5, 3.0
@@ -70,7 +70,9 @@ def four_bar():
 
 
 def elastic(stiffness=None, rest=None, moments=None):
-    return ElasticLinkage(linkage_of(four_bar()), Springs(stiffness or STIFFNESS, rest or REST, moments or {}))
+    return ElasticLinkage(
+        configuration_of(four_bar()).linkage, Springs(stiffness or STIFFNESS, rest or REST, moments or {})
+    )
 
 
 def test_equilibrium_is_the_minimum_of_the_closed_form():
@@ -202,7 +204,7 @@ def test_panels_have_the_inertia_of_plates():
         6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)),
         ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2)),
     )  # fmt: skip
-    linkage = linkage_of(book)
+    linkage = configuration_of(book).linkage
     masses = Masses(sheet_masses(book, 3.0))
     assert mass_matrix(linkage, linkage.angles, masses).item() == pytest.approx(12.0 * 4.0 / 3.0)
     bent = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (2, 0), (0.5, 0.5), (0, 2)))
@@ -212,7 +214,7 @@ def test_panels_have_the_inertia_of_plates():
 def test_a_folded_sheet_with_stiff_creases_unfolds_towards_its_rest():
     """One freedom, overconstrained: the minimum over poses that folding alone gives."""
     folded = generate("miura", rows=3, columns=3, fold=radians(50)).mechanism
-    linkage = linkage_of(folded)
+    linkage = configuration_of(folded).linkage
     joints = list(linkage.graph.joints)
     springs = Springs(dict.fromkeys(joints, 1.0), dict.fromkeys(joints, 0.0), {joints[0]: 2.0})
     bending = ElasticLinkage(linkage, springs)
@@ -224,12 +226,12 @@ def test_a_folded_sheet_with_stiff_creases_unfolds_towards_its_rest():
 
 
 def test_what_springs_refuse():
-    linkage = linkage_of(four_bar())
+    linkage = configuration_of(four_bar()).linkage
     with pytest.raises(InvariantError, match="0 or more"):
         ElasticLinkage(linkage, Springs({0: -1.0}))
     with pytest.raises(InvariantError, match="has no spring"):
         ElasticLinkage(linkage, Springs({0: 1.0}, {1: 1.0}))
-    flat = linkage_of(generate("miura", rows=2, columns=2).mechanism)
+    flat = configuration_of(generate("miura", rows=2, columns=2).mechanism).linkage
     with pytest.raises(UnsolvableError, match="fold it a little first"):
         ElasticLinkage(flat, Springs({next(iter(flat.graph.joints)): 1.0}))
     with pytest.raises(UnsolvableError, match="need springs"):

@@ -18,7 +18,7 @@ from graphs.rank.closure import independent_cycles
 from synth.compliance.freedoms import state_of, states_of_sets
 from synth.compliance.members import NONE, Members, released
 from synth.motion.linkage import linkage_of_axes
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.patterns import generate
 
 
@@ -62,7 +62,7 @@ def test_freedoms_of_every_set_are_those_of_trying(seed):
 
 @pytest.mark.parametrize("held", [(0,), (0, 3), (2, 5, 6)])
 def test_the_linkage_that_is_left_is_that_with_locked_joints(held):
-    linkage = linkage_of(generate("miura", rows=3, columns=3, fold=radians(50)).mechanism)
+    linkage = configuration_of(generate("miura", rows=3, columns=3, fold=radians(50)).mechanism).linkage
     names = [list(linkage.graph.joints)[place] for place in held]
     left = released(linkage, Members(tuple(names)), NONE)
     graph = linkage.graph
@@ -74,7 +74,7 @@ def test_the_linkage_that_is_left_is_that_with_locked_joints(held):
 
 def test_links_that_give_way_are_not_there():
     """A Miura sheet of 3 x 3 without its middle panel is a ring of eight links, six equations: two freedoms."""
-    linkage = linkage_of(generate("miura", rows=3, columns=3, fold=radians(50)).mechanism)
+    linkage = configuration_of(generate("miura", rows=3, columns=3, fold=radians(50)).mechanism).linkage
     found = states_of_sets(linkage, Members((), (4,)))
     assert [(one.freedoms, one.kind) for one in found] == [(1, "rigid mobile"), (2, "compliant mobile")]
 

@@ -10,7 +10,7 @@ from graphs.errors import UnsolvableError
 from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
 from synth.folding.alike.reaching import fold_to
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.second_order import rates_at
 from synth.patterns import generate
 from synth.patterns.creases.bases import fan, preliminary_base, waterbomb_base
@@ -96,7 +96,7 @@ def test_the_preliminary_base_keeps_its_open_diagonal_nearly_flat():
     ],
 )
 def test_classes_are_those_of_the_tessellation(name, parameters, classes, tangent):
-    pattern = prepared(generate(name, **parameters).mechanism, ways=False)
+    pattern = configuration_of_sheet(generate(name, **parameters).mechanism)
     first = alike_classes(pattern.sheet, pattern.linkage, pattern.marks)[0]
     assert first.max() + 1 == classes
     for group in range(classes):
@@ -106,7 +106,7 @@ def test_classes_are_those_of_the_tessellation(name, parameters, classes, tangen
 
 def test_what_has_no_symmetry_has_no_classes():
     sheet = fan([0.0, 0.9, 2.2, 3.7, 4.4])
-    pattern = prepared(sheet)
+    pattern = configuration_of_sheet(sheet)
     assert alike_classes(sheet, pattern.linkage, pattern.marks) == []
 
 

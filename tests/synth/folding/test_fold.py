@@ -17,9 +17,9 @@ from graphs.files.formats import read, read_all
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from synth.drawing.foldings import write_folding
+from synth.drawing.foldings import write_motion
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
-from synth.folding.prepared import prepared
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import PathOptions, driven_path
@@ -112,7 +112,7 @@ def test_a_direction_is_followed_straight_on():
 
 def test_a_direction_chooses_the_way_that_points_along_it():
     sheet = miura(3, 3, 1.0)
-    ways = prepared(sheet).branches.branches
+    ways = configuration_of_sheet(sheet).branches.branches
     joints = tuple(mechanism_of_sheet(sheet).sc.joints)
     for number, way in enumerate(ways):
         along = {joint: rate for joint, rate in zip(joints, way.rates.tolist(), strict=True) if abs(rate) > 1e-7}
@@ -165,7 +165,7 @@ def test_panels_do_not_pass_each_other():
 @pytest.mark.parametrize(("off", "frames"), [(0.0, 4), (1e-13, 4), (1e-5, 1)])
 def test_panels_that_do_not_hold_together_are_not_answered(off, frames, monkeypatch):
     """Two panels with a crease of two pieces, in line or a little bent: then, if left so, they hinge on neither."""
-    monkeypatch.setattr("synth.folding.prepared._repair", lambda *_: None)
+    monkeypatch.setattr("synth.folding.configuration._repair", lambda *_: None)
     places = ((0, -1), (0 + off, 0), (0, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
     folded = fold(Sheet(7, ((0, 1), (1, 2)), "VV", ((0, 1, 2, 3, 4), (0, 5, 6, 2, 1)), places), frames=3)
     assert len(folded.path.angles) == len(folded.places) == frames
@@ -180,7 +180,7 @@ def test_the_sides_of_slits_come_apart():
     edges = ((1, 7), (10, 4), (6, 9), (8, 11), (7, 10), (6, 7), (7, 8), (9, 10), (10, 11))
     folded = fold(Sheet(12, edges, "UUUUUCCCC", faces, places), drive={0: 1.0}, branch=0, frames=4)
     assert [branch.freedoms for branch in folded.branches.branches] == [1, 1]
-    assert folded.sheet.vertices == 14
+    assert folded.configuration.sheet.vertices == 14
     assert folded.path.stopped == ""
     assert max(folded.apart, folded.closure) < 1e-12
     heights = [np.ptp(folded.places[-1][[first, second]], axis=0).max() for first, second in ((7, 12), (10, 13))]
@@ -223,29 +223,29 @@ def test_a_no_for_rounded_coordinates_says_so():
 
 def test_files_hold_every_pose(tmp_path):
     folded = synth.fold(VERTEX, drive={1: np.radians(90)}, frames=3)
-    [place] = write_folding(folded, tmp_path / "folded.fold")
+    [place] = write_motion(folded, tmp_path / "folded.fold")
     sheet = read(place)
     assert sheet.frames.others == 4
     pose = sheet.frames.frame(4)
     np.testing.assert_allclose(pose.coordinates, folded.places[-1], atol=1e-12)
     assert pose.fold_angles[1] == pytest.approx(90)
     assert synth.mobility(sheet, pose=4).pose.dof == 1
-    assert [p.name for p in write_folding(folded, tmp_path / "f.obj")] == [f"f-{k:03d}.obj" for k in range(4)]
+    assert [p.name for p in write_motion(folded, tmp_path / "f.obj")] == [f"f-{k:03d}.obj" for k in range(4)]
     assert len(list(read_all(tmp_path / "f-003.obj"))) == 1
     with pytest.raises(FileError, match="exists already"):
-        write_folding(folded, tmp_path / "folded.fold")
+        write_motion(folded, tmp_path / "folded.fold")
     with pytest.raises(FileError, match="cannot hold a folding"):
-        write_folding(folded, tmp_path / "folded.txt")
+        write_motion(folded, tmp_path / "folded.txt")
 
 
 def test_the_command_line(tmp_path, data):
     bird = data / "patterns" / "bird-base.fold"
     listed = run("fold", bird, "--branches", "--frames", 2).stdout
-    assert "from this pose 16 way(s) to move" in listed
+    assert "from this pose 16 ways to move" in listed
     told = json.loads(run("fold", bird, "--drive", "0=20", "--branch", 3, "--frames", 2, "--json").stdout)
     assert {"freedoms", "branches", "exhaustive", "frames", "closure", "stopped"} <= set(told)
     assert (told["freedoms"], len(told["branches"]), told["frames"], told["branch"]) == (5, 16, 3, 3)
-    assert told["fold_angles_deg"]["0"] == pytest.approx([0, 10, 20])
+    assert told["joint_angles_deg"]["0"] == pytest.approx([0, 10, 20])
     out = tmp_path / "out.fold"
     run("fold", data / "patterns" / "four-bar-vertex.fold", "--frames", 2, "-o", out)
     assert read(out).frames.others == 3
@@ -260,7 +260,7 @@ def test_all_is_what_is_done_without_drive():
     vertex = ROOT / "data" / "patterns" / "four-bar-vertex.fold"
     answers = [json.loads(run("fold", vertex, *more, "--frames", 2, "--json").stdout) for more in ([], ["--all"])]
     assert answers[0] == answers[1]
-    assert max(abs(angles[-1]) for angles in answers[0]["fold_angles_deg"].values()) == pytest.approx(179)
+    assert max(abs(angles[-1]) for angles in answers[0]["joint_angles_deg"].values()) == pytest.approx(179)
 
 
 @pytest.mark.parametrize("name", ["f.gif", "f.png"])

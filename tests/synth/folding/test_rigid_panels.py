@@ -20,7 +20,7 @@ def bent(folded):
     """By how much distances of corners of one face change, at most, in units of the size of the sheet."""
     size = np.ptp(folded.places[0], axis=0).max()
     worst = 0.0
-    for face in folded.sheet.faces:
+    for face in folded.configuration.sheet.faces:
         corners = folded.places[:, list(face)]
         apart = np.linalg.norm(corners[:, :, None] - corners[:, None], axis=-1)
         worst = max(worst, float(np.abs(apart - apart[0]).max()))
@@ -86,4 +86,4 @@ def test_bad_input_is_told_in_one_line(data, words, told):
 def test_a_sheet_without_coordinates_does_not_fold(tmp_path):
     place = tmp_path / "bare.fold"
     place.write_text('{"faces_vertices": [[0, 1, 2], [2, 1, 3]], "edges_vertices": [[1, 2]]}', encoding="utf-8")
-    assert "folding needs coordinates" in run("fold", place, code=2).stderr
+    assert "needs coordinates" in run("fold", place, code=2).stderr

@@ -8,8 +8,8 @@ import pytest
 from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
-from synth.folding.prepared import prepared
 from synth.motion.branches import branches_of, first_branch
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.singular.sampling import rates_towards
@@ -39,7 +39,7 @@ def noisy(sheet, chance):
 
 def answers(sheet):
     """Return what is asked of a sheet, without figures: ways in their order, the way and joint taken, verdict."""
-    found = prepared(sheet).branches
+    found = configuration_of_sheet(sheet).branches
     ways = [(one.signs, one.freedoms, one.certainty, one.still, one.modes) for one in found.branches]
     try:
         folding = fold(sheet, frames=1)
@@ -93,7 +93,7 @@ def test_a_predicate_is_asked_of_rates_without_noise():
 def test_joints_that_do_not_move_on_a_branch_stay_where_they_are():
     """A line of a square grid folds: the creases across it close by squares, which tell angles to seven digits."""
     sheet = map_sheet(3, 3)
-    found = prepared(sheet).branches
+    found = configuration_of_sheet(sheet).branches
     for number, branch in enumerate(found.branches):
         assert branch.still
         path = fold(sheet, branch=number, frames=3).path
@@ -103,7 +103,7 @@ def test_joints_that_do_not_move_on_a_branch_stay_where_they_are():
 
 def test_branches_are_represented_by_general_rates():
     """The marks of a Resch pattern lead to the apex of a cone, where six creases would begin at rates of rounding."""
-    pattern = prepared(resch(1, 1))
+    pattern = configuration_of_sheet(resch(1, 1))
     branch = pattern.branches.branches[0]
     for rates in (branch.rates, rates_towards(branch.space, pattern.wanted)):
         assert np.abs(rates).min() > 1e-3

@@ -12,14 +12,14 @@ from graphs.mechanism.solids import HingedSolids
 from synth.motion.closure import ClosureEquations, turns
 from synth.motion.placement import link_motions
 from synth.motion.second_order import rates_at
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.moving.motion import move
 
 CLOSE = 1e-11
 
 
 def linkage(data, name):
-    return linkage_of(read(data / "linkages" / f"{name}.json"))
+    return configuration_of(read(data / "linkages" / f"{name}.json")).linkage
 
 
 def moved(data, name, goal, frames=3):
@@ -175,7 +175,7 @@ def test_sarrus_by_its_axes(data):
 
 
 def test_sarrus_of_panels_goes_straight_up(data):
-    here = linkage_of(read(data / "linkages" / "sarrus-panels.fold"))
+    here = configuration_of(read(data / "linkages" / "sarrus-panels.fold")).linkage
     assert rates_at(ClosureEquations(here), here.angles).shape[1] == 1
     joint = next(iter(here.graph.joints))
     motion = move(here, drive={joint: here.angles[0] + 0.4}, frames=4)
@@ -189,7 +189,7 @@ def test_sarrus_of_panels_goes_straight_up(data):
 @pytest.mark.parametrize(("pose", "freedoms"), [("open", 1), ("folded", 2), ("coplanar", 3)])
 def test_wamplers_fig_1(data, pose, freedoms):
     """One freedom; two where the rectangles lie on each other; three to first order where all is in one plane."""
-    here = linkage_of(read(data / "linkages" / f"wampler-fig1-{pose}.fold"))
+    here = configuration_of(read(data / "linkages" / f"wampler-fig1-{pose}.fold")).linkage
     assert rates_at(ClosureEquations(here), here.angles).shape[1] == freedoms
 
 
@@ -197,7 +197,7 @@ def test_wamplers_fig_1_as_a_model_moves_as_the_sheet_does(data):
     from graphs.convert.table import to_polyhedron
 
     sheet = read(data / "linkages" / "wampler-fig1-open.fold")
-    one, other = linkage_of(sheet), linkage_of(to_polyhedron(sheet))
+    one, other = configuration_of(sheet).linkage, configuration_of(to_polyhedron(sheet)).linkage
     assert (len(other.graph), len(other.graph.joints)) == (6, 7)
     np.testing.assert_allclose(np.sort(np.abs(other.angles)), np.sort(np.abs(one.angles)), atol=1e-12)
     assert rates_at(ClosureEquations(other), other.angles).shape[1] == 1
@@ -237,7 +237,7 @@ def test_a_cube_of_rods_moves_as_rods_do():
         (corners[:1] + corners[1:3] + corners[4:5], list(combinations(range(4), 2)), 0),
     ):
         model = PolyhedronModel(len(vertices), edges, coordinates=dict(enumerate(vertices)))
-        here = linkage_of(model)
+        here = configuration_of(model).linkage
         assert rates_at(ClosureEquations(here), here.angles).shape[1] == freedoms
 
 

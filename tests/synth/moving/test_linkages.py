@@ -19,14 +19,14 @@ from synth.guidance.synthesis import guiding_dyads
 from synth.motion.closure import ClosureEquations
 from synth.motion.placement import link_motions
 from synth.motion.second_order import rates_at
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.moving.motion import move
 
 RING = [(0, 1), (1, 2), (2, 3), (3, 0)]
 
 
 def freedoms(thing, *more):
-    linkage = linkage_of(thing, *more)
+    linkage = configuration_of(thing, *more).linkage
     return rates_at(ClosureEquations(linkage), linkage.angles).shape[1]
 
 
@@ -41,7 +41,7 @@ def test_a_cut_sheet_is_opened_as_fold_does():
 
     corners = ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1))
     cut = Sheet(6, ((1, 4),), "C", ((0, 1, 4, 3), (1, 2, 5, 4)), corners)
-    assert len(linkage_of(cut).graph.joints) == 0
+    assert len(configuration_of(cut).linkage.graph.joints) == 0
 
 
 def test_a_guided_four_bar_takes_its_body_through_the_orientations(data):
@@ -49,7 +49,7 @@ def test_a_guided_four_bar_takes_its_body_through_the_orientations(data):
     orientations = read_orientations(data / "orientations" / "crank-rocker.json")
     best = four_bars(orientations, guiding_dyads(orientations).dyads)[0]
     assert not best.defects
-    linkage = linkage_of(best, orientations)
+    linkage = configuration_of(best, orientations=orientations).linkage
     way = 1.0 if best.direction == "ccw" else -1.0
     turns = way * np.remainder(way * (best.angles - best.angles[0]), 2 * np.pi)
     for turn, wanted in [(turns[1], orientations.matrices[1]), (turns[-1], orientations.matrices[-1])]:
@@ -58,7 +58,7 @@ def test_a_guided_four_bar_takes_its_body_through_the_orientations(data):
         rotation, _ = link_motions(linkage, motion.path.angles, "ground")["body"]
         np.testing.assert_allclose(rotation[-1] @ orientations.matrices[0], wanted, atol=1e-9)
     with pytest.raises(UnsolvableError, match="expected its orientations"):
-        linkage_of(best)
+        configuration_of(best)
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_a_guided_four_bar_takes_its_body_through_the_orientations(data):
 )
 def test_what_has_no_axes_says_so(thing, told):
     with pytest.raises((UnsolvableError, InvariantError), match=told):
-        linkage_of(thing)
+        configuration_of(thing)
 
 
 def test_a_linkage_on_two_cones_is_on_neither():
@@ -85,7 +85,7 @@ def test_a_linkage_on_two_cones_is_on_neither():
     links = np.radians([120, 95, 45, 85])
     angles = dict(zip([("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")], links.tolist(), strict=True))
     with pytest.raises(UnsolvableError, match="2 cones"):
-        linkage_of(ConicalLinkage(ring, angles=angles))
+        configuration_of(ConicalLinkage(ring, angles=angles))
 
 
 @pytest.mark.parametrize(("centre", "moved"), [("finite", (0, 0, 0.1)), ("infinite", (0, 0.1, 0))])
@@ -98,17 +98,17 @@ def test_centres_that_are_none_are_refused(centre, moved):
     point, along = axes[2]
     axes[2] = (moved, along) if centre == "finite" else (point, (0, 0.1, 1))
     with pytest.raises(InvariantError, match=r"axes of loop .* miss by"):
-        linkage_of(HingedSolids(graph, axes))
+        configuration_of(HingedSolids(graph, axes))
 
 
 def test_joints_that_are_none_are_refused(data):
-    linkage = linkage_of(read(data / "linkages" / "bennett.json"))
+    linkage = configuration_of(read(data / "linkages" / "bennett.json")).linkage
     with pytest.raises(InvariantError, match="9 is no joint"):
         move(linkage, drive={9: 1.0})
     with pytest.raises(InvariantError, match="expected a finite angle"):
         move(linkage, drive={0: np.inf})
     with pytest.raises(UnsolvableError, match="no joints"):
-        move(linkage_of(HingedSolids(SCGraph(1), {})))
+        move(configuration_of(HingedSolids(SCGraph(1), {})).linkage)
 
 
 def test_synth_fold_moves_what_has_no_panels(data, tmp_path):
@@ -118,7 +118,7 @@ def test_synth_fold_moves_what_has_no_panels(data, tmp_path):
     assert told["stopped"] is None
     assert np.diff(told["joint_angles_deg"]["0"]) == pytest.approx([20, 20, 20])
     assert told["joint_angles_deg"]["2"][-1] == pytest.approx(-60)
-    assert "1 freedom(s), numerical" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
+    assert "1 freedom, numerical" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
     assert "no panels to write" in run("fold", file, "-o", tmp_path / "a.fold", code=2).stderr
     assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 
@@ -130,14 +130,16 @@ def test_synth_fold_folds_models_that_know_their_panels(data, tmp_path):
     write(to_polyhedron(sheet), tmp_path / "model.json")
     told = json.loads(run("fold", tmp_path / "model.json", "--json", "--frames", 1).stdout)
     assert told["freedoms"] == 1
-    assert "fold_angles_deg" in told
+    assert "joint_angles_deg" in told
 
 
 def test_axes_may_be_given_by_the_apex_itself():
     """A point in the apex says nothing of where a ray goes; the direction does."""
     directions = [np.cos(t) * np.eye(3)[0] + np.sin(t) * np.eye(3)[1] for t in np.radians([0, 60, 140, 260])]
     axes = {i: ((0, 0, 0), tuple(d)) for i, d in enumerate(directions)}
-    motion = move(linkage_of(HingedSolids(SCGraph(4, RING, [Loop(range(4))]), axes)), drive={0: 0.5}, frames=1)
+    motion = move(
+        configuration_of(HingedSolids(SCGraph(4, RING, [Loop(range(4))]), axes)), drive={0: 0.5}, frames=1
+    )
     assert len(motion.branches.branches) == 2  # the two modes of a flat vertex
     assert motion.path.stopped == ""
 
@@ -154,9 +156,11 @@ def test_what_models_say_beyond_their_panels_is_not_dropped(more, told):
     corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (0, 1, 0), 3: (1, 1, 0)}
     rods = [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)]
     links = {"a": (0, 1, 2), "b": (1, 3, 2)}
-    assert len(linkage_of(PolyhedronModel(4, rods, coordinates=corners, links=links)).graph.joints) == 1
+    assert (
+        len(configuration_of(PolyhedronModel(4, rods, coordinates=corners, links=links)).linkage.graph.joints) == 1
+    )
     with pytest.raises(UnsolvableError, match=told):
-        linkage_of(PolyhedronModel(4, rods, coordinates=corners, links=links, **more))
+        configuration_of(PolyhedronModel(4, rods, coordinates=corners, links=links, **more))
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.plane import in_space
 from synth.folding.motion import fold
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.moving.tables import table_text
 from synth.patterns.generated import generate
 
@@ -55,7 +55,7 @@ def test_vertices_and_axes_of_every_frame_are_those_of_the_folding(framed, tmp_p
 def test_axes_of_what_has_no_panels(data, tmp_path):
     bennett = data / "linkages" / "bennett.json"
     run("convert", bennett, tmp_path / "axes.csv", "--table", "axes")
-    rows, linkage = rows_of(tmp_path / "axes.csv"), linkage_of(read(bennett))
+    rows, linkage = rows_of(tmp_path / "axes.csv"), configuration_of(read(bennett)).linkage
     assert [(row["first_link"], row["second_link"]) for row in rows] == [
         tuple(map(str, pair)) for pair in linkage.graph.joints.values()
     ]

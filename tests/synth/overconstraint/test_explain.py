@@ -12,7 +12,7 @@ import synth
 from graphs.errors import UnsolvableError
 from graphs.mechanism.solids import HingedSolids
 from synth.motion.closure import ClosureEquations
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.overconstraint import explain
 from synth.overconstraint.idle import first_order
 from synth.overconstraint.reasons import reasons_of
@@ -69,7 +69,7 @@ def test_a_general_linkage_has_nothing_idle():
 
 def test_vertices_that_do_not_fold_flat_are_no_reason():
     """A folded vertex of a Miura sheet turned a little out of its law."""
-    linkage = linkage_of(generate("miura", rows=3, columns=3, fold=radians(60)).mechanism)
+    linkage = configuration_of(generate("miura", rows=3, columns=3, fold=radians(60)).mechanism).linkage
     assert reasons_of(linkage, (0, 1, 2, 3))
     directions = linkage.directions.copy()
     joint = linkage.loops[2].joints[1]
@@ -90,7 +90,7 @@ def changed(solids, joint, turn, shift):
 def test_what_was_idle_grows_with_errors_as_foretold(name):
     """By the singular values of linkages built with the error: none beyond, the worst of many ways near it."""
     solids = generate(name).mechanism
-    linkage = linkage_of(solids)
+    linkage = configuration_of(solids).linkage
     order = first_order(linkage)
     allowed = {one.joint: one for one in explain(solids).tolerances}
     rank = len(order.matrix[0]) - order.rates.shape[1]
@@ -113,13 +113,13 @@ def test_what_was_idle_grows_with_errors_as_foretold(name):
 
 def first_order_matrix(solids, like):
     """In the frame of the linkage without the error: other extents would be other units."""
-    made = linkage_of(solids)
+    made = configuration_of(solids).linkage
     points = (made.points * made.extent + made.middle - like.middle) / like.extent
     return ClosureEquations(replace(made, points=points)).at(made.angles)[1].toarray()
 
 
 def test_growth_is_that_of_rates_for_each_axis():
-    order = first_order(linkage := linkage_of(generate("bennett").mechanism))
+    order = first_order(linkage := configuration_of(generate("bennett").mechanism).linkage)
     assert growths(linkage, order).shape == (3, 24)
 
 

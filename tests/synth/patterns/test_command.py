@@ -37,7 +37,7 @@ def test_a_file_for_every_command(tmp_path):
     assert "Folds with 1 freedom from its pose" in run("mobility", sheet).stdout
     told = json.loads(run("generate", "bennett", "--twist", 30, "-o", ring, "--json").stdout)
     assert (told["parameters"]["twist"], told["freedoms"], told["output"]) == (pytest.approx(30), 1, str(ring))
-    assert "1 freedom(s), numerical" in run("fold", ring, "--drive", "0=3", "--frames", 1).stdout
+    assert "1 freedom, numerical" in run("fold", ring, "--drive", "0=3", "--frames", 1).stdout
 
 
 def test_wrong_words_are_one_line(tmp_path):

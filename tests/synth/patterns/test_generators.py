@@ -9,7 +9,7 @@ import synth
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.moving.motion import move
 from synth.patterns import GENERATORS, generate
 from synth.patterns.creases.bases import bird_base
@@ -26,7 +26,7 @@ def freedoms(thing):
         verdict = mobility(thing, exact=False).verdict
         assert verdict.certainty in ("proved", "numerical")
         return verdict.freedoms
-    found = move(thing, drive={next(iter(linkage_of(thing).graph.joints)): 0.02}, frames=1).branches
+    found = move(thing, drive={next(iter(configuration_of(thing).linkage.graph.joints)): 0.02}, frames=1).branches
     return max(branch.freedoms for branch in found.branches)
 
 

@@ -14,7 +14,7 @@ from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
 from graphs.rank.pose import pose_mobility
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 from synth.realisation.drawing import drawings
 from synth.realisation.figures import crossings
 from synth.realisation.pattern import pattern_of
@@ -58,7 +58,7 @@ def test_the_letters_are_those_of_a_way_in_which_every_crease_turns():
     signs = "".join("+" if letter == "V" else "-" for letter in found.sheet.assignments if letter in "MV")
     mirrored = signs.translate(str.maketrans("+-", "-+"))
     assert len(signs) == 4
-    assert {signs, mirrored} & {branch.signs for branch in prepared(found.sheet).branches.branches}
+    assert {signs, mirrored} & {branch.signs for branch in configuration_of_sheet(found.sheet).branches.branches}
 
 
 @pytest.mark.parametrize("code", [TWO_ABOUT_ONE, ROUND_ITS_CENTRE])

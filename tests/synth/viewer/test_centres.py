@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
-from synth.folding.prepared import prepared
 from synth.motion.placement import link_motions
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.centres import centres_of_linkage, centres_of_pattern
+from synth.viewer.centres import centres_of
 
 
 @pytest.mark.parametrize(
@@ -21,13 +21,13 @@ from synth.viewer.centres import centres_of_linkage, centres_of_pattern
     ],
 )
 def test_kinds_of_patterns(data, name, kinds):
-    centres = centres_of_pattern(prepared(read(data / name)))
+    centres = centres_of(configuration_of_sheet(read(data / name)))
     assert [centre.kind for centre in centres] == kinds
 
 
 def test_links_without_shape_have_finite_ones(data):
-    linkage = linkage_of(read(data / "surfaces" / "fig11-stephenson.json"))
-    (centre,) = centres_of_linkage(linkage)
+    linkage = configuration_of(read(data / "surfaces" / "fig11-stephenson.json"))
+    (centre,) = centres_of(linkage)
     assert centre.kind == "finite"
     assert centre.loops == 2
     assert sorted(centre.joints) == list(range(7))
@@ -35,11 +35,11 @@ def test_links_without_shape_have_finite_ones(data):
 
 def test_axes_meet_there_and_all_its_links_keep_it_as_they_fold():
     folding = fold(miura(3, 3, np.radians(60.0)), frames=2)
-    pattern = prepared(folding.sheet)
+    pattern = configuration_of_sheet(folding.configuration.sheet)
     linkage = pattern.linkage
     pairs, links = list(linkage.graph.joints.values()), list(linkage.graph.nodes)
     motions = link_motions(linkage, folding.path.angles[-1:])
-    centres = centres_of_pattern(pattern)
+    centres = centres_of(pattern)
     assert len(centres) == 4
     for centre in centres:
         joints = list(centre.joints)

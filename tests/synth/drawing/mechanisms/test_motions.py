@@ -11,7 +11,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms import motions
 from synth.drawing.mechanisms.motions import motions_by_verdict, motions_on_branch
 from synth.drawing.mechanisms.pictures import draw
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 
 CORNERS = ((0, 0), (1, 0), (0.5, 1), (-1, 0), (0.5, -1))
 VERTEX = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), CORNERS)
@@ -55,7 +55,7 @@ def test_what_is_not_known_is_neither_still_nor_moving(monkeypatch):
 
 
 def test_each_branch_has_its_mountains_and_valleys():
-    branches = prepared(VERTEX).branches.branches
+    branches = configuration_of_sheet(VERTEX).branches.branches
     assert len(branches) > 1
     colour_of = {"+": "valley", "-": "mountain", "0": "grey"}
     for number, branch in enumerate(branches):
@@ -81,7 +81,7 @@ def test_branches_that_are_none():
 def test_the_command_takes_numbers_and_signs(tmp_path):
     pattern = tmp_path / "vertex.fold"
     write(VERTEX, pattern)
-    signs = prepared(VERTEX).branches.branches[1].signs
+    signs = configuration_of_sheet(VERTEX).branches.branches[1].signs
     for name, branch in (("number", "1"), ("signs", signs)):
         run("draw", pattern, "--colour", "branch", f"--branch={branch}", "-o", tmp_path / f"{name}.svg")
     assert (tmp_path / "number.svg").read_bytes() == (tmp_path / "signs.svg").read_bytes()

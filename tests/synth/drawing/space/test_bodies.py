@@ -12,10 +12,11 @@ from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.svg import svg_text
 from synth.drawing.space.bodies import bodies_of, hinge_ends, places_of_hinges
 from synth.drawing.space.panels import panel_shapes
 from synth.drawing.space.view import view_from_above
-from synth.moving.linkages import linkage_of
+from synth.moving.made import configuration_of
 from synth.moving.motion import move
 
 LINKAGES = Path(__file__).resolve().parents[4] / "data" / "linkages"
@@ -23,7 +24,7 @@ LINKAGES = Path(__file__).resolve().parents[4] / "data" / "linkages"
 
 @pytest.fixture(scope="module")
 def kaleidocycle():
-    return linkage_of(read(LINKAGES / "kaleidocycle-6.json"))
+    return configuration_of(read(LINKAGES / "kaleidocycle-6.json")).linkage
 
 
 def faces_of(panels, link):
@@ -45,7 +46,7 @@ def test_links_of_a_kaleidocycle_are_tetrahedra(kaleidocycle):
 
 def test_links_of_a_sarrus_linkage_are_plates_but_two():
     """Hinges of a leg are parallel: plates, to be seen from both sides. Base and top join two directions."""
-    linkage = linkage_of(read(LINKAGES / "sarrus.json"))
+    linkage = configuration_of(read(LINKAGES / "sarrus.json")).linkage
     panels, _ = bodies_of(linkage)
     sizes = {link: sorted(map(len, faces_of(panels, link))) for link in linkage.graph}
     assert sorted(sizes.values()).count([4, 4]) == 4
@@ -61,7 +62,7 @@ def test_axes_through_one_point_have_hinges_beside_it():
     ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     axes = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1)]
     ends = hinge_ends(
-        linkage_of(HingedSolids(ring, {joint: ((0, 0, 0), axis) for joint, axis in enumerate(axes)}))
+        configuration_of(HingedSolids(ring, {joint: ((0, 0, 0), axis) for joint, axis in enumerate(axes)})).linkage
     )
     middles = ends.mean(axis=1)
     assert min(np.linalg.norm(a - b) for a, b in combinations(middles, 2)) > 0.5
@@ -88,7 +89,7 @@ def test_what_looks_away_is_not_drawn(kaleidocycle):
 
 def test_numbers_of_hinges_in_front_are_written():
     """Each is of a hinge that is drawn; one that a body hides has none."""
-    root = ElementTree.fromstring(__import__("synth").draw(read(LINKAGES / "kaleidocycle-8.json"))._repr_svg_())
+    root = ElementTree.fromstring(svg_text(draw(read(LINKAGES / "kaleidocycle-8.json"))))
     lines = {e.get("data-joint") for e in root.iter() if e.tag.endswith("path")} - {None}
     texts = {e.get("data-joint") for e in root.iter() if e.tag.endswith("text")} - {None}
     assert texts

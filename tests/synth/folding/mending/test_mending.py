@@ -10,15 +10,15 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet
+from synth.folding.configuration import configuration_of_sheet
 from synth.folding.mending.angles import MeantAngles
-from synth.folding.mending.misfit import TURNED, least_misfit
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import flattened
 from synth.folding.motion import fold
-from synth.folding.prepared import prepared
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
+from synth.motion.misfit import TURNED, least_misfit
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 
@@ -39,7 +39,7 @@ def farthest(one, other):
 def test_a_noisy_miura_sheet_gets_all_its_branches_back(size, noise):
     noisy = disturbed(miura(size, size, 1.0), noise)
     assert not branches_of(linkage_of_sheet(noisy)).branches
-    pattern = prepared(noisy)
+    pattern = configuration_of_sheet(noisy)
     assert [branch.certainty for branch in pattern.branches.branches] == ["proved"] * 2 ** (size - 1)
     assert sorted(branch.freedoms for branch in pattern.branches.branches) == [1] * (2 ** (size - 1) - 1) + [
         size - 1
@@ -54,7 +54,7 @@ def test_a_noisy_sheet_folds_and_says_what_was_moved():
     assert folded.path.stopped == ""
     assert folded.closure < 1e-12
     assert folded.apart < 1e-12
-    assert folded.to_json()["mended"] == [str(folded.repairs[0])]
+    assert folded.to_json()["mended"] == [str(folded.configuration.repairs[0])]
     assert str(folded).startswith("mended: vertices moved by up to")
 
 
@@ -65,7 +65,7 @@ def test_a_folded_sheet_is_moved_along_its_motion():
     noisy = disturbed(folded, 1e-6)
     linkage = linkage_of_sheet(noisy)
     assert not branches_of(linkage).branches
-    pattern = prepared(noisy)
+    pattern = configuration_of_sheet(noisy)
     assert [branch.freedoms for branch in pattern.branches.branches] == [1]
     assert farthest(pattern.sheet, noisy) < 4e-6
 
@@ -73,7 +73,7 @@ def test_a_folded_sheet_is_moved_along_its_motion():
 @pytest.mark.parametrize("sheet", [miura(3, 3, 1.0), disturbed(fan([0.1, 1.3, 2.9, 4.2, 5.1]), 1e-6)])
 def test_what_moves_as_it_is_written_is_left(sheet):
     """Exact coordinates, and rounded ones of a vertex whose five creases agree anyway."""
-    pattern = prepared(sheet)
+    pattern = configuration_of_sheet(sheet)
     assert pattern.repairs == ()
     assert farthest(pattern.sheet, sheet) == 0.0
 
@@ -81,7 +81,7 @@ def test_what_moves_as_it_is_written_is_left(sheet):
 def test_what_is_rigid_stays_so():
     """Three creases that are far from a line do not fold by any small change."""
     rigid = disturbed(fan([0.1, 2.0, 4.4]), 1e-4)
-    pattern = prepared(rigid)
+    pattern = configuration_of_sheet(rigid)
     assert pattern.repairs == ()
     assert pattern.branches.no_motion == "proved"
 
@@ -111,7 +111,7 @@ def test_what_nothing_mends_is_told_with_how_nearly_it_moves():
     sheet = disturbed(miura(3, 3, 1.0), 1e-4)
     places = np.array(sheet.coordinates)
     places[5] += (2e-3, -1e-3)
-    pattern = prepared(replace(sheet, coordinates=tuple(map(tuple, places.tolist()))))
+    pattern = configuration_of_sheet(replace(sheet, coordinates=tuple(map(tuple, places.tolist()))))
     assert not pattern.branches.branches
     assert "; turned by 10 degrees its loops close to " in pattern.doubt
 
@@ -123,7 +123,7 @@ def test_a_sheet_is_put_into_its_plane():
     mended = flattened(lifted)
     assert 1e-7 < mended.moved < 4e-7
     assert precision_of_sheet(mended.sheet).size < 1e-12
-    assert len(prepared(lifted).branches.branches) == 2
+    assert len(configuration_of_sheet(lifted).branches.branches) == 2
     tent = replace(sheet, coordinates=tuple((x, y, 0.3 - 0.3 * (x * x + y * y)) for x, y in sheet.coordinates))
     assert flattened(tent) is None
 
@@ -136,7 +136,7 @@ def test_a_crease_of_two_pieces_is_made_straight():
     )
     bent = disturbed(sheet, 1e-5)
     folded = fold(bent, frames=2)
-    assert folded.repairs
+    assert folded.configuration.repairs
     assert folded.path.stopped == ""
     assert folded.apart < 1e-12
 
@@ -187,7 +187,7 @@ def test_meant_angles_hold_at_exact_coordinates():
     ],
 )
 def test_patterns_of_others_with_rounded_coordinates_fold(fold_folder, name, branches):
-    pattern = prepared(read(fold_folder / name))
+    pattern = configuration_of_sheet(read(fold_folder / name))
     assert len(pattern.branches.branches) == branches
     assert pattern.repairs
     precision = pattern.repairs[0].precision.size

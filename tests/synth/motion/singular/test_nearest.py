@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.folding import prepared as preparing
+from synth.motion import configuration as configurations
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.second_order import largest_only, rates_at, spaces_within
@@ -76,7 +76,7 @@ def test_where_all_choices_leave_nothing_it_is_rigid(sheet):
 
 
 def test_large_sheets_are_judged_so(monkeypatch):
-    monkeypatch.setattr(preparing, "MOST_JOINTS", 20)
+    monkeypatch.setattr(configurations, "MOST_JOINTS", 20)
     sheet = map_sheet(7, 5)
     unmarked = "".join(letter if letter == "B" else "U" for letter in sheet.assignments)
     verdict = mobility(replace(sheet, assignments=unmarked), exact=False).verdict

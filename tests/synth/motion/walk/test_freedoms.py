@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.walk.freedoms import free_rates, independent_joints
 
 
 @pytest.fixture(scope="module")
 def bird_base(data):
-    return prepared(read(data / "patterns" / "bird-base.fold"))
+    return configuration_of_sheet(read(data / "patterns" / "bird-base.fold"))
 
 
 @pytest.fixture(scope="module")

@@ -36,7 +36,7 @@ def test_a_strip_reads_back_to_its_string_and_has_its_freedoms(creases, tmp_path
         assert again.canonical == chain.canonical
         assert flat.freedoms == folded.freedoms == flat.mobility == creases
         assert flat.folds
-        assert _freedoms_between_bodies(folded.sheet) == chain.dof
+        assert _freedoms_between_bodies(folded.configuration.sheet) == chain.dof
 
 
 def test_creases_beside_a_dash_are_parallel_and_no_others_are():

@@ -55,7 +55,7 @@ def moved(sheet):
         folding = fold(sheet, frames=2)
     except SynthedraError:
         return []
-    return [] if folding.sheet.vertices != sheet.vertices else list(folding.places)
+    return [] if folding.configuration.sheet.vertices != sheet.vertices else list(folding.places)
 
 
 @pytest.mark.parametrize(

@@ -1,20 +1,24 @@
-"""How nearly a rigid pattern moves: by how much its loops stay open when it is turned all the same.
+"""How nearly what is rigid moves: by how much its loops stay open when it is turned all the same.
 
 Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
 
-from math import radians
+from math import degrees, radians
 
 import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import leading
+from graphs.mechanism.precision import Precision
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 
-__all__ = ["TURNED", "least_misfit"]
+__all__ = ["EXACT", "TURNED", "doubt_of", "least_misfit"]
+
+EXACT = 1e-12
+"""Coordinates that are precise to this part of the extent are taken at their word."""
 
 TURNED = radians(10.0)
 """How far the joint that moves most is turned."""
@@ -78,3 +82,23 @@ def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> flo
         else:
             regular *= 10.0
     return float(np.abs(residual).max(initial=0.0))
+
+
+def doubt_of(precision: Precision, misfit: float | None = None) -> str:
+    """Return what rounded coordinates leave open where nothing moves; empty if they are exact.
+
+    Parameters
+    ----------
+    precision : Precision
+    misfit : float, optional
+        By how much loops stay open when something is turned all the same.
+    """
+    if precision.size <= EXACT:
+        return ""
+    told = f"{precision.size:.0e} of the extent ({precision.source})"
+    near = (
+        ""
+        if misfit is None
+        else f"; turned by {degrees(TURNED):g} degrees its loops close to {misfit:.0e} at best"
+    )
+    return f", with the coordinates as they are written{near}; they are precise to {told}, and exact ones may move"

@@ -1,4 +1,4 @@
-"""The linkage at a pose that any thing with coordinates is: what moves, before anything is said of how.
+"""Anything that has coordinates as a mechanism at a configuration: made here, and nowhere else.
 
 Theory: docs/theory/moving.md.
 """
@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from graphs.answer.mechanisms import lying, precision_of_steps
 from graphs.arrays import Floats
-from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.joints.as_revolutes import revolutes_of
@@ -18,70 +18,110 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.conical import ConicalLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import Precision, precision_of
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from synth.conformed.linkages import OnCone, linkage_on_cones
 from synth.conformed.pose import joint_axes
-from synth.folding.opened import opened
+from synth.folding.configuration import configuration_of_sheet
 from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.orientations import Orientations
-from synth.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
+from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
+from synth.motion.driving import check_closed
+from synth.motion.linkage import PosedLinkage, linkage_of_axes
+from synth.motion.misfit import EXACT
 from synth.moving.rods import linkage_of_rods
 
-__all__ = ["linkage_of", "linkage_on_cone", "off_one_point", "sheet_of"]
+__all__ = ["Movable", "configuration_of", "linkage_on_cone", "off_one_point", "sheet_of"]
+
+Movable = Configuration | PosedLinkage | Mechanism | GuidedFourBar | OnCone
+"""What is at a configuration, or has coordinates that tell it."""
+
+_EXACTLY = Precision(0.0, "exact")
 
 _MEETS = 1e-9
 """Axes that pass a centre at this part of the extent, or are this far from parallel, meet there."""
 _APEX = (0.0, 0.0, 0.0)
 
 
-def linkage_of(
-    thing: Mechanism | GuidedFourBar | OnCone, orientations: Orientations | None = None
-) -> PosedLinkage:
-    """Return the links, joint axes and loops of anything that has coordinates.
+def configuration_of(
+    thing: Movable,
+    *,
+    orientations: Orientations | None = None,
+    frame: int | None = None,
+    mend: bool = True,
+    hinge_flat: bool = False,
+) -> Configuration:
+    """Return anything that has coordinates as a mechanism at a configuration.
 
     Parameters
     ----------
-    thing : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, ConicalLinkage, OnCone or GuidedFourBar
-        Of a sheet that has several frames, that which is to move. A model that knows its links is a sheet of
-        panels, else its rods are links. A conical linkage lies on its cone, a guided four-bar
-        takes the first of its orientations.
+    thing : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, ConicalLinkage, OnCone, GuidedFourBar, ...
+        A model that knows its links is a sheet of panels, else its rods are links. A conical linkage lies on its
+        cone, a guided four-bar takes the first of its orientations. A Configuration is returned as it is.
     orientations : Orientations, optional
         Those of a guided four-bar, whose moving axes are told in the frame of the body.
+    frame : int, optional
+        Of a sheet that has several; by default as it was read, or if that has no coordinates the first that has.
+    mend : bool, optional
+        Move vertices of a sheet within the precision of their coordinates if it moves in more ways so.
+    hinge_flat : bool, optional
+        Make hinges of the flat (F) edges of a sheet too.
 
     Raises
     ------
     UnsolvableError
-        If it has no coordinates, lies on no cone or on several, or has terms that are no hinges.
+        If it has no coordinates, loops are not closed there, it lies on no cone or on several, or has terms that
+        are no hinges.
     InvariantError
-        If the axes of a loop do not meet in its centre, or a hinge has no length.
+        If the axes of a loop do not meet in its centre, a hinge has no length, or there is no such frame.
 
     Examples
     --------
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
     >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
-    >>> linkage_of(HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)}))
-    <PosedLinkage: 4 links, 4 joints, 1 loops>
+    >>> configuration_of(HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)}))
+    <Configuration: <PosedLinkage: 4 links, 4 joints, 1 loops>>
     """
-    if isinstance(thing, Sheet):
-        return _of_sheet(thing)
-    if isinstance(thing, PolyhedronModel):
+    if isinstance(thing, Configuration):
+        return thing
+    if isinstance(thing, PosedLinkage):
+        check_closed(ClosureEquations(thing), thing)
+        return Configuration(thing, _EXACTLY)
+    if isinstance(thing, Sheet) or (frame is None and isinstance(thing, PolyhedronModel)):
         sheet = sheet_of(thing)
-        return linkage_of_rods(thing) if sheet is None else _of_sheet(sheet)
+        if sheet is not None:
+            return configuration_of_sheet(lying(sheet, frame), hinge_flat=hinge_flat, mend=mend)
+    if frame:
+        raise InvariantError("frames", f"{thing!r} has no frames", "a .fold file")
+    linkage, precision = _made(thing, orientations)
+    return Configuration(
+        linkage, precision, precision.size <= EXACT, thing if isinstance(thing, Mechanism) else None
+    )
+
+
+def _made(thing: Movable, orientations: Orientations | None) -> tuple[PosedLinkage, Precision]:
+    """Return the linkage that a thing without panels is, and how precise its coordinates are."""
+    if isinstance(thing, PolyhedronModel):
+        return linkage_of_rods(thing), precision_of(list(thing.coordinates.values()))
     if isinstance(thing, JointedLinkage) and thing.places:
         thing = revolutes_of(thing)
     if isinstance(thing, HingedSolids):
-        return _with_centres(linkage_of_axes(thing.chain, thing.axes))
+        points, directions = (np.array([axis[part] for axis in thing.axes.values()]) for part in (0, 1))
+        both = (precision_of(one.reshape(-1, 3).tolist()) for one in (points, directions))
+        return _with_centres(linkage_of_axes(thing.chain, thing.axes)), max(both, key=lambda one: one.size)
     if isinstance(thing, OnCone):
-        return linkage_on_cone(thing)
+        return linkage_on_cone(thing), _EXACTLY
     if isinstance(thing, ConicalLinkage):
-        return linkage_on_cone(_the_one(linkage_on_cones(thing)))
+        precision = _EXACTLY if thing.steps is None else precision_of_steps(thing)
+        return linkage_on_cone(_the_one(linkage_on_cones(thing))), precision
     if isinstance(thing, GuidedFourBar):
         if orientations is None:
             raise UnsolvableError("a guided four-bar has its moving axes in the body: expected its orientations")
-        return _of_guided(thing, orientations.matrices[0])
+        return _of_guided(thing, orientations.matrices[0]), _EXACTLY
     raise UnsolvableError(f"to move needs coordinates, and {thing!r} has none")
 
 
@@ -124,13 +164,6 @@ def linkage_on_cone(linkage: OnCone) -> PosedLinkage:
         raise UnsolvableError("the linkage lies on any cone: expected a cone angle")
     directions = joint_axes(np.asarray(linkage.places, dtype=float), linkage.cone_angle)
     return _about_a_point(linkage.chain, directions)
-
-
-def _of_sheet(sheet: Sheet) -> PosedLinkage:
-    if sheet.coordinates is None:
-        raise UnsolvableError(f"to move needs coordinates, and {sheet!r} has none")
-    whole = with_all_edges(sheet)
-    return linkage_of_sheet(opened(whole, mechanism_of_sheet(whole)))
 
 
 def _the_one(on_cones: Sequence[OnCone]) -> OnCone:

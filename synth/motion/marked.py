@@ -18,7 +18,7 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, rates_at
 from synth.motion.singular.sampling import rates_towards, same_part
 
-__all__ = ["Marked", "MarkedWay", "marked_way"]
+__all__ = ["Marked", "MarkedWay", "agreeing_best", "marked_way", "rates_as_marked"]
 
 Marked = Literal["has", "none has", "none found"]
 
@@ -57,9 +57,9 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedW
 
     Examples
     --------
-    >>> from synth.folding.prepared import prepared
+    >>> from synth.folding.configuration import configuration_of_sheet
     >>> from synth.patterns.creases.tessellations import miura
-    >>> pattern = prepared(miura(2, 2, 1.0))
+    >>> pattern = configuration_of_sheet(miura(2, 2, 1.0))
     >>> marked_way(pattern.branches, pattern.linkage, pattern.marks)
     MarkedWay(number=0, marked='has')
     >>> marked_way(pattern.branches, pattern.linkage, abs(pattern.marks))
@@ -76,6 +76,24 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedW
     tangent = rates_at(ClosureEquations(linkage), linkage.angles)
     sure = found.exhaustive or _rates_with(tangent, marks) is None
     return MarkedWay(None, "none has" if sure else "none found")
+
+
+def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
+    """Return rates near to what is marked, on the part of the space that the branch is."""
+    rates = rates_towards(branch.space, marks)
+    if rates.any() and same_part(branch.space, rates, branch.rates):
+        return rates
+    return -branch.rates if branch.rates @ marks < -_STILL else branch.rates
+
+
+def agreeing_best(found: Branches, marks: Floats) -> int:
+    """Return the number of the branch on which most joints begin as they are assigned, less those that do not."""
+
+    def agreement(branch: Branch) -> int:
+        rates = rates_as_marked(branch, marks)
+        return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+
+    return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
 
 
 def _holds(branch: Branch, begun: Sequence[Floats]) -> bool:

@@ -5,14 +5,14 @@ from itertools import product
 import numpy as np
 import pytest
 
-from synth.folding.prepared import prepared
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
+from synth.motion.marked import marked_way
 from synth.motion.second_order import rates_at
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 from synth.verdict.judged import mobility
-from synth.verdict.marked import marked_way
 
 
 def random_signs(sheet, count):
@@ -45,7 +45,7 @@ def random_signs(sheet, count):
 @pytest.mark.parametrize("headings", [(0, 50, 130, 200, 290), (0, 60, 120, 180, 240, 300), (0, 40, 110, 250)])
 def test_the_marks_that_a_vertex_can_begin_with_are_those_of_random_rates(headings):
     sheet = fan(np.radians(headings))
-    pattern = prepared(sheet)
+    pattern = configuration_of_sheet(sheet)
     possible = random_signs(sheet, 8000)
     begun = {
         signs
@@ -58,7 +58,7 @@ def test_the_marks_that_a_vertex_can_begin_with_are_those_of_random_rates(headin
 
 def test_what_no_rates_have_is_proved_not_to_begin():
     """Valleys on one side and mountains on the other: rates along creases do not even add up to nothing."""
-    pattern = prepared(fan(np.radians([0, 60, 120, 180, 240, 300])))
+    pattern = configuration_of_sheet(fan(np.radians([0, 60, 120, 180, 240, 300])))
     marks = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
     assert marked_way(pattern.branches, pattern.linkage, marks).marked == "none has"
 
@@ -71,7 +71,7 @@ def test_what_was_not_found_is_not_said_to_be_impossible():
 
 def test_of_several_ways_with_all_marks_the_freest_is_chosen():
     """Only the straight lines of a Miura sheet are marked: all ways begin so, one with three freedoms."""
-    pattern = prepared(miura(4, 4, 1.0))
+    pattern = configuration_of_sheet(miura(4, 4, 1.0))
     branches = pattern.branches.branches
     three = next(number for number, branch in enumerate(branches) if branch.freedoms == 3)
     marks = np.sign(np.where(np.abs(branches[three].rates) > 1e-7, branches[three].rates, 0.0))

@@ -1,0 +1,99 @@
+"""What is zero: one table of tolerances, made from the precision of coordinates and the size of a mechanism.
+
+Every length, angle, rate and singular value that is compared with zero is compared with a field of this table.
+Lengths are in units of the extent, angles in radians, rates as parts of the largest. Numbers of double precision
+that come from no file are judged by `DOUBLE`. Theory: docs/theory/rounding.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+__all__ = ["DOUBLE", "EPSILON", "Tolerances"]
+
+EPSILON = 2.0**-52
+"""The rounding unit of double precision."""
+
+_BLURRED, _COARSEST = 30.0, 3e-3
+"""Singular values and eigenvalues at rounded coordinates are zero up to this many times the precision, and never
+above the second value: within it nothing that moves is told from what does not."""
+_MEANT_FLAT = 1e-5
+"""Whoever draws or solves for points of one plane puts them this close to it."""
+_MOVED = 4.0
+"""A length between two rounded points, or an angle over a length of 1, is wrong by so many precisions at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """What is zero in one mechanism.
+
+    Attributes
+    ----------
+    precision : float
+        Error of a coordinate, in units of the extent.
+    closed : float
+        Loops that miss by no more are closed: radians and units of the extent. Independent of the precision:
+        a configuration is solved for in double precision, whatever the file says.
+    zero : float
+        A singular value or eigenvalue below this part of the largest is zero.
+    zero_rate : float
+        A rate below this part of the largest is none.
+    immobile : float
+        A joint that turns by less, in radians, while others turn by degrees does not move.
+    same_configuration : float
+        Two configurations whose angles differ by less, in radians, are one.
+    same_point : float
+        Two points that are nearer than this are one; two lines or planes that pass nearer meet.
+    parallel : float
+        Directions that differ by less, in radians, are parallel.
+    flat : float
+        Points that are this close to one plane, in units of their own extent, are meant to lie in it.
+
+    Examples
+    --------
+    >>> Tolerances.of(1e-5).same_point, Tolerances.of(0.0).same_point
+    (4e-05, 1e-09)
+    >>> DOUBLE.zero
+    1e-09
+    """
+
+    precision: float
+    closed: float
+    zero: float
+    zero_rate: float
+    immobile: float
+    same_configuration: float
+    same_point: float
+    parallel: float
+    flat: float
+
+    @classmethod
+    def of(cls, precision: float, joints: int = 1) -> Tolerances:
+        """Return the tolerances of a mechanism.
+
+        Parameters
+        ----------
+        precision : float
+            Error of a coordinate, in units of the extent (`graphs.mechanism.precision.Precision.size`).
+        joints : int, optional
+            How many it has: errors of rounding add up as the root of their number.
+        """
+        rounding = max(precision, EPSILON)
+        wrong = _MOVED * precision
+        grown = max(1.0, sqrt(joints / 1000.0))  # the fixed values hold for a thousand joints
+        return cls(
+            precision=rounding,
+            closed=1e-12 * grown,
+            zero=max(1e-9 * grown, min(_COARSEST, _BLURRED * precision)),
+            zero_rate=1e-7,
+            immobile=1e-9 * grown,
+            same_configuration=1e-6,
+            same_point=max(1e-9, wrong),
+            parallel=max(1e-9, wrong),
+            flat=max(_MEANT_FLAT, 2.0 * precision),
+        )
+
+
+DOUBLE = Tolerances.of(EPSILON)
+"""For coordinates that are exact but for the rounding of double precision."""
