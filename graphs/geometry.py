@@ -25,6 +25,7 @@ __all__ = [
     "best_line",
     "best_plane",
     "common_direction",
+    "crossing",
     "facing",
     "frame_about",
     "lines_meet",
@@ -74,6 +75,26 @@ def across(vectors: npt.ArrayLike, axes: npt.ArrayLike) -> Floats:
     """
     given, along = np.asarray(vectors, dtype=float), unit(axes)
     return np.asarray(given - (given * along).sum(axis=-1, keepdims=True) * along)
+
+
+def crossing(vectors: npt.ArrayLike) -> Floats:
+    """Return the matrices of cross products with vectors.
+
+    Parameters
+    ----------
+    vectors : float[..., 3]
+
+    Returns
+    -------
+    float[..., 3, 3]
+
+    Examples
+    --------
+    >>> (crossing([0.0, 0.0, 1.0]) @ [1.0, 0.0, 0.0]).tolist()
+    [0.0, 1.0, 0.0]
+    """
+    made = np.asarray(vectors, dtype=float)
+    return np.asarray(np.cross(made[..., None, :], np.eye(3)).swapaxes(-1, -2))
 
 
 def frame_about(directions: npt.ArrayLike) -> Floats:

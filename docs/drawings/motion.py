@@ -13,8 +13,10 @@ import synth
 from drawings.altered import DASH, DOTTED, over
 from drawings.examples import generated_sheet, generated_solids, sheet_of_file, with_places
 from drawings.patterned import Patterned
+from drawings.pieces import head, on_air
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
@@ -25,6 +27,7 @@ from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Shape
 from synth.drawing.space.bodies import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
 from synth.folding.configuration import configuration_of_sheet
+from synth.folding.derivatives import SheetDerivatives
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
@@ -37,6 +40,8 @@ __all__ = ["DRAWINGS"]
 _POSE = 2
 """The frame of a folding that is shown, of six."""
 _STILL = 1e-6
+_HALF_FOLDED, _CORNERS, _ARROW = 3, [0, 8], 18.0
+"""The frame of which derivatives are drawn, the corners between which a distance is, and points per unit."""
 _ASLANT, _LARGER = 0.4, 300
 """How far a sheet is turned before its coordinates are rounded; how much larger the errors are drawn."""
 
@@ -179,11 +184,38 @@ def _enlarged(written: Sheet, exact: Sheet) -> Sheet:
     return with_places(written, places + _LARGER * errors)
 
 
+def derivatives() -> Scene:
+    """How to move the vertices of a pattern so that two corners of it, folded, come closer."""
+    sheet = generated_sheet("miura", rows=2, columns=2, sector=1.2)
+    followed = synth.fold(sheet, frames=6)
+    places, ends = followed.places[_HALF_FOLDED], _CORNERS
+    towards = places[ends[1]] - places[ends[0]]
+    by_places = np.zeros_like(places)
+    by_places[ends, :] = np.outer([-1.0, 1.0], towards / np.linalg.norm(towards))
+    shape = SheetDerivatives(sheet, mechanism_of_sheet(sheet), followed.linkage)
+    at = shape.at(followed.path.angles[_HALF_FOLDED], [0])
+    moves = -at.adjoint(by_places=by_places)
+    pattern = Patterned(sheet, 150.0)
+    shapes: list[Shape] = []
+    for (x, y), (right, up) in zip(pattern.places, (_ARROW * moves).tolist(), strict=True):
+        tip = (x + right, y - up)
+        if max(abs(right), abs(up)) > 1.0:
+            shapes += [Line([(x, y), tip], "class1", STRONG), head((x, y), tip, "class1")]
+    _, pose = pose_scenes(_lettered(sheet, followed, _HALF_FOLDED), followed.places[[0, _HALF_FOLDED]], 150.0)
+    flat = [pattern.places[end] for end in ends]
+    spots: list[Shape] = [Disc(place, 3.0) for place in flat]
+    return beside(
+        said(on_air(over(pattern.scene(), [*shapes, *spots]), 190.0), "vertices moved along minus the gradient"),
+        said(pose, "bring the marked corners closer", "at the same angle of the driven crease"),
+    )
+
+
 DRAWINGS: dict[str, Callable[[], Scene]] = {
     "folding": folding,
     "moving": moving,
     "positions": positions,
     "joints": joints,
     "mending": mending,
+    "derivatives": derivatives,
 }
 """Theory page to what draws its picture."""

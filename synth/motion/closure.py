@@ -20,7 +20,7 @@ from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["ClosureEquations", "frames_of"]
+__all__ = ["ClosureEquations", "carried", "frames_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +54,14 @@ class _Alike:
         """Return derivatives by small motions of the axes, each a rotation and a shift: float[L, e, 6 k]."""
         loops, k = self.joints.shape
         steps = rotations(self.axes, angles[self.joints] * self.signs)
-        before = _carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
+        before = carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
         rotation, moved = np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3))
         made = np.empty((loops, 6, k, 6))
         for i in range(k):
             point = self.points[:, i, :, None]
             moved = moved + (rotation @ (point - steps[:, i] @ point))[..., 0]
             rotation = rotation @ steps[:, i]
-            after = _carried(rotation, moved)
+            after = carried(rotation, moved)
             made[:, :, i] = before - after
             before = after
         twists = made.reshape(loops, 6, 6 * k)
@@ -218,8 +218,25 @@ class ClosureEquations:
         return float(np.abs(self.at(angles)[0]).max(initial=0.0))
 
 
-def _carried(rotations: Floats, shifts: Floats) -> Floats:
-    """Return what motions make of twists (w, v): float[L, 6, 6]."""
+def carried(rotations: Floats, shifts: Floats) -> Floats:
+    """Return what rigid motions make of twists (w, v), rotation about the origin and shift: the adjoint matrices.
+
+    Parameters
+    ----------
+    rotations : float[L, 3, 3]
+    shifts : float[L, 3]
+
+    Returns
+    -------
+    float[L, 6, 6]
+
+    Examples
+    --------
+    A rotation about z, moved along x, shifts the origin along -y:
+
+    >>> (carried(np.eye(3)[None], np.array([[2.0, 0.0, 0.0]]))[0] @ [0, 0, 1, 0, 0, 0]).tolist()
+    [0.0, 0.0, 1.0, 0.0, -2.0, 0.0]
+    """
     made = np.zeros((len(rotations), 6, 6))
     made[:, :3, :3] = made[:, 3:, 3:] = rotations
     made[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)

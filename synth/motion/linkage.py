@@ -14,7 +14,7 @@ from math import radians
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import lines_meet, unit
@@ -28,7 +28,15 @@ from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.rank.closure import independent_cycles
 from graphs.tolerances import DOUBLE, Tolerances
 
-__all__ = ["PosedLinkage", "PosedLoop", "axis_lengths", "linkage_of_axes", "linkage_of_sheet"]
+__all__ = [
+    "Creases",
+    "PosedLinkage",
+    "PosedLoop",
+    "axis_lengths",
+    "creases_of",
+    "linkage_of_axes",
+    "linkage_of_sheet",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,27 +167,14 @@ def linkage_of_sheet(
         raise UnsolvableError("folding needs coordinates, and the sheet has none")
     found = mechanism or mechanism_of_sheet(sheet)
     corners = in_space(sheet.coordinates)
-    panels = _Panels(sheet)
-    joints: Mapping[int, tuple[int, int]] = found.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
-    edges = np.array([found.hinges[joint] for joint in joints], dtype=np.int64).reshape(-1, 2)
-    along = corners[edges[:, 1]] - corners[edges[:, 0]]
-    lengths = np.linalg.norm(along, axis=1)
-    for place in np.flatnonzero(lengths == 0.0):
-        ends, part = tuple(edges[place].tolist()), ("edges", list(joints)[place])
-        raise InvariantError(
-            "hinge", f"the crease between vertices {ends[0]} and {ends[1]} has no length", part=part
-        )
-    beside = [
-        panels.beside((a, b), found.panels[second])
-        for (a, b), (_, second) in zip(edges.tolist(), joints.values(), strict=True)
-    ]
-    ways = [panels.way((a, b), face) for (a, b), (_, face) in zip(edges.tolist(), beside, strict=True)]
-    directions = along / lengths[:, None] * np.array(ways, dtype=float)[:, None]
-    areas = panels.areas(corners)
-    pairs = np.array(beside, dtype=np.int64).reshape(-1, 2)
-    first, second = unit(areas[pairs.T])
+    creases = creases_of(sheet, found)
+    edges = creases.ends
+    directions = creases.directions(corners)
+    areas = creases.area_vectors(corners)
+    first, second = unit(areas[creases.sides.T])
     angles = _fold_angles(first, second, directions)
-    widths = np.linalg.norm(areas[pairs], axis=2).min(axis=1, initial=np.inf) / lengths
+    lengths = np.linalg.norm(corners[edges[:, 1]] - corners[edges[:, 0]], axis=1)
+    widths = np.linalg.norm(areas[creases.sides], axis=2).min(axis=1, initial=np.inf) / (2.0 * lengths)
     # rounding turns a panel about a crease by as much as it moves points, over the width of the panel
     within = tolerances.same_configuration * widths + tolerances.parallel * extent_of(corners)
     on_each_other = (np.pi - np.abs(angles)) * widths < within
@@ -219,44 +214,102 @@ def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, a
     return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
 
 
-class _Panels:
-    """Faces of a sheet, turned so that neighbours agree where that is possible."""
+@dataclass(frozen=True, slots=True)
+class Creases:
+    """Where the creases of a sheet are between its panels: what fold angles are counted from.
 
-    def __init__(self, sheet: Sheet) -> None:
-        self._beside: dict[tuple[int, int], list[int]] = {}
-        for number, face in enumerate(sheet.faces):
-            for a, b in sides_of_face(face):
-                self._beside.setdefault((min(a, b), max(a, b)), []).append(number)
-        self._faces = self._turned(sheet)
-        self._sides = [set(sides_of_face(face)) for face in self._faces]
+    Attributes
+    ----------
+    joints : tuple of joint id
+    ends : int[J, 2]
+        Vertices at the ends of each crease.
+    ways : float[J]
+        1 where the axis goes from the first end to the second, else -1.
+    sides : int[J, 2]
+        The faces beside it, that of the second link last.
+    faces : tuple of vertex cycles
+        Of the sheet, turned so that two that share a side pass it in opposite directions, where that is possible.
+    """
 
-    def _turned(self, sheet: Sheet) -> list[tuple[int, ...]]:
-        """Return the faces, some of them reversed: two that share a side pass it in opposite directions."""
-        faces = list(sheet.faces)
-        neighbours = nx.Graph()
-        neighbours.add_nodes_from(range(len(faces)))
-        neighbours.add_edges_from(pair for pair in self._beside.values() if len(pair) == 2)
-        for first, second in nx.dfs_edges(neighbours):  # of all parts
-            if set(sides_of_face(faces[first])) & set(sides_of_face(faces[second])):
-                faces[second] = faces[second][::-1]
-        return faces
+    joints: tuple[JointId, ...]
+    ends: Ints
+    ways: Floats
+    sides: Ints
+    faces: tuple[tuple[int, ...], ...]
 
-    def beside(self, edge: tuple[int, int], second: Sequence[int]) -> tuple[int, int]:
-        """Return the faces at an edge, that of the second panel last."""
-        one, other = self._beside[min(edge), max(edge)]
-        return (one, other) if other in second else (other, one)
+    def directions(self, corners: Floats) -> Floats:
+        """Return the unit vectors along the axes with vertices at float[V, 3]: float[J, 3].
 
-    def way(self, edge: tuple[int, int], face: int) -> int:
-        """Return 1 if a face passes an edge from its first end to its second, else -1."""
-        return 1 if edge in self._sides[face] else -1
+        Raises
+        ------
+        InvariantError
+            If a crease has no length.
+        """
+        along = corners[self.ends[:, 1]] - corners[self.ends[:, 0]]
+        lengths = np.linalg.norm(along, axis=1)
+        for place in np.flatnonzero(lengths == 0.0):
+            (first, second), part = self.ends[place].tolist(), ("edges", self.joints[place])
+            raise InvariantError(
+                "hinge", f"the crease between vertices {first} and {second} has no length", part=part
+            )
+        return np.asarray(along / lengths[:, None] * self.ways[:, None])
 
-    def areas(self, corners: Floats) -> Floats:
-        """Return the areas of the faces as vectors across them (Newell): float[faces, 3]."""
-        ends = np.array([side for face in self._faces for side in sides_of_face(face)]).reshape(-1, 2)
-        of = np.repeat(np.arange(len(self._faces)), [len(face) for face in self._faces])
-        areas = np.zeros((len(self._faces), 3))
-        np.add.at(areas, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]) / 2.0)
-        return areas
+    def area_vectors(self, corners: Floats) -> Floats:
+        """Return twice the area vectors of the faces (Newell): float[faces, 3]."""
+        ends = np.array([side for face in self.faces for side in sides_of_face(face)]).reshape(-1, 2)
+        of = np.repeat(np.arange(len(self.faces)), [len(face) for face in self.faces])
+        vectors = np.zeros((len(self.faces), 3))
+        np.add.at(vectors, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
+        return vectors
+
+    def normals(self, corners: Floats) -> Floats:
+        """Return the unit normals of the faces, zeros where a face has no area: float[faces, 3]."""
+        return unit(self.area_vectors(corners))
+
+
+def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
+    """Return where the creases of a sheet are between its panels.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    mechanism : SheetMechanism
+        Of the sheet.
+
+    Examples
+    --------
+    >>> book = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
+    >>> creases_of(book, mechanism_of_sheet(book)).sides.tolist()
+    [[0, 1]]
+    """
+    beside: dict[tuple[int, int], list[int]] = {}
+    for number, face in enumerate(sheet.faces):
+        for a, b in sides_of_face(face):
+            beside.setdefault((min(a, b), max(a, b)), []).append(number)
+    faces = _turned(sheet, beside)
+    passed = [set(sides_of_face(face)) for face in faces]
+    joints: Mapping[int, tuple[int, int]] = mechanism.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
+    ends, sides, ways = [], [], []
+    for joint, (_, second) in joints.items():
+        a, b = mechanism.hinges[joint]
+        one, other = beside[min(a, b), max(a, b)]
+        sides.append((one, other) if other in mechanism.panels[second] else (other, one))
+        ends.append((a, b))
+        ways.append(1.0 if (a, b) in passed[sides[-1][1]] else -1.0)
+    as_pairs = [np.array(pairs, dtype=np.int64).reshape(-1, 2) for pairs in (ends, sides)]
+    return Creases(tuple(joints), as_pairs[0], np.array(ways, dtype=float), as_pairs[1], tuple(faces))
+
+
+def _turned(sheet: Sheet, beside: Mapping[tuple[int, int], Sequence[int]]) -> list[tuple[int, ...]]:
+    """Return the faces, some of them reversed: two that share a side pass it in opposite directions."""
+    faces = list(sheet.faces)
+    neighbours = nx.Graph()
+    neighbours.add_nodes_from(range(len(faces)))
+    neighbours.add_edges_from(pair for pair in beside.values() if len(pair) == 2)
+    for first, second in nx.dfs_edges(neighbours):  # of all parts
+        if set(sides_of_face(faces[first])) & set(sides_of_face(faces[second])):
+            faces[second] = faces[second][::-1]
+    return faces
 
 
 def _fold_angles(first: Floats, second: Floats, axes: Floats) -> Floats:

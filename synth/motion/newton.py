@@ -17,6 +17,7 @@ import scipy.sparse
 from scipy.sparse.linalg import splu
 
 from graphs.arrays import Floats
+from graphs.errors import NumericalError
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 
@@ -34,6 +35,10 @@ _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
 _FREE = 1e-3
 """Part of a vector across the freedoms that is left where it has become one of them."""
+_SWEEPS = 24
+_SETTLED, _UNSETTLED = 1e-14, 1e-9
+"""Refinement ends where a sweep changes less than the first; where the last one changed more than the second, a
+singular value is too small to count and too large to be none."""
 
 
 class TangentSpace:
@@ -50,6 +55,7 @@ class TangentSpace:
         self._jacobian = jacobian
         self._transposed = jacobian.T.tocsr()
         self._solve, self._added = _solver(jacobian, self._transposed, regular)
+        self._joints = jacobian.shape[1]
         self._moves: dict[int, Floats] = {}
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
@@ -89,6 +95,60 @@ class TangentSpace:
         found = found - self.projected(found)
         return np.asarray(found / np.linalg.norm(found))
 
+    def solution(self, off: Floats) -> tuple[Floats, Floats]:
+        """Return the least rates at which loops part as nearly as they can as asked, and what is left.
+
+        Both to all digits that the condition of the derivatives leaves.
+
+        Parameters
+        ----------
+        off : float[rows]
+
+        Returns
+        -------
+        (float[J], float[rows])
+
+        Raises
+        ------
+        NumericalError
+            If the rank of the derivatives is not clear.
+        """
+        left = self.beyond(off)
+        within = off - left
+
+        def more(rates: Floats) -> Floats:
+            return self._least(within - self._jacobian @ rates)
+
+        return _refined(more, np.zeros(self._joints), off), left
+
+    def beyond(self, off: Floats) -> Floats:
+        """Return the part of float[rows] that no rates make: what redundant equations say of it, to all digits."""
+
+        def more(part: Floats) -> Floats:
+            return self.image(self._solve(self._transposed @ (off - part)))
+
+        return off - _refined(more, np.zeros_like(off), off)
+
+    def free(self, rates: Floats) -> Floats:
+        """Return the rates nearest to given ones that keep loops closed: `projected` to all digits, float[J]."""
+
+        def more(across: Floats) -> Floats:
+            return self._least(self._jacobian @ (rates - across))
+
+        return rates - _refined(more, np.zeros_like(rates), rates)
+
+    def forces(self, rates: Floats) -> Floats:
+        """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms.
+
+        So `solution` and this are each other's transposed.
+        """
+        across = rates - self.free(rates)
+
+        def more(forces: Floats) -> Floats:
+            return self.image(self._solve(across - self._transposed @ forces))
+
+        return _refined(more, np.zeros(self._jacobian.shape[0]), rates)
+
     def image(self, rates: Floats) -> Floats:
         """Return by what loops part at some rates: float[rows]."""
         return np.asarray(self._jacobian @ rates)
@@ -114,7 +174,7 @@ class TangentSpace:
 
     def _move(self, joint: int) -> Floats:
         if joint not in self._moves:
-            self._moves[joint] = self.projected(np.eye(1, self._jacobian.shape[1], joint)[0])
+            self._moves[joint] = self.projected(np.eye(1, self._joints, joint)[0])
         return self._moves[joint]
 
     def least_rates(self, joints: Sequence[int], wanted: Floats) -> Floats:
@@ -126,6 +186,26 @@ class TangentSpace:
         # normal equations keep half the digits
         possible = rank and np.abs(rates[places] - wanted).max() <= DOUBLE.zero**0.5 * np.abs(wanted).max()
         return rates if possible and moves[:, places].max() > DOUBLE.zero else np.zeros_like(rates)
+
+
+def _refined(more: Callable[[Floats], Floats], found: Floats, given: Floats) -> Floats:
+    """Return what corrections add up to: each leaves a part m / (s^2 + m) of what was to be taken off.
+
+    Here s is a singular value and m what regularises. Corrections are measured by what is found or is given.
+    """
+    last, size = np.inf, _largest(given)
+    for _ in range(_SWEEPS):
+        change = more(found)
+        found = found + change
+        largest, whole = _largest(change), max(_largest(found), size)
+        if largest <= _SETTLED * whole or (last / 2 <= largest <= _UNSETTLED * whole):
+            return found
+        last = largest
+    if last > _UNSETTLED * whole:
+        raise NumericalError(
+            "the configuration is nearly singular: the rank of its closure equations is not clear"
+        )
+    return found
 
 
 def _solver(

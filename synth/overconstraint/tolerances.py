@@ -14,6 +14,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
+from graphs.geometry import crossing
 from graphs.ids import JointId
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
@@ -61,7 +62,7 @@ def axis_tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]
         axis, point = linkage.directions[place], linkage.points[place]
         across = np.eye(3) - np.outer(axis, axis)
         turned, shifted = growth[:, 6 * place : 6 * place + 3], growth[:, 6 * place + 3 : 6 * place + 6]
-        about_itself = (turned + shifted @ _cross_with(point)) @ across
+        about_itself = (turned + shifted @ crossing(point)) @ across
         found.append(
             Tolerance(
                 joint,
@@ -95,9 +96,3 @@ def _allowed(smallest: float, growth: Floats) -> float:
     """Return the error that makes the singular value grow to the smallest that counts."""
     largest = float(np.linalg.norm(growth, 2)) if growth.size else 0.0
     return smallest / largest if largest > DOUBLE.zero_rate else inf  # else it does no harm to first order
-
-
-def _cross_with(point: Floats) -> Floats:
-    """Return the matrix of the cross product of a point with what it is applied to."""
-    x, y, z = point
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

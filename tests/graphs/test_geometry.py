@@ -11,6 +11,7 @@ from graphs.geometry import (
     best_line,
     best_plane,
     common_direction,
+    crossing,
     frame_about,
     lines_meet,
     nearest_rotation,
@@ -240,3 +241,10 @@ def test_areas(scale):
 def test_nothing_has_no_area():
     assert float(signed_area(np.zeros((0, 2)))) == 0.0
     assert area_vector(np.zeros((4, 0, 3))).shape == (4, 3)
+
+
+def test_matrices_of_cross_products_over_any_leading_axes(rng):
+    vectors, others = rng.normal(size=(2, 4, 5, 3))
+    np.testing.assert_allclose(
+        (crossing(vectors) @ others[..., None])[..., 0], np.cross(vectors, others), atol=1e-14
+    )

@@ -13,12 +13,13 @@ import scipy.sparse
 
 from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
-from graphs.geometry import principal_axes, unit
+from graphs.geometry import crossing, principal_axes, unit
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.spaces import row_space
 from graphs.tolerances import DOUBLE
+from synth.folding.derivatives import axis_motions
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["VertexPlaces"]
@@ -63,6 +64,7 @@ class VertexPlaces:
         self._on_lines = np.array(list(_between(mechanism, linkage)), dtype=np.int64).reshape(-1, 3)
         self._panels = [] if len(self.along) == 2 else [panel for panel in sheet.faces if len(panel) > 3]
         self.unknowns = len(self.given) * len(self.along)
+        self._into_space = scipy.sparse.kron(scipy.sparse.eye(len(self.given)), self.along.T, "csr")
 
     @property
     def bent(self) -> float:
@@ -82,22 +84,7 @@ class VertexPlaces:
 
     def motions_of_axes(self, corners: Floats) -> scipy.sparse.csr_matrix:
         """Return how each axis turns and shifts with the unknowns: sparse float[6 J, unknowns]."""
-        ends = corners[self.ends]
-        along = ends[:, 1] - ends[:, 0]
-        turn = _crossing(along / (along**2).sum(axis=1, keepdims=True))  # w = along x (far - near) / length^2
-        shift = _crossing(ends.mean(axis=1)) @ turn  # v = (near + far) / 2 - w x middle
-        halves = np.broadcast_to(np.eye(3) / 2.0, turn.shape)
-        near = np.concatenate([-turn, halves - shift], axis=1) @ self.along.T
-        far = np.concatenate([turn, halves + shift], axis=1) @ self.along.T
-        joints, free = len(self.ends), len(self.along)
-        rows = np.broadcast_to((6 * np.arange(joints)[:, None] + np.arange(6))[..., None], near.shape)
-        columns = [
-            np.broadcast_to((free * self.ends[:, end, None] + np.arange(free))[:, None], near.shape)
-            for end in (0, 1)
-        ]
-        places = (np.concatenate([rows.ravel()] * 2), np.concatenate([part.ravel() for part in columns]))
-        values = np.concatenate([near.ravel(), far.ravel()])
-        return scipy.sparse.csr_matrix((values, places), shape=(6 * joints, self.unknowns))
+        return (axis_motions(self.ends, corners) @ self._into_space).tocsr()
 
     def off_lines(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
         """Return how far vertices on creases of several pieces are off their lines, with the derivatives."""
@@ -107,7 +94,7 @@ class VertexPlaces:
         direction = along / np.where(sizes == 0.0, 1.0, sizes)
         off = np.cross(vertices - near, direction)
         part = ((vertices - near) * direction).sum(axis=1, keepdims=True) / np.where(sizes == 0.0, 1.0, sizes)
-        across = -_crossing(direction) @ self.along.T
+        across = -crossing(direction) @ self.along.T
         count, free = len(vertices), len(self.along)
         rows = np.broadcast_to((3 * np.arange(count)[:, None] + np.arange(3))[..., None], across.shape).ravel()
         matrix = scipy.sparse.csr_matrix((3 * count, self.unknowns))
@@ -161,8 +148,3 @@ def _plane_of(points: Floats) -> Floats:
     """Return two directions of the plane of flat points, or three of space: float[d, 3]."""
     sizes, directions = principal_axes(points)
     return directions[:2] if sizes[2] <= DOUBLE.same_point * sizes[0] else np.eye(3)
-
-
-def _crossing(vectors: Floats) -> Floats:
-    """Return the matrices of cross products with vectors: float[n, 3, 3]."""
-    return np.asarray(np.cross(vectors[:, None, :], np.eye(3)).transpose(0, 2, 1))

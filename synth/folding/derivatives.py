@@ -1,0 +1,318 @@
+"""Derivatives of a folded sheet by the coordinates of its vertices, creases that are driven held at their angles.
+
+Theory: docs/theory/derivatives.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse
+
+from graphs.arrays import Floats, Ints
+from graphs.convert.duality import SheetMechanism
+from graphs.errors import UnsolvableError
+from graphs.geometry import crossing
+from graphs.loops.loop import Centre
+from graphs.mechanism.plane import in_space
+from graphs.mechanism.sheet import Sheet
+from synth.folding.vertices import largest_panel
+from synth.motion.bodies import BodyPoses, BodyTree
+from synth.motion.closure import ClosureEquations
+from synth.motion.derivatives import AxisDependence, Sensitivity, spatial
+from synth.motion.linkage import Creases, PosedLinkage, creases_of
+
+__all__ = ["SheetChange", "SheetDerivatives", "SheetSensitivity", "axis_motions", "dependence_on_vertices"]
+
+
+def axis_motions(ends: Ints, corners: Floats) -> scipy.sparse.csr_matrix:
+    """Return how axes through two vertices each turn and shift with all vertices.
+
+    Parameters
+    ----------
+    ends : int[J, 2]
+        The vertices of each axis.
+    corners : float[V, 3]
+
+    Returns
+    -------
+    sparse float[6 J, 3 V]
+        Rotation about the origin and shift of each axis.
+
+    Examples
+    --------
+    >>> corners = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
+    >>> (axis_motions(np.array([[0, 1]]), corners) @ [0, 0, 0, 0, 1.0, 0]).tolist()
+    [0.0, 0.0, 0.5, 0.0, 0.0, 0.0]
+    """
+    near, far = corners[ends[:, 0]], corners[ends[:, 1]]
+    along = far - near
+    turn = crossing(along / (along**2).sum(axis=1, keepdims=True))  # w = along x (far - near) / length^2
+    shift = crossing((near + far) / 2.0) @ turn  # v = (near + far) / 2 - w x middle
+    halves = np.broadcast_to(np.eye(3) / 2.0, turn.shape)
+    blocks = [np.concatenate([-turn, halves - shift], axis=1), np.concatenate([turn, halves + shift], axis=1)]
+    return _in_blocks(np.stack(blocks, axis=1), ends, len(corners))
+
+
+def _in_blocks(blocks: Floats, columns: Ints, width: int) -> scipy.sparse.csr_matrix:
+    """Return the sparse matrix of blocks float[n, k, a, b] in the columns int[n, k] of their rows."""
+    count, each, rows, across = blocks.shape
+    data = blocks.reshape(-1, rows, across)
+    starts = np.arange(0, count * each + 1, each)
+    shape = (rows * count, across * width)
+    return scipy.sparse.bsr_matrix((data, columns.ravel(), starts), shape=shape).tocsr()
+
+
+def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> AxisDependence:
+    """Return how the linkage of a sheet depends on the coordinates of its vertices.
+
+    Axes go with the ends of their creases; the fold angles that the coordinates have, with the normals of the
+    panels beside. Those of a flat sheet stay zero while it is flat.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates.
+    mechanism : SheetMechanism
+        Of the sheet.
+    linkage : PosedLinkage
+        Of both.
+
+    Returns
+    -------
+    AxisDependence
+        By the coordinates in turn, two or three for each vertex as the sheet has them.
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError("derivatives by vertices need coordinates, and the sheet has none")
+    corners = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
+    creases = creases_of(sheet, mechanism)
+    numbers = len(sheet.coordinates[0])
+    kept = (3 * np.arange(len(corners))[:, None] + np.arange(numbers)).ravel()
+    twists = axis_motions(creases.ends, corners)[:, kept] / linkage.extent
+    return AxisDependence(twists.tocsr(), (_fold_angles(creases, corners)[:, kept] / linkage.extent).tocsr())
+
+
+def _fold_angles(creases: Creases, corners: Floats) -> scipy.sparse.csr_matrix:
+    """Return the derivatives of the fold angles that a sheet has: sparse float[J, 3 V].
+
+    The angle is atan2((m x n) . a, m . n), m and n the normals beside the crease and a its axis. Panels are
+    planar, so m x n is along a, and how a turns does not count.
+    """
+    vectors = creases.area_vectors(corners)
+    sizes = np.linalg.norm(vectors, axis=1)
+    sizes = np.where(sizes == 0.0, 1.0, sizes)
+    normals = vectors / sizes[:, None]
+    of = np.repeat(np.arange(len(creases.faces)), [len(face) for face in creases.faces])
+    around = np.array([v for face in creases.faces for v in face], dtype=np.int64)
+    spans = [corners[np.roll(face, -1)] - corners[np.roll(face, 1)] for face in map(np.array, creases.faces)]
+    across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
+    blocks = -(across / sizes[:, None, None])[of] @ crossing(np.concatenate([np.zeros((0, 3)), *spans]))
+    starts = np.concatenate([[0], np.cumsum([len(face) for face in creases.faces])])
+    shape = (3 * len(creases.faces), 3 * len(corners))
+    by_normals = scipy.sparse.bsr_matrix((blocks, around, starts), shape=shape).tocsr()
+
+    axes = creases.directions(corners)
+    m, n = normals[creases.sides[:, 0]], normals[creases.sides[:, 1]]
+    sine = (np.cross(m, n) * axes).sum(axis=1, keepdims=True)
+    cosine = (m * n).sum(axis=1, keepdims=True)
+    first = cosine * np.cross(n, axes) - sine * n
+    second = cosine * np.cross(axes, m) - sine * m
+    beside = _in_blocks(np.stack([first, second], axis=1)[:, :, None, :], creases.sides, len(creases.faces))
+    return (beside @ by_normals).tocsr()
+
+
+@dataclass(frozen=True, slots=True)
+class SheetChange:
+    """How a folded sheet follows a change of its vertices.
+
+    Attributes
+    ----------
+    angles : float[J]
+        Change of the fold angles, radians; zero for driven creases.
+    places : float[V, 3]
+        Change of the places of vertices, in the unit of the coordinates.
+    residual : float[rows]
+        The inconsistent part of the change, as of `synth.motion.derivatives.ConfigurationChange`.
+    rank_residual : float
+        By how much redundant equations cease to be redundant, as of `Sensitivity.rank_residual`.
+    """
+
+    angles: Floats
+    places: Floats
+    residual: Floats
+    rank_residual: float
+
+
+class SheetDerivatives:
+    """The derivatives of a sheet by the coordinates of its vertices, at any of its configurations.
+
+    The sheet is held by its largest panel, as `vertex_places` holds it: there places are those of the coordinates.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates, flat or folded.
+    mechanism : SheetMechanism
+        Of the sheet.
+    linkage : PosedLinkage
+        Of both.
+
+    Attributes
+    ----------
+    dependence : AxisDependence
+        How the axes of creases and the fold angles given depend on the coordinates.
+    closure : ClosureEquations
+        With six equations for loops of parallel creases, which a change may turn.
+    tree : BodyTree
+        Of the panels, from the largest.
+
+    Examples
+    --------
+    A flat Miura sheet folded by one crease. The gradient of the height of a vertex by all coordinates, and along
+    the family of Miura sheets of other sectors, which fold too:
+
+    >>> from graphs.convert.duality import mechanism_of_sheet
+    >>> from synth.folding.motion import fold
+    >>> from synth.motion.derivatives import derivatives_by_parameters
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> from synth.patterns.creases.tessellations import miura
+    >>> sheet = miura(3, 3, 1.0)
+    >>> mechanism = mechanism_of_sheet(sheet)
+    >>> shape = SheetDerivatives(sheet, mechanism, linkage_of_sheet(sheet, mechanism))
+    >>> at = shape.at(fold(sheet, frames=4).path.angles[-1], [0])
+    >>> height = np.zeros((16, 3))
+    >>> height[15, 2] = 1.0
+    >>> gradient = at.adjoint(by_places=height)
+    >>> sectors = derivatives_by_parameters(lambda p: np.array(miura(3, 3, p[0]).coordinates), np.array([1.0]))
+    >>> along = sectors.matrix[:, 0].reshape(16, 2)
+    >>> change = at.forward(along)
+    >>> bool(abs((gradient * along).sum() - change.places[15, 2]) < 1e-12)
+    True
+    >>> bool(np.abs(change.residual).max() < 1e-12), bool(change.rank_residual < 1e-6)
+    (True, True)
+    """
+
+    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
+        self.dependence = dependence_on_vertices(sheet, mechanism, linkage)
+        self.linkage = linkage
+        parallel = any(loop.centre is Centre.INFINITE for loop in linkage.loops)
+        self.closure = ClosureEquations(spatial(linkage) if parallel else linkage)
+        assert sheet.coordinates is not None
+        self.numbers = len(sheet.coordinates[0])
+        self.local: Floats = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
+        self.tree = BodyTree(linkage, largest_panel(mechanism.panels))
+        self.link_of = np.full(sheet.vertices, -1, dtype=np.int64)
+        for link in reversed(range(len(mechanism.panels))):  # the first panel of a vertex puts it in its place
+            around = [vertex for face in mechanism.panels[link] for vertex in sheet.faces[face]]
+            self.link_of[around] = self.tree.row[link]
+        self.placed: Ints = np.flatnonzero(self.link_of >= 0)
+
+    def at(self, angles: Floats, driven: Sequence[int] = ()) -> SheetSensitivity:
+        """Return the derivatives at a closed configuration float[J], driven creases (places of joints) held.
+
+        Raises
+        ------
+        UnsolvableError
+            If loops are not closed, or the driven creases cannot be held.
+        """
+        return SheetSensitivity(self, Sensitivity(self.closure, angles, driven))
+
+    def along(self, frames: Floats, driven: Sequence[int] = ()) -> Iterator[SheetSensitivity]:
+        """Yield the derivatives at each configuration of a path, float[F, J]; driven creases as in that frame."""
+        return (self.at(angles, driven) for angles in frames)
+
+
+class SheetSensitivity:
+    """The derivatives of a sheet by the coordinates of its vertices at one configuration.
+
+    Parameters
+    ----------
+    shape : SheetDerivatives
+    sensitivity : Sensitivity
+        By the axes of its creases.
+
+    Attributes
+    ----------
+    poses : BodyPoses
+        Where the panels are.
+    """
+
+    def __init__(self, shape: SheetDerivatives, sensitivity: Sensitivity) -> None:
+        self.shape = shape
+        self.sensitivity = sensitivity
+        self.poses: BodyPoses = shape.tree.at(sensitivity.angles)
+
+    @property
+    def degenerate(self) -> bool:
+        """Whether the configuration is singular and has no derivative: as of `Sensitivity`."""
+        return self.sensitivity.degenerate
+
+    def forward(self, change: Floats) -> SheetChange:
+        """Return how the folded sheet follows a change of the coordinates.
+
+        Parameters
+        ----------
+        change : float[V, 2 or 3]
+            As many numbers for a vertex as the sheet has.
+
+        Raises
+        ------
+        UnsolvableError
+            If the configuration is degenerate.
+        """
+        shape = self.shape
+        axes = shape.dependence.forward(np.ravel(change))
+        follows = self.sensitivity.forward(axes)
+        twists = self.poses.forward(follows.angles, axes)
+        places = np.zeros((len(shape.local), 3))
+        places[:, : shape.numbers] = change
+        vertices, links = shape.placed, shape.link_of[shape.placed]
+        local = shape.local[vertices]
+        own = places[vertices] / shape.linkage.extent
+        places[vertices] = self.poses.places_forward(links, local, twists, own) * shape.linkage.extent
+        rank_residual = self.sensitivity.rank_residual(axes, follows)
+        return SheetChange(follows.angles, places, follows.residual, rank_residual)
+
+    def adjoint(self, by_angles: Floats | None = None, by_places: Floats | None = None) -> Floats:
+        """Return the gradient by all coordinates of a number that depends on fold angles and places of vertices.
+
+        Parameters
+        ----------
+        by_angles : float[J], optional
+            Its gradient by fold angles, per radian.
+        by_places : float[V, 3], optional
+            Its gradient by places of vertices, in the unit of the coordinates.
+
+        Returns
+        -------
+        float[V, 2 or 3]
+
+        Raises
+        ------
+        UnsolvableError
+            If the configuration is degenerate.
+        """
+        shape = self.shape
+        angles = np.zeros(len(shape.linkage.angles)) if by_angles is None else by_angles
+        if by_places is None:
+            return shape.dependence.adjoint(self.sensitivity.adjoint(angles)).reshape(-1, shape.numbers)
+        vertices, links = shape.placed, shape.link_of[shape.placed]
+        by_links = by_places[vertices] * shape.linkage.extent
+        wrenches, own = self.poses.places_adjoint(links, shape.local[vertices], by_links)
+        turned, direct = self.poses.adjoint(wrenches)
+        gradient = shape.dependence.adjoint(self.sensitivity.adjoint(angles + turned) + direct).reshape(
+            -1, shape.numbers
+        )
+        gradient += _where_unplaced(by_places, vertices)[:, : shape.numbers]
+        gradient[vertices] += own[:, : shape.numbers] / shape.linkage.extent
+        return gradient
+
+
+def _where_unplaced(by_places: Floats, placed: Ints) -> Floats:
+    """Return gradients of vertices that no panel places, which stay where they are; zeros for the others."""
+    kept = by_places.copy()
+    kept[placed] = 0.0
+    return kept

@@ -1,0 +1,466 @@
+"""Derivatives of a closed configuration by what the mechanism is made of, driven joints held.
+
+`Sensitivity` knows how joint angles follow where axes are moved, forward and adjoint; `AxisDependence` says how
+axes move with lines, coordinates or parameters. Bodies: `synth.motion.bodies`; vertices of sheets:
+`synth.folding.derivatives`. Theory: docs/theory/derivatives.md.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse
+
+from graphs.arrays import Floats
+from graphs.errors import UnsolvableError
+from graphs.geometry import crossing
+from graphs.loops.loop import Centre
+from graphs.tolerances import DOUBLE
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage
+from synth.motion.newton import TangentSpace
+
+__all__ = [
+    "AxisChange",
+    "AxisDependence",
+    "ConfigurationChange",
+    "ParameterDerivatives",
+    "Sensitivity",
+    "dependence_on_axes",
+    "derivatives_by_parameters",
+    "sensitivities",
+    "spatial",
+]
+
+_HELD = 1e-9
+"""Squares of lengths of projected unit vectors, and eigenvalues of their products, below this are of driven joints
+that cannot be held apart from others: as in `newton`."""
+_NUDGE = 1e-4
+"""Radians, of the differences that say whether ranks change: their error is 1e-8."""
+_BENT = 1e-5
+"""Second derivatives of unit rates, below which redundant equations stay redundant."""
+_COMPLEX = 1e-40
+_STEPS = (1.0 / 64, 1.0 / 128, 1.0 / 256)
+_ALIKE = 1e-5
+"""A complex step is believed if it agrees so far with differences: a modulus or a conjugate would spoil it."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxisChange:
+    """A change of the axes of a linkage at its pose, or the gradient of a number by it.
+
+    Attributes
+    ----------
+    twists : float[6 J]
+        Rotation about the origin and shift of each axis in turn, in units of the extent about the middle.
+    zeros : float[J]
+        Change of the angles that joints have at the pose, radians.
+
+    Examples
+    --------
+    >>> tilted = AxisChange(np.eye(6)[0], np.zeros(1))
+    >>> (tilted + tilted).twists.tolist()
+    [2.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    """
+
+    twists: Floats
+    zeros: Floats
+
+    def __add__(self, other: AxisChange) -> AxisChange:
+        return AxisChange(self.twists + other.twists, self.zeros + other.zeros)
+
+
+@dataclass(frozen=True, slots=True)
+class ConfigurationChange:
+    """How a configuration follows a change of its axes.
+
+    Attributes
+    ----------
+    angles : float[J]
+        Change of the joint angles, radians; zero for driven joints.
+    residual : float[rows]
+        The inconsistent part of the change: what the closure equations miss, whatever the angles are. Zero where
+        loops stay closed to first order.
+    """
+
+    angles: Floats
+    residual: Floats
+
+
+class Sensitivity:
+    """The derivative of a closed configuration by the axes of its joints, driven joints held at their angles.
+
+    Where redundant equations stay consistent this is the derivative of the configuration; what they do not allow
+    is returned as a residual. Freedoms beyond the driven joints take the least change of all joint angles.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+        Without locked joints: what is held is driven.
+    angles : float[J]
+        A closed configuration, radians.
+    driven : sequence of int, optional
+        Places of the joints whose angles are held.
+
+    Raises
+    ------
+    UnsolvableError
+        If loops are not closed, or driven joints cannot be held: one is immobile or at a turning point, or they
+        depend on each other.
+
+    Examples
+    --------
+    A square four-bar in the plane; its second joint moved along x, the first held:
+
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> square = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3), "infinite")])
+    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    >>> linkage = linkage_of_axes(square, {j: (corners[j], (0, 0, 1)) for j in range(4)})
+    >>> at = Sensitivity(ClosureEquations(linkage), np.array([0.5, -0.5, 0.5, -0.5]), [0])
+    >>> dependence = dependence_on_axes(linkage)
+    >>> along_x = np.eye(24)[6]
+    >>> change = at.forward(dependence.forward(along_x))
+    >>> bool(np.abs(change.residual).max() < 1e-15), bool(abs(change.angles[0]) < 1e-15)
+    (True, True)
+
+    The gradient of the angle of the last joint by all points and directions:
+
+    >>> gradient = dependence.adjoint(at.adjoint(np.eye(4)[3]))
+    >>> bool(abs(gradient @ along_x - change.angles[3]) < 1e-14)
+    True
+    """
+
+    def __init__(self, closure: ClosureEquations, angles: Floats, driven: Sequence[int] = ()) -> None:
+        self.closure = closure
+        self.angles = angles
+        self.driven = list(driven)
+        off, self._jacobian = closure.at(angles)
+        error = float(np.abs(off).max(initial=0.0))
+        if error > DOUBLE.closed:
+            most = f"expected {DOUBLE.closed:.0e}"
+            raise UnsolvableError(f"loops miss closing by {error:.1e} at the configuration, {most}")
+        self._space = TangentSpace(self._jacobian)
+        units = np.eye(closure.joints)[self.driven]
+        self._moves = np.array([self._space.free(unit) for unit in units]).reshape(units.shape).T
+        self._shares = self._inverted(self._moves[self.driven])
+
+    @staticmethod
+    def _inverted(products: Floats) -> Floats:
+        if len(products) and float(np.linalg.eigvalsh(products)[0]) < _HELD:
+            raise UnsolvableError(
+                "the driven joints cannot be held here: one is immobile or at a turning point, or they depend on "
+                "each other"
+            )
+        return np.asarray(np.linalg.inv(products))
+
+    @cached_property
+    def _by_twists(self) -> scipy.sparse.csr_matrix:
+        return self.closure.by_axes(self.angles)
+
+    @cached_property
+    def degenerate(self) -> bool:
+        """Whether the rank of the closure equations is below that of neighbouring configurations.
+
+        Then some infinitesimal motion begins no motion, or motion branches meet here; nothing can be
+        differentiated. It is seen in the second derivatives: a self-stress w, rates r and s that keep loops closed
+        to first order, and w . D^2 f (r, s) is not zero.
+        """
+        first, second = self._flexes
+        if not first.any():
+            return False
+        return self._bent(self._along(first) @ second) > _BENT
+
+    @cached_property
+    def _flexes(self) -> tuple[Floats, Floats]:
+        """Two general flexes, largest rates 1; zeros if there are none. What vanishes for these does for all."""
+        ways = np.random.default_rng(0).normal(size=(2, self.closure.joints))
+        first, second = (self._unit(self._space.free(way), float(np.abs(way).max(initial=0.0))) for way in ways)
+        return first, second
+
+    @staticmethod
+    def _unit(flex: Floats, size: float) -> Floats:
+        largest = float(np.abs(flex).max(initial=0.0))
+        return flex / largest if largest > _BENT * size else np.zeros_like(flex)
+
+    def _along(self, rates: Floats) -> scipy.sparse.csr_matrix:
+        """Return how the derivatives of the closure equations change along rates: sparse float[rows, J]."""
+        ahead, back = (self.closure.at(self.angles + way * _NUDGE * rates)[1] for way in (1.0, -1.0))
+        return (ahead - back) / (2.0 * _NUDGE)
+
+    def _bent(self, off: Floats) -> float:
+        return float(np.abs(self._space.beyond(off)).max(initial=0.0))
+
+    def _regular(self) -> None:
+        if self.degenerate:
+            raise UnsolvableError(
+                "the configuration is singular and has no derivative: the rank of its closure equations is below "
+                "that of its neighbours"
+            )
+
+    def forward(self, axes: AxisChange) -> ConfigurationChange:
+        """Return how the configuration follows a change of the axes.
+
+        Parameters
+        ----------
+        axes : AxisChange
+
+        Raises
+        ------
+        UnsolvableError
+            If the configuration is degenerate.
+        NumericalError
+            If it is nearly so.
+        """
+        self._regular()
+        off = self._jacobian @ axes.zeros - self._by_twists @ axes.twists
+        least, residual = self._space.solution(off)
+        angles = least - self._moves @ (self._shares @ least[self.driven])
+        angles[self.driven] = 0.0
+        return ConfigurationChange(angles, -residual)
+
+    def adjoint(self, by_angles: Floats) -> AxisChange:
+        """Return the gradient by the axes of a number that depends on the joint angles.
+
+        Parameters
+        ----------
+        by_angles : float[J]
+            Its gradient by the joint angles.
+
+        Raises
+        ------
+        UnsolvableError
+            If the configuration is degenerate.
+        NumericalError
+            If it is nearly so.
+        """
+        self._regular()
+        asked = by_angles.copy()
+        asked[self.driven] = 0.0
+        asked[self.driven] -= self._shares @ (self._moves.T @ asked)
+        forces = self._space.forces(asked)
+        return AxisChange(-(self._by_twists.T @ forces), self._jacobian.T @ forces)
+
+    def rank_residual(self, axes: AxisChange, change: ConfigurationChange) -> float:
+        """Return by how much redundant equations cease to be redundant with a change of the axes.
+
+        Loops may stay closed to first order, and no motion be left: of a linkage at its own pose they always do.
+        Zero is: the rank stays as it is, and the change is one of mobile mechanisms.
+
+        Parameters
+        ----------
+        axes : AxisChange
+        change : ConfigurationChange
+            As it follows.
+
+        Returns
+        -------
+        float
+            Largest rate at which loops part, per unit of the change and of the largest joint rate.
+        """
+        flex = self._flexes[0]
+        if not flex.any():
+            return 0.0
+        nudged = (self.closure.by_axes(self.angles + way * _NUDGE * flex) @ axes.twists for way in (1.0, -1.0))
+        ahead, back = nudged
+        return self._bent(self._along(change.angles - axes.zeros) @ flex + (ahead - back) / (2.0 * _NUDGE))
+
+
+def sensitivities(closure: ClosureEquations, frames: Floats, driven: Sequence[int] = ()) -> Iterator[Sensitivity]:
+    """Yield the sensitivity of each configuration of a path, driven joints held at their angles of that frame.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    frames : float[F, J]
+        Closed configurations, radians: `DrivenPath.angles`.
+    driven : sequence of int, optional
+        Places of the driven joints.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> [one.degenerate for one in sensitivities(ClosureEquations(hinge), np.array([[0.0], [0.1]]), [0])]
+    [False, False]
+    """
+    return (Sensitivity(closure, angles, driven) for angles in frames)
+
+
+@dataclass(frozen=True, slots=True)
+class AxisDependence:
+    """How the axes of a linkage at its pose change with the numbers it is made of.
+
+    Attributes
+    ----------
+    twists : sparse float[6 J, n]
+    zeros : sparse float[J, n]
+        As of `AxisChange`, by each number.
+
+    Examples
+    --------
+    A hinge along z through (r, 0, 0), by r:
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((2, 0, 0), (0, 0, 1))})
+    >>> by_radius = dependence_on_axes(hinge).after(np.eye(6)[:, :1])
+    >>> by_radius.forward(np.array([1.0])).twists.tolist()
+    [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]
+    """
+
+    twists: scipy.sparse.csr_matrix
+    zeros: scipy.sparse.csr_matrix
+
+    def forward(self, change: Floats) -> AxisChange:
+        """Return the change of the axes with one of the numbers, float[n]."""
+        return AxisChange(np.asarray(self.twists @ change), np.asarray(self.zeros @ change))
+
+    def adjoint(self, gradient: AxisChange) -> Floats:
+        """Return the gradient by the numbers, float[n], of what has a gradient by the axes."""
+        return np.asarray(self.twists.T @ gradient.twists + self.zeros.T @ gradient.zeros)
+
+    def after(self, slopes: Floats) -> AxisDependence:
+        """Return the same by the parameters on which these numbers depend.
+
+        Parameters
+        ----------
+        slopes : float[n, m]
+            Derivatives of the numbers by m parameters: `derivatives_by_parameters`.
+        """
+        inner = scipy.sparse.csr_matrix(slopes)
+        return AxisDependence((self.twists @ inner).tocsr(), (self.zeros @ inner).tocsr())
+
+
+def dependence_on_axes(linkage: PosedLinkage) -> AxisDependence:
+    """Return how a linkage depends on its axes: a point and a direction of each joint in turn, float[6 J].
+
+    Points are in the unit of the coordinates, directions are unit vectors; changes along an axis or of its length
+    change nothing. Joint angles are counted from the pose.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> dependence_on_axes(hinge).forward(np.array([0, 0, 0, 1.0, 0, 0])).twists.tolist()
+    [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
+    """
+    turn, points = crossing(linkage.directions), crossing(linkage.points)
+    blocks = np.zeros((len(turn), 6, 6))
+    blocks[:, 3:, :3] = np.eye(3) / linkage.extent
+    blocks[:, :3, 3:] = turn  # w = direction x change of direction
+    blocks[:, 3:, 3:] = points @ turn  # v = - w x point
+    joints = len(blocks)
+    twists = scipy.sparse.bsr_matrix((blocks, np.arange(joints), np.arange(joints + 1)), shape=(6 * joints,) * 2)
+    return AxisDependence(twists.tocsr(), scipy.sparse.csr_matrix((joints, 6 * joints)))
+
+
+def spatial(linkage: PosedLinkage) -> PosedLinkage:
+    """Return the linkage with six equations for each loop.
+
+    Loops about a centre close with three, which do not see whether axes still meet there, or are parallel. With
+    six the residual of a change does.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> ring = SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))])
+    >>> linkage = linkage_of_axes(ring, {joint: ((0, 0, 0), np.eye(3)[joint]) for joint in range(3)})
+    >>> ClosureEquations(linkage).rows, ClosureEquations(spatial(linkage)).rows
+    (3, 6)
+    """
+    return replace(linkage, loops=tuple(replace(loop, centre=Centre.NONE) for loop in linkage.loops))
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterDerivatives:
+    """Derivatives of a function of parameters.
+
+    Attributes
+    ----------
+    matrix : float[n, m]
+        Of n numbers by m parameters.
+    method : {"complex step", "differences"}
+    error : float
+        Estimate of the largest error: what the last extrapolation changed; of a complex step, none but rounding.
+    """
+
+    matrix: Floats
+    method: str
+    error: float
+
+
+def derivatives_by_parameters(function: Callable[[Floats], Floats], parameters: Floats) -> ParameterDerivatives:
+    """Return the derivatives of coordinates or axes by the parameters of a generator.
+
+    By complex steps if the function takes complex numbers and is analytic there, else by central differences of
+    steps 1/64, 1/128 and 1/256 of a parameter, or of one if that is larger, extrapolated (Richardson).
+
+    Parameters
+    ----------
+    function : callable
+        Takes float[m], returns an array of n numbers of any shape.
+    parameters : float[m]
+
+    Examples
+    --------
+    >>> def corner(p):
+    ...     return np.array([p[0] * np.cos(p[1]), p[0] * np.sin(p[1])])
+    >>> slopes = derivatives_by_parameters(corner, np.array([2.0, np.pi / 2]))
+    >>> (slopes.matrix + 0.0).round(12).tolist(), slopes.method
+    ([[0.0, -2.0], [1.0, 0.0]], 'complex step')
+    """
+    parameters = np.asarray(parameters, dtype=float)
+    columns = [_by_differences(function, parameters, place) for place in range(len(parameters))]
+    matrix = np.array([column for column, _ in columns]).T.reshape(-1, len(parameters))
+    error = max((error for _, error in columns), default=0.0)
+    exact = _by_complex_steps(function, parameters)
+    if exact is not None and np.abs(exact - matrix).max(initial=0.0) <= _ALIKE * np.abs(matrix).max(initial=1.0):
+        return ParameterDerivatives(exact, "complex step", 0.0)
+    return ParameterDerivatives(matrix, "differences", error)
+
+
+def _by_differences(function: Callable[[Floats], Floats], parameters: Floats, place: int) -> tuple[Floats, float]:
+    """Return the derivative by one parameter, and how far the last two extrapolations are apart."""
+    size = max(abs(float(parameters[place])), 1.0)
+    rows = []
+    for step in _STEPS:
+        way = np.eye(len(parameters))[place] * step * size
+        ahead, back = (np.ravel(function(parameters + sign * way)) for sign in (1.0, -1.0))
+        rows.append((ahead - back) / (2.0 * step * size))
+    first, second = (4.0 * rows[1] - rows[0]) / 3.0, (4.0 * rows[2] - rows[1]) / 3.0
+    best = (16.0 * second - first) / 15.0
+    return best, float(np.abs(best - second).max(initial=0.0))
+
+
+def _by_complex_steps(function: Callable[[Floats], Floats], parameters: Floats) -> Floats | None:
+    """Return the derivatives by complex steps; None if the function does not take or return complex numbers."""
+    columns = []
+    for way in np.eye(len(parameters)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", np.exceptions.ComplexWarning)
+            try:
+                values = np.ravel(function(parameters + 1j * _COMPLEX * way))
+            except (TypeError, np.exceptions.ComplexWarning):
+                return None
+        if not np.iscomplexobj(values):
+            return None
+        columns.append(values.imag / _COMPLEX)
+    return np.array(columns).T.reshape(-1, len(parameters))
