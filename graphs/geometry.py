@@ -313,6 +313,11 @@ class Fit:
         Of a plane its unit normal, of a line its direction; the largest component is positive.
     off : float[...]
         The greatest distance of a point from it.
+
+    Examples
+    --------
+    >>> float(best_plane([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 1]]).off) < 1e-12
+    True
     """
 
     middle: Floats
@@ -482,6 +487,12 @@ class Meeting:
     spread : float[...]
         How clearly the point is known: the least singular value of the equations over the largest; 0 for parallel
         lines, sin(a / 2) / cos(a / 2) for two at an angle a in the plane.
+
+    Examples
+    --------
+    >>> meeting = lines_meet([[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> meeting.point.round(12).tolist(), meeting.off.round(12).tolist()
+    ([0.0, 0.0, 1.0], [1.0, 1.0])
     """
 
     point: Floats

@@ -19,7 +19,7 @@ import scipy.sparse
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.geometry import principal_axes, unit
+from graphs.geometry import unit
 from graphs.ids import JointId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -40,6 +40,7 @@ from graphs.rank.fields import Reals
 from graphs.rank.general_member import Line, join
 from graphs.rank.rods import velocity_constraints
 from graphs.rank.singular_values import NEARLY, Spectrum, spectrum
+from graphs.rank.spaces import singular_values
 from graphs.tolerances import DOUBLE, Tolerances
 
 __all__ = [
@@ -300,7 +301,7 @@ def _flat_loops(points: Floats, found: SheetMechanism, precision: Precision) -> 
         if len(loop.joints) < 3:
             continue
         ends = points[np.array([hinges[joint] for joint in loop.joints]).ravel()]
-        sizes, _ = principal_axes(ends)
+        sizes = singular_values(ends - ends.mean(axis=0))
         flat += bool(sizes[2] <= 2 * precision.size * len(ends) ** 0.5 + DOUBLE.flat * sizes[0])
     return flat
 
