@@ -1,7 +1,8 @@
 """Mechanisms in notebooks: each shows itself as a picture.
 
-What knows its own picture or table (`Scene`, the answers) says so itself. Mechanisms are in ``graphs``, which does
-not know how to draw; here IPython is told, by the names of classes, so that nothing is imported before its time.
+Answers know their own tables and say so themselves. Mechanisms are in ``graphs``, which does not know how to draw,
+and pictures do not know how they are written; here IPython is told, by the names of classes, so that nothing is
+imported before its time.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ _SHOWN = {
     "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
     "enumerate.strings.panel_strings": "ChainString",
     "synth.guidance.orientations": "Orientations",
+    "synth.drawing.scene.shapes": "Scene",
 }
 """Module to class; what inherits from one is shown too."""
 
@@ -54,12 +56,12 @@ def load_ipython_extension(shell: Any) -> None:
 
 
 def picture_of(thing: Any) -> str | None:
-    """Return the picture of a mechanism as SVG; None, for its description, where it cannot be drawn.
+    """Return a picture as SVG, or that of a mechanism; None, for its description, where it cannot be drawn.
 
     Parameters
     ----------
     thing : object
-        A mechanism of a class that the notebook shows.
+        A scene, or a mechanism, of a class that the notebook shows.
 
     Returns
     -------
@@ -73,9 +75,10 @@ def picture_of(thing: Any) -> str | None:
     """
     from graphs.errors import SynthedraError
     from synth.drawing.mechanisms.pictures import draw
+    from synth.drawing.scene.shapes import Scene
     from synth.drawing.scene.svg import svg_text
 
     try:
-        return svg_text(draw(thing))
+        return svg_text(thing if isinstance(thing, Scene) else draw(thing))
     except SynthedraError:
         return None

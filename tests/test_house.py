@@ -58,6 +58,32 @@ def test_there_is_no_circle_between_rooms():
     assert list(nx.simple_cycles(rooms)) == []
 
 
+def test_there_is_no_circle_between_files():
+    """Imports inside functions and those for type checkers count; a name that a face offers is in its file.
+
+    Faces are left out: they import lazily what their own rooms have.
+    """
+    files = nx.DiGraph()
+    where = {dotted(face): offered(face)[0] for face in FACES}
+    for path in SOURCES:
+        if path not in FACES:
+            files.add_edges_from((dotted(path), file) for file in files_imported(path, where))
+    assert set(files) <= NAMES
+    assert [sorted(part) for part in nx.strongly_connected_components(files) if len(part) > 1] == []
+    assert list(nx.selfloop_edges(files)) == []
+
+
+def files_imported(path, where):
+    """The files of ours that a file imports: ``where`` says of each face in which file a name is that it offers."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] in PACKAGES:
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in NAMES else where.get(node.module, {}).get(alias.name, node.module)
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in NAMES)
+
+
 def test_rooms_fit_a_readers_head():
     sizes = {face.parent: len(list(face.parent.glob("*.py"))) - 1 for face in FACES}
     assert {str(folder): size for folder, size in sizes.items() if size > 16} == {}

@@ -20,6 +20,7 @@ THINGS = {
     "round a cone": read(DATA / "surfaces" / "fig11-stephenson.json"),
     "model": read(DATA / "wampler" / "cube-unlocked.json"),
     "string": ChainString((2, 1)),
+    "picture": synth.draw(read("k1:Cr")),
 }
 
 

@@ -140,12 +140,11 @@ class Sheet:
         return sheet
 
     def __repr__(self) -> str:
-        creases = sum(letter in HINGES for letter in self.assignments)
+        creases = sum(map(self.assignments.count, HINGES))
         lies = "no coordinates"
         if self.coordinates is not None:
-            from graphs.mechanism.plane import lies_flat  # which knows sheets
-
-            lies = "flat" if lies_flat(self) else "folded"
+            heights = {place[2:] for place in self.coordinates}
+            lies = "flat" if len(heights) < 2 else "in space"
         return f"<Sheet: {len(self.faces)} faces, {creases} creases, {self.vertices} vertices, {lies}>"
 
 

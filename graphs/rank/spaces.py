@@ -35,6 +35,12 @@ class Split:
         Right singular vectors, as rows; not canonical.
     zero : float
         What the values were judged by: the part of the largest up to which they are zero.
+
+    Examples
+    --------
+    >>> parts = split(np.diag([1.0, 2e-9]))
+    >>> parts.rank, parts.evidence.rank
+    (2, None)
     """
 
     rank: int
@@ -165,6 +171,12 @@ class Inertia:
         Columns; not canonical.
     signs : int[..., s]
         Of the values; 0 for those that are zero.
+
+    Examples
+    --------
+    >>> saddle = inertia(np.diag([1.0, -1.0]))
+    >>> saddle.signs.tolist(), int(saddle.positive)
+    ([-1, 1], 1)
     """
 
     values: Floats

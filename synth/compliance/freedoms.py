@@ -39,7 +39,7 @@ class State:
         Of finite motion, with resting members rigid and active ones released; on the freest way. None where it is
         not known.
     certainty : {"proved", "numerical", "not known"}
-        Proved: no rates close to first order, or the equations are independent; or as `synth.folding.branches_of`
+        Proved: no rates close to first order, or the equations are independent; or as `synth.motion.branches_of`
         says.
 
     Examples

@@ -24,8 +24,7 @@ from synth.conformed.twelve_cases import TableRow, table_row
 from synth.surfaces.circuit import azimuths, closing_step
 from synth.surfaces.cone import map_to_cones
 from synth.surfaces.linkages import map_linkage
-from synth.surfaces.mapping import in_degrees
-from synth.surfaces.told import joints_text
+from synth.surfaces.mapping import in_degrees, joints_text
 
 __all__ = ["LinkageBehaviour", "OnCone", "cone_of_number", "linkage_on_cones", "loop_of_steps", "loop_on_cones"]
 

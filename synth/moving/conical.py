@@ -17,15 +17,14 @@ import numpy as np
 from graphs.edit.named import known
 from graphs.errors import InvariantError, shown
 from graphs.ids import JointId, LinkId
-from graphs.printing import Block, Printed
+from graphs.printing import Block, Printed, TableBlock, plain
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import rates_at
 from synth.moving.circuits import Circuit, circuit_through
-from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense
-from synth.moving.conical_words import blocks_of_motion
+from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense, Stretch
 from synth.moving.made import linkage_on_cone
 
 __all__ = ["ConicalMotion", "move_on_cone"]
@@ -82,7 +81,19 @@ class ConicalMotion(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
-        return blocks_of_motion(self)
+        chain, angle = self.chain, self.on_cone.cone_angle
+        where = "" if angle is None else f"lambda {degrees(angle):.10g} degrees, "
+        rows = [
+            (plain(link), _stretches(self.backward.ways[link]), _stretches(self.forward.ways[link]))
+            for link in chain.links[1:]
+        ]
+        return [
+            f"{where}link {plain(chain.links[0])} fixed, joint {plain(self.driver)} driven",
+            f"range {_side(self.backward)}, {_side(self.forward)}",
+            _circuit(self),
+            TableBlock(("link", "backward", "forward"), rows),
+            *(_positions(self) if self.positions else []),
+        ]
 
     def __repr__(self) -> str:
         return f"<ConicalMotion: {self.linkage!r}, joint {self.driver!r} driven>"
@@ -203,3 +214,42 @@ def _sense_json(sense: Sense) -> dict[str, Any]:
             for link, stretches in sense.ways.items()
         },
     }
+
+
+def _side(sense: Sense) -> str:
+    told = f"to {degrees(sense.limit):.10g} degrees ({sense.ends})"
+    if sense.one_way is None:
+        return told
+    way, end = sense.one_way
+    return f"{told}, all links {way.name.lower()} to {degrees(end):.6g}"
+
+
+def _circuit(motion: ConicalMotion) -> str:
+    circuit = motion.circuit
+    if not circuit.closed:
+        return f"circuit not followed to its end: {circuit.stopped}"
+    turning = [f"joint {plain(joint)} {turns:+d}" for joint, turns in motion.turns.items() if turns]
+    told = f"circuit closed, loops to {circuit.error:.1e}; whole turns: {', '.join(turning) or 'none'}"
+    if motion.meets:
+        told += "; another circuit meets it at " + ", ".join(f"{degrees(turn):.6g}" for turn in motion.meets)
+    return told
+
+
+def _stretches(stretches: tuple[Stretch, ...]) -> str:
+    return ", ".join(f"{each.way.name.lower()} to {degrees(each.end):.6g}" for each in stretches)
+
+
+def _positions(motion: ConicalMotion) -> list[Block]:
+    joints = list(motion.linkage.graph.joints)
+    heads = ("at", *(f"joint {joint}" for joint in joints), "without turning back")
+    rows = [
+        (
+            f"{degrees(each.at):g}",
+            *(f"{degrees(turn):.8g}" for turn in each.angles),
+            "yes" if each.direct else "no",
+        )
+        for each in motion.positions
+    ]
+    asked = {each.at for each in motion.positions}
+    told = f"{len(motion.positions)} position(s) at {len(asked)} turn(s) that are reached"
+    return [TableBlock(heads, rows, ["at"]), told]

@@ -26,7 +26,7 @@ def folded(sheet: Sheet, angle: float) -> Sheet:
     --------
     >>> from synth.patterns.creases.tessellations import miura
     >>> folded(miura(2, 2, 1.0), 0.5)
-    <Sheet: 4 faces, 4 creases, 9 vertices, folded>
+    <Sheet: 4 faces, 4 creases, 9 vertices, in space>
     """
     last: Sheet = fold_to(sheet, angle).folding.frames()[-1]
     return last

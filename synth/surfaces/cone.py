@@ -26,8 +26,15 @@ from synth.fourbar.closing import (
 )
 from synth.fourbar.joint_lines import minimal_supplementary
 from synth.fourbar.rounding import rounding_of
-from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, in_degrees, mapped_loop
-from synth.surfaces.told import blocks_of_cones
+from synth.surfaces.mapping import (
+    FamilyOfCircles,
+    MappedLoop,
+    cautions_of,
+    circles_table,
+    in_degrees,
+    kind_line,
+    mapped_loop,
+)
 
 __all__ = [
     "ConeMap",
@@ -86,7 +93,19 @@ class ConeMap(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        return blocks_of_cones(self)
+        blocks: list[Block] = []
+        if self.kind is not None:
+            blocks.append(kind_line(self.kind, angular=True))
+            if self.solutions in ("a", "b", "c", "d"):
+                blocks.append(f"class {self.solutions} of Hyatt et al. 2020, Fig. 10")
+        blocks += circles_table([*self.flat, *self.cones], self.families, flat=self.flat, angular=True)
+        blocks += [f"caution: {caution}" for caution in self.cautions()]
+        if self.why:
+            blocks.append(f"no cone: {self.why}")
+        if self.supplementary is not None:
+            told = ", ".join(f"{degrees(angle):.6g}" for angle in self.supplementary.angles)
+            blocks += ["", f"supplementary linkage, on the same joint lines: {told}", *self.supplementary.blocks()]
+        return blocks
 
     def __repr__(self) -> str:
         return f"<ConeMap: {len(self.angles)} links, {numbered(len(self.cones), 'cone')}>"

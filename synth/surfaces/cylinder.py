@@ -19,8 +19,7 @@ from graphs.printing import Block, Printed
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
 from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 from synth.surfaces.loop_sums import sign_patterns
-from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, mapped_loop
-from synth.surfaces.told import blocks_of_cylinders
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, circles_table, kind_line, mapped_loop
 
 __all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
 
@@ -65,7 +64,10 @@ class CylinderMap(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        return blocks_of_cylinders(self)
+        blocks: list[Block] = [] if self.kind is None else [kind_line(self.kind, angular=False)]
+        blocks += circles_table(self.cylinders, self.families, flat=(), angular=False)
+        blocks += [f"caution: {caution}" for caution in self.cautions()]
+        return [*blocks, f"no cylinder: {self.why}"] if self.why else blocks
 
     def __repr__(self) -> str:
         return f"<CylinderMap: {len(self.lengths)} links, {numbered(len(self.cylinders), 'cylinder')}>"

@@ -17,9 +17,8 @@ from graphs.mechanism.conical import ConicalLinkage, Pair
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.surfaces.cone import link_angles
 from synth.surfaces.linkage_cones import CommonCone, CommonFamily, common_cones
-from synth.surfaces.mapping import in_degrees
+from synth.surfaces.mapping import in_degrees, joints_text, signs_text
 from synth.surfaces.several_loops import link_pairs, loop_steps
-from synth.surfaces.told import joints_text, signs_text
 
 __all__ = ["LinkageMap", "angles_on", "by_angles", "map_linkage"]
 

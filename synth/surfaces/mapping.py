@@ -7,7 +7,7 @@ Theory: docs/theory/rounding.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import degrees, fsum, pi
@@ -17,12 +17,24 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.ids import JointId
+from graphs.printing import Block, TableBlock, plain
 from synth.fourbar.closing import FourBarKind
 from synth.fourbar.rounding import ILL_CONDITIONED
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, loop_sum, put_together, sum_rounding
 
-__all__ = ["FamilyOfCircles", "MappedLoop", "cautions_of", "in_degrees", "mapped_loop"]
+__all__ = [
+    "FamilyOfCircles",
+    "MappedLoop",
+    "cautions_of",
+    "circles_table",
+    "in_degrees",
+    "joints_text",
+    "kind_line",
+    "mapped_loop",
+    "signs_text",
+]
 
 _VAGUE = 1e-6
 """A circle of which fewer digits than this can be told, relatively, has a caution."""
@@ -157,6 +169,72 @@ def in_degrees(values: Iterable[float]) -> list[float]:
     [40.1, 0.0]
     """
     return [round(degrees(value), 12) + 0.0 for value in values]
+
+
+def signs_text(signs: Sequence[int]) -> str:
+    """Return signs as text.
+
+    Examples
+    --------
+    >>> signs_text((1, -1, 1))
+    '+-+'
+    """
+    return "".join("+" if sign > 0 else "-" for sign in signs)
+
+
+def joints_text(joints: Sequence[JointId]) -> str:
+    """Return names of joints as text."""
+    return plain(" ".join(map(str, joints)))
+
+
+def kind_line(kind: FourBarKind, *, angular: bool) -> str:
+    """Say in a line what a four-bar is."""
+    unit = "°" if angular else ""
+    shown = kind.told_differences(angular=angular)
+    differences = ", ".join(f"T{i} = {t:.6g}{unit}" for i, t in enumerate(shown, start=1))
+    return f"{kind.grashof}, {kind.name}   ({differences})"
+
+
+def circles_table(
+    loops: Sequence[MappedLoop], families: Sequence[FamilyOfCircles], *, flat: Sequence[MappedLoop], angular: bool
+) -> list[Block]:
+    """Return a table of the circles of a loop, a row for each, then its families; nothing where there are none.
+
+    Parameters
+    ----------
+    loops : sequence of MappedLoop
+    families : sequence of FamilyOfCircles
+    flat : sequence of MappedLoop
+        Those of the loops that lie in a plane: no cone.
+    angular : bool
+        Sizes are angles, radians, printed as degrees: of cones. Otherwise they are lengths: of cylinders.
+
+    Examples
+    --------
+    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> circles_table(map_to_cylinders([4, 3, 5, 1]).cylinders, (), flat=(), angular=False)[0].rows[0][1:4]
+    ('open', '++++', '1')
+    """
+    size = "lambda (deg)" if angular else "radius"
+    rows = []
+    for one in loops:
+        notes = ["flat, no cone"] * (one in flat)
+        notes += [f"link {link + 1} spans half the circle" for link in one.half_turns]
+        if one.caution:
+            low, high = (degrees(x) if angular else x for x in one.bounds)
+            notes.append(f"ill-conditioned, between {low:.6g} and {high:.6g}")
+        rows.append((
+            f"{degrees(one.size) if angular else one.size:.10g}", one.circuit, signs_text(one.signs),
+            str(one.turns), " ".join(f"{degrees(step):.2f}" for step in one.steps), "; ".join(notes),
+        ))  # fmt: skip
+    for family in families:
+        low, high = (degrees(x) if angular else x for x in family.interval)
+        rows.append((
+            f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns), "",
+            "every one of these" + (", ill-conditioned" if family.caution else ""),
+        ))  # fmt: skip
+    heads = (size, "circuit", "signs", "k", "steps (deg)", "note")
+    return [TableBlock(heads, rows, [size, "k"])] if rows else []
 
 
 def mapped_loop(

@@ -8,6 +8,7 @@ docs/theory/viewer.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from itertools import chain
 from typing import Any
 
@@ -18,6 +19,7 @@ from scipy.sparse.linalg import splu
 from graphs.arrays import Ints
 from graphs.ids import LinkId
 from graphs.loops.loop import Centre
+from graphs.tolerances import EPSILON, Tolerances
 from synth.motion.closure import frames_of
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.placement import joints_outwards
@@ -41,6 +43,8 @@ def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None =
     -------
     dict
         Plain data; `LinkageData` of web/src/solver/types.js. Angles in radians, lengths in units of the extent.
+        The tolerances are those of closed configurations, which are solved for in double precision whatever the
+        file says.
 
     Examples
     --------
@@ -65,6 +69,7 @@ def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None =
         "limited": limited,
         "tree": tree,
         "links": len(number),
+        "tolerances": asdict(Tolerances.of(EPSILON, len(linkage.angles))),
     }
 
 

@@ -51,13 +51,17 @@ class Asked:
     frames: np.ndarray
     stopped: str
     places: np.ndarray
-    freedoms: int
     crossing: list[tuple[int, int] | None]
     """Of each frame, the first two panels that cross."""
 
 
-def asked_of(moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames: int = 4) -> Asked:
-    """Ask for residuals anywhere, for the pose next to a disturbed one, and for a path of a driven joint."""
+def asked_of(
+    moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames: int = 4, *, panels: bool = True
+) -> Asked:
+    """Ask for residuals anywhere, for the pose next to a disturbed one, and for a path of a driven joint.
+
+    With panels, also which of them cross: for that node needs the packages of the page.
+    """
     linkage, bodies = moving.linkage, moving.bodies
     closure = ClosureEquations(linkage)
     anywhere = linkage.angles + rng.normal(scale=0.7, size=closure.joints)
@@ -73,7 +77,7 @@ def asked_of(moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames
     path = driven_path(closure, linkage.angles, [driver], goals[:, None], options=PathOptions(towards, limited))
     near = path.angles[-1] + rng.normal(scale=1e-3, size=closure.joints)
     ground = list(linkage.graph.nodes)[moving.ground]
-    faces = bodies.faces if moving.limited else []
+    faces = bodies.faces if moving.limited and panels else []
     question = {
         "linkage": solver_data(linkage, limited=moving.limited, ground=ground),
         "anywhere": anywhere.tolist(),
@@ -89,9 +93,7 @@ def asked_of(moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames
     motions = list(link_motions(linkage, path.angles, ground).values())
     carried = zip(bodies.vertices, bodies.owners, strict=True)
     places = np.array([motions[owner][0] @ v + motions[owner][1] for v, owner in carried])
-    last = closure.at(path.angles[-1])[1].toarray()
-    freedoms = closure.joints - (int(np.linalg.matrix_rank(last, tol=1e-6)) if len(last) else 0)
     gathered, closed = jacobian.T @ residual, corrected(closure, near).angles
-    panels = Panels([around for _, around in faces], [link for link, _ in faces], bodies.vertices)
-    crossing = [panels.crossing(frame) for frame in places.swapaxes(0, 1)]
-    return Asked(question, residual, gathered, closed, path.angles, path.stopped, places, freedoms, crossing)
+    pieces = Panels([around for _, around in faces], [link for link, _ in faces], bodies.vertices)
+    crossing = [pieces.crossing(frame) for frame in places.swapaxes(0, 1)]
+    return Asked(question, residual, gathered, closed, path.angles, path.stopped, places, crossing)

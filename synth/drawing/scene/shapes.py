@@ -185,11 +185,6 @@ class Scene:
         """Return the labels of all layers."""
         return [shape for shape in self.shapes() if isinstance(shape, Label)]
 
-    def _repr_svg_(self) -> str:
-        from synth.drawing.scene.svg import svg_text
-
-        return svg_text(self)
-
 
 def text_width(text: str, size: float) -> float:
     """Return how wide text is at most, in points: fonts differ, and the widest that is used counts.

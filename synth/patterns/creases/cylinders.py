@@ -59,7 +59,7 @@ def deployable_cylinder(pleats: int, short: float, slack: float, height: float =
     Examples
     --------
     >>> deployable_cylinder(4, 0.5, 0.1)
-    <Sheet: 24 faces, 32 creases, 32 vertices, folded>
+    <Sheet: 24 faces, 32 creases, 32 vertices, in space>
     """
     outer, inner = sectors_of_ride_alongs(pleats, slack)
     opening = 2.0 * outer - short

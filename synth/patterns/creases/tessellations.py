@@ -76,7 +76,7 @@ def folded_miura(
     Examples
     --------
     >>> folded_miura(2, 2, 0.7, 1.1)
-    <Sheet: 4 faces, 4 creases, 9 vertices, folded>
+    <Sheet: 4 faces, 4 creases, 9 vertices, in space>
     """
     height = straight * sin(tilt) * sin(sector)
     wide = cos(tilt) ** 2 * tan(sector) ** 2

@@ -33,7 +33,7 @@ def miura_tube(columns: int, sector: float, tilt: float, straight: float = 1.0, 
     Examples
     --------
     >>> miura_tube(3, 1.1, 0.6)
-    <Sheet: 12 faces, 20 creases, 16 vertices, folded>
+    <Sheet: 12 faces, 20 creases, 16 vertices, in space>
     """
     strip = folded_miura(2, columns, tilt, sector, straight, zigzag)
     assert strip.coordinates is not None
@@ -65,7 +65,7 @@ def kresling(sides: int, ends: int, turn: float = 0.5, height: float = 0.8) -> S
     Examples
     --------
     >>> kresling(6, 0)
-    <Sheet: 12 faces, 12 creases, 12 vertices, folded>
+    <Sheet: 12 faces, 12 creases, 12 vertices, in space>
     """
     below = [(cos(2 * pi * k / sides), sin(2 * pi * k / sides), 0.0) for k in range(sides)]
     above = [(cos(2 * pi * k / sides + turn), sin(2 * pi * k / sides + turn), height) for k in range(sides)]

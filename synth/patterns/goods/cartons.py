@@ -76,7 +76,7 @@ def crash_lock(opening: float, length: float = 2.0, width: float = 1.4, height: 
     Examples
     --------
     >>> crash_lock(1.2)
-    <Sheet: 8 faces, 10 creases, 10 vertices, folded>
+    <Sheet: 8 faces, 10 creases, 10 vertices, in space>
     """
     if not 0.0 < opening < pi / 2:
         told = f"the tube is opened to {degrees(opening):g} degrees"

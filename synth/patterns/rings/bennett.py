@@ -134,7 +134,7 @@ def sarrus(side: float = 1.0, height: float = 1.6, out: float = 0.6) -> Sheet:
     Examples
     --------
     >>> sarrus()
-    <Sheet: 6 faces, 6 creases, 12 vertices, folded>
+    <Sheet: 6 faces, 6 creases, 12 vertices, in space>
     """
     square = ((0.0, 0.0), (side, 0.0), (side, side), (0.0, side))
     corners = [(x, y, z) for z in (0.0, height) for x, y in square]

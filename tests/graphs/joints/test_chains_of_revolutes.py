@@ -91,6 +91,35 @@ def test_rings_and_grounds_are_not_cut_in_two():
     assert set(recognised(held).kinds.values()) == {R, U}
 
 
+def spherical_ring():
+    """A ring of S, R, U and E as revolutes, and its links in their order."""
+    solids = revolutes_of(row(S, R, U, E, ring=True))
+    return solids, list(solids.chain.nodes)
+
+
+@pytest.mark.parametrize("shift", range(9))
+def test_a_ring_begins_between_two_joints_whichever_link_is_listed_first(shift):
+    solids, links = spherical_ring()
+    turned = SCGraph(links[shift:] + links[:shift], solids.chain.joints)
+    kinds = recognised(HingedSolids(turned, solids.axes)).kinds
+    assert dict(kinds) == {"j0": S, "j1": R, "j2": U, "j3": E}
+
+
+@pytest.mark.parametrize("inner", ["j0:1", "j0:2"])
+def test_a_link_inside_a_joint_that_is_held_or_has_another_joint_stays(inner):
+    """The ball is three revolutes then; the other joints of the ring are seen."""
+    solids, links = spherical_ring()
+    held = SCGraph(dict.fromkeys([inner, *links]), solids.chain.joints, ground=inner)
+    joints = {**solids.chain.joints, "flap": (inner, "tail")}
+    tailed = SCGraph(dict.fromkeys([inner, *links, "tail"]), joints)
+    axes = {**solids.axes, "flap": ((9.0, 8.0, 7.0), (0.36, 0.48, 0.8))}
+    for mechanism in (HingedSolids(held, solids.axes), HingedSolids(tailed, axes)):
+        seen = recognised(mechanism)
+        assert inner in seen.chain
+        assert S not in seen.kinds.values()
+        assert seen.kinds["j3"] is E
+
+
 def test_panels_of_sarrus_are_a_slide(data):
     seen = convert(read(data / "linkages" / "sarrus-panels.fold"), "joints")
     assert [kind.value for kind in seen.kinds.values()] == ["P"]

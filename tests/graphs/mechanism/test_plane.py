@@ -81,7 +81,7 @@ def test_faces_are_traced_in_any_plane(name, tmp_path):
 def test_numbers_of_any_size_lie_in_a_plane():
     bent = sheet_of([(0, 0, 0), (1e49, 0, 1e49), (0, 1e49, 0), (1e49, 1e49, 0)])
     assert flattened(bent) is None
-    assert repr(bent).endswith("folded>")
+    assert repr(bent).endswith("in space>")
     assert flattened(sheet_of([(0, 0, 0), (1e40, 0, 1e40), (0, 1e40, 0)])).turned.startswith("turned")
     assert flattened(Sheet(3, (), "", ((0, 1, 2),))) is None
 

@@ -1,5 +1,7 @@
 import json
+import sys
 
+import numpy as np
 import pytest
 
 from graphs.convert.duality import mechanism_of_sheet
@@ -109,3 +111,35 @@ def test_rounded_coordinates_are_told_of():
     assert rounded == ("rounded coordinates: a panel is off its plane by 3e-07 of the extent",)
     exact = tuple((x, y, 0.0 if z < 0.1 else z) for x, y, z in square)
     assert mechanism_of_sheet(Sheet(5, (), "", faces, exact)).warnings == ()
+
+
+def grid(side, height=0.0):
+    """A sheet of side x side square panels; its last vertex stands off the plane of the others."""
+    corners = [(float(x), float(y), 0.0) for y in range(side + 1) for x in range(side + 1)]
+    corners[-1] = (*corners[-1][:2], height)
+    starts = [y * (side + 1) + x for y in range(side) for x in range(side)]
+    return Sheet(
+        len(corners), (), "", tuple((v, v + 1, v + side + 2, v + side + 1) for v in starts), tuple(corners)
+    )
+
+
+@pytest.mark.parametrize(("height", "lies"), [(0.0, "flat"), (1.0, "in space")])
+def test_a_sheet_describes_itself_in_a_few_calls(height, lies, monkeypatch):
+    """No factorisation, and no more calls for 10 000 panels than for 4."""
+
+    def refused(*_given, **_options):
+        raise AssertionError("a description factorises a matrix")
+
+    for name in ("svd", "eigh", "eig", "qr", "lstsq"):
+        monkeypatch.setattr(np.linalg, name, refused)
+    called = {}
+    for side in (2, 100):
+        sheet, calls = grid(side, height), []
+        sys.setprofile(lambda _frame, event, _what, calls=calls: calls.append(event))
+        try:
+            text = repr(sheet)
+        finally:
+            sys.setprofile(None)
+        assert text == f"<Sheet: {side**2} faces, 0 creases, {(side + 1) ** 2} vertices, {lies}>"
+        called[side] = len(calls)
+    assert called[100] == called[2]

@@ -1,30 +1,33 @@
 """The solver of the page against the one in Python: the same residuals, and the same poses from the same starts."""
 
+import re
+from dataclasses import asdict, replace
+
 import numpy as np
 import pytest
 from noisy import random_sheet
-from page_solver import answers, asked_of
+from page_solver import WEB, answers, asked_of
 
 from graphs.files.formats import read
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.tolerances import EPSILON, Tolerances
 from synth.folding.collisions import Panels
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import driven_path
+from synth.patterns.creases.tessellations import miura
 from synth.viewer.shown import Moving, shown_of
 
-pytestmark = pytest.mark.web
-
 SAME_RESIDUAL, SAME_POSE = 1e-12, 1e-9
-DRIFT = 1e-6
-"""With several freedoms rounding moves poses along them; the factors multiply it by up to 1e9."""
 
 
-def compare(things: list[Moving]) -> int:
+def compare(things: list[Moving], *, panels: bool = True) -> int:
     """Compare both solvers on everything that moves; return how many paths were compared to their ends."""
-    asked = [asked_of(moving, np.random.default_rng(number)) for number, moving in enumerate(things)]
+    asked = [
+        asked_of(moving, np.random.default_rng(number), panels=panels) for number, moving in enumerate(things)
+    ]
     whole = 0
     for one, answer in zip(asked, answers([one.question for one in asked]), strict=True):
         np.testing.assert_allclose(answer["residual"], one.residual, rtol=0, atol=SAME_RESIDUAL)
@@ -34,11 +37,10 @@ def compare(things: list[Moving]) -> int:
         if one.stopped:
             assert answer["frames"][-1]["stopped"], one.stopped
             continue
-        tolerance = SAME_POSE if one.freedoms == 1 else DRIFT
         poses = [frame["angles"] for frame in answer["frames"]]
-        np.testing.assert_allclose(poses, one.frames[1:], rtol=0, atol=tolerance)
+        np.testing.assert_allclose(poses, one.frames[1:], rtol=0, atol=SAME_POSE)
         for frame, places in zip(answer["frames"], one.places[:, 1:].swapaxes(0, 1), strict=True):
-            np.testing.assert_allclose(np.reshape(frame["places"], (-1, 3)), places, rtol=0, atol=tolerance)
+            np.testing.assert_allclose(np.reshape(frame["places"], (-1, 3)), places, rtol=0, atol=SAME_POSE)
         for frame, crossing in zip(answer["frames"], one.crossing[1:], strict=True):
             assert bool(frame["crossings"]) == (crossing is not None)
             assert crossing is None or list(crossing) in frame["crossings"]
@@ -46,6 +48,35 @@ def compare(things: list[Moving]) -> int:
     return whole
 
 
+def test_both_solvers_take_the_same_path(data):
+    """A flat sheet, one that is folded, rounded coordinates, a linkage: with one freedom and with several.
+
+    The solver needs node alone, and no package: so this is tested wherever node is.
+    """
+    flat = miura(3, 3, np.radians(60.0))
+    rounded = replace(flat, coordinates=tuple(map(tuple, np.round(flat.coordinates, 4).tolist())))
+    files = ("patterns/bird-base.fold", "linkages/sarrus-panels.fold", "linkages/bennett.json")
+    things = [flat, rounded, *(read(data / file) for file in files)]
+    assert compare([moving_of(thing) for thing in things], panels=False) == len(things)
+
+
+def test_the_page_takes_what_is_zero_from_python(data):
+    """With a coarser tolerance its loops count as closed sooner; the names that it reads are those of the table."""
+    moving = moving_of(read(data / "linkages" / "bennett.json"))
+    question = asked_of(moving, np.random.default_rng(1), panels=False).question
+    linkage = question["linkage"]
+    assert linkage["tolerances"] == asdict(Tolerances.of(EPSILON, len(linkage["angles"])))
+    coarse = {**linkage, "tolerances": {**linkage["tolerances"], "closed": 1e-2}}
+    fine, early = answers([question, {**question, "linkage": coarse}])
+    assert fine["corrected"]["error"] <= linkage["tolerances"]["closed"] < early["corrected"]["error"] <= 1e-4
+    told = (WEB / "src" / "solver" / "types.js").read_text(encoding="utf-8")
+    typed = told.split("@typedef {object} Tolerances")[1].split("@typedef")[0]
+    names = re.findall(r"@property \{number\} (\w+)", typed)
+    assert names
+    assert set(names) <= set(linkage["tolerances"])
+
+
+@pytest.mark.web
 def test_joints_that_are_held():
     """A ring of eight skew axes has two freedoms: one is driven, the other held, as both are driven in Python."""
     chance = np.random.default_rng(3)
@@ -69,6 +100,7 @@ def test_joints_that_are_held():
     assert [one["angles"][second] for one in answer["frames"]] == [0.0, 0.0, 0.0]
 
 
+@pytest.mark.web
 def test_panels_that_cross():
     """Two flaps on a strip, longer than it is wide: one stands inwards already, the other is folded through it."""
     turned = np.radians(120.0)
@@ -104,6 +136,7 @@ def moving_of(thing) -> Moving | None:
     return moving if moving is not None and moving.ways is not None else None
 
 
+@pytest.mark.web
 def test_patterns_and_linkages_of_the_project(data):
     places = [*data.rglob("*.fold"), *(data / "linkages").glob("*.json")]
     things = [moving for place in sorted(places) if (moving := moving_of(read(place)))]
@@ -111,6 +144,7 @@ def test_patterns_and_linkages_of_the_project(data):
     assert compare(things) >= 17  # where the driver of others turns back, the page stops
 
 
+@pytest.mark.web
 @pytest.mark.parametrize("count", [6, pytest.param(50, marks=pytest.mark.slow)])
 def test_random_sheets(count):
     sheets = [random_sheet(np.random.default_rng(seed)) for seed in range(count)]
@@ -119,6 +153,7 @@ def test_random_sheets(count):
     assert compare(things) > count / 3
 
 
+@pytest.mark.web
 @pytest.mark.parametrize("centre", ["finite", "infinite"])
 def test_rings_about_a_centre(centre, rng):
     """Planar loops have frames; of the crease patterns none has one."""

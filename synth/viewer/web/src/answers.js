@@ -1,12 +1,12 @@
 /**
  * The solver asked from outside: questions as JSON on standard input, answers on standard output.
  *
- * So Python compares it with its own, and its speed is measured. The page does not use it.
+ * So Python compares it with its own, and its speed is measured. The page does not use it. What three.js is needed for
+ * is imported where panels are asked about, so that the solver answers wherever node is.
  */
 
 /** @import { LinkageData } from "./solver/types.js" */
 import { readFileSync } from "node:fs";
-import { Crossing } from "./page/crossing.js";
 import { Closure } from "./solver/closure.js";
 import { Motion } from "./solver/motion.js";
 import { Equations } from "./solver/newton.js";
@@ -27,12 +27,12 @@ import { linkMotions, vertexPlaces } from "./solver/placement.js";
  */
 
 /** @param {Question} question */
-function answered({ linkage, anywhere, near, direction, driver, held, goals, vertices, owners, faces }) {
+async function answered({ linkage, anywhere, near, direction, driver, held, goals, vertices, owners, faces }) {
   const closure = new Closure(linkage);
   const { residual, derivatives } = closure.at(Float64Array.from(anywhere));
-  const corrected = new Equations(closure, linkage.order).corrected(Float64Array.from(near));
+  const corrected = new Equations(closure, linkage).corrected(Float64Array.from(near));
   const motion = new Motion(linkage, direction && Float64Array.from(direction));
-  const crossing = new Crossing({ vertices, owners, faces, edges: [] });
+  const crossing = faces.length ? new (await import("./page/crossing.js")).Crossing({ vertices, owners, faces, edges: [] }) : null;
   const frames = goals.map((goal) => {
     const before = process.cpuUsage();
     const stopped = motion.to({ joint: driver, held }, goal);
@@ -40,7 +40,7 @@ function answered({ linkage, anywhere, near, direction, driver, held, goals, ver
     const took = (used.user + used.system) / 1000; // milliseconds of the processor
     const { angles, error } = motion.pose;
     const places = vertexPlaces(linkMotions(linkage, angles), vertices, owners);
-    return { stopped, took, error, angles: [...angles], places: [...places], crossings: crossing.at(places) };
+    return { stopped, took, error, angles: [...angles], places: [...places], crossings: crossing?.at(places) ?? [] };
   });
   return {
     residual: [...residual],
@@ -52,4 +52,4 @@ function answered({ linkage, anywhere, near, direction, driver, held, goals, ver
 
 /** @type {Question[]} */
 const questions = JSON.parse(readFileSync(0, "utf-8"));
-process.stdout.write(JSON.stringify(questions.map(answered)));
+process.stdout.write(JSON.stringify(await Promise.all(questions.map(answered))));

@@ -28,6 +28,7 @@ function parallelogram(centre) {
     limited: false,
     tree: [[0, 1, 0, 1], [1, 2, 1, 1], [2, 3, 2, 1]],
     links: 4,
+    tolerances: { closed: 1e-12, zero: 1e-9, zero_rate: 1e-7, immobile: 1e-9, same_configuration: 1e-6 },
   };
 }
 
@@ -53,7 +54,8 @@ test("derivatives are what residuals do beside a pose", () => {
 test("a factor solves the regularised normal equations", () => {
   const closure = new Closure(parallelogram("none"));
   const { derivatives } = closure.at(Float64Array.of(0.3, -0.2, 0.4, -0.35));
-  const solve = new NormalPattern(4, closure.loops, [2, 0, 3, 1]).solver(closure.loops, derivatives, 1e-3);
+  const pattern = new NormalPattern(4, closure.loops, [2, 0, 3, 1]);
+  const { solve, regular } = pattern.solver(closure.loops, derivatives, 1e-3);
   const given = Float64Array.of(1, 2, 3, 5);
   const found = solve(given);
   const back = closure.gathered(derivatives, closure.image(derivatives, found));
@@ -64,7 +66,8 @@ test("a factor solves the regularised normal equations", () => {
     const image = closure.image(derivatives, unit);
     most = Math.max(most, image.reduce((sum, x) => sum + x * x, 0));
   }
-  given.forEach((x, joint) => assert.ok(Math.abs(back[joint] + 1e-3 * most * found[joint] - x) < 1e-9));
+  assert.ok(Math.abs(regular - 1e-3 * most) < 1e-15);
+  given.forEach((x, joint) => assert.ok(Math.abs(back[joint] + regular * found[joint] - x) < 1e-9));
 });
 
 test("a joint ends where panels lie on each other", () => {

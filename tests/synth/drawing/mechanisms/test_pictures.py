@@ -229,7 +229,3 @@ def test_the_command_writes_equal_files(tmp_path, kind):
     assert (tmp_path / f"a.{kind}").read_bytes() == (tmp_path / f"b.{kind}").read_bytes()
     result = run("draw", "k1:Cr", "-o", tmp_path / f"a.{kind}", code=2)
     assert "exists already" in result.stderr
-
-
-def test_a_notebook_shows_a_picture():
-    assert draw(read("k1:Cr"))._repr_svg_().startswith("<svg")

@@ -12,6 +12,7 @@ from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.svg import svg_text
 from synth.drawing.space.bodies import bodies_of, hinge_ends, places_of_hinges
 from synth.drawing.space.panels import panel_shapes
 from synth.drawing.space.view import view_from_above
@@ -88,7 +89,7 @@ def test_what_looks_away_is_not_drawn(kaleidocycle):
 
 def test_numbers_of_hinges_in_front_are_written():
     """Each is of a hinge that is drawn; one that a body hides has none."""
-    root = ElementTree.fromstring(__import__("synth").draw(read(LINKAGES / "kaleidocycle-8.json"))._repr_svg_())
+    root = ElementTree.fromstring(svg_text(draw(read(LINKAGES / "kaleidocycle-8.json"))))
     lines = {e.get("data-joint") for e in root.iter() if e.tag.endswith("path")} - {None}
     texts = {e.get("data-joint") for e in root.iter() if e.tag.endswith("text")} - {None}
     assert texts

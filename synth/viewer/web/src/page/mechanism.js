@@ -9,8 +9,6 @@ import { Crossing } from "./crossing.js";
 const DEGREES = 180 / Math.PI;
 /** Milliseconds between two pictures on a long way. */
 const PATIENCE = 80;
-/** Radians, this near to 180 degrees a joint is at its limit. */
-const AT_LIMIT = 1e-6;
 /** Radians beside a singular pose where it is looked at how joints go together. */
 const BESIDE_START = 0.05;
 
@@ -248,7 +246,8 @@ export class Mechanism {
 
   #atLimit() {
     const { angles } = this.motion.pose;
-    return this.data.joints.filter((_, joint) => Math.abs(angles[joint]) > Math.PI - AT_LIMIT);
+    const { same_configuration: near } = this.data.solver.tolerances;
+    return this.data.joints.filter((_, joint) => Math.abs(angles[joint]) > Math.PI - near);
   }
 
   /** Return the rates of the way that was chosen, at a singular pose; null elsewhere. */

@@ -43,21 +43,22 @@ export class NormalPattern {
   }
 
   /**
-   * Return what solves (A^T A + m) x = b.
+   * Return what solves (A^T A + m) x = b, and m.
    *
    * @param {Loop[]} loops
    * @param {Float64Array} derivatives - A, loop by loop.
-   * @param {number} regular - m, in parts of the largest diagonal entry.
-   * @returns {(given: Float64Array) => Float64Array}
+   * @param {number} part - m, in parts of the largest diagonal entry.
+   * @returns {{solve: (given: Float64Array) => Float64Array, regular: number}}
    */
-  solver(loops, derivatives, regular) {
+  solver(loops, derivatives, part) {
     const values = new Float64Array(this.rows.length);
     loops.forEach((loop, number) => addSquares(loop, derivatives, this.goals[number], values));
     let largest = 1;
     for (let j = 0; j < this.size; j++) largest = Math.max(largest, values[this.starts[j]]);
-    for (let j = 0; j < this.size; j++) values[this.starts[j]] += regular * largest;
+    const regular = part * largest;
+    for (let j = 0; j < this.size; j++) values[this.starts[j]] += regular;
     this.#factorise(values);
-    return (given) => this.#solved(values, given);
+    return { solve: (given) => this.#solved(values, given), regular };
   }
 
   /**

@@ -17,9 +17,6 @@ import { Equations } from "./newton.js";
 import { Stepping } from "./stepping.js";
 import { added, alike, dot, largest } from "./vectors.js";
 
-/** Rates below this part of the largest are none. */
-const STILL = 1e-7;
-const ROUNDED = 1e-9;
 /** Angles this near to 180 degrees, radians, are that if loops close with them; the second is for steps beyond it. */
 const FLAT = 1e-4, FLAT_BEYOND = 0.02;
 const MOST_STEPS = 2000;
@@ -58,7 +55,7 @@ export class Motion {
    */
   constructor(linkage, direction) {
     this.linkage = linkage;
-    this.equations = new Equations(new Closure(linkage), linkage.order);
+    this.equations = new Equations(new Closure(linkage), linkage);
     this.start = this.equations.corrected(Float64Array.from(linkage.angles));
     this.pose = this.start;
     this.direction = direction;
@@ -102,15 +99,16 @@ export class Motion {
    */
   along(drive, length, late = never) {
     this.#face(drive, Math.sign(length));
+    const { immobile } = this.linkage.tolerances;
     let left = Math.abs(length);
-    for (let n = 0; n < MOST_STEPS && left > ROUNDED; n++) {
+    for (let n = 0; n < MOST_STEPS && left > immobile; n++) {
       const before = this.pose;
       const stopped = this.#straightOn(drive, left);
       left -= largest(added(this.pose.angles, -1, before.angles));
       if (stopped) return stopped;
-      if (late()) return left > ROUNDED ? "late" : "";
+      if (late()) return left > immobile ? "late" : "";
     }
-    return left > ROUNDED ? "lost" : "";
+    return left > immobile ? "lost" : "";
   }
 
   /** How far the linkage has moved from the pose of the file: radians of the joint that moved most. */
@@ -247,7 +245,7 @@ export class Motion {
     const left = value - this.pose.angles[stepping.driver];
     const rates = stepping.onwards(this.pose, left);
     const speed = way * rates[stepping.driver];
-    if (Math.abs(speed) <= STILL) return "still";
+    if (Math.abs(speed) <= this.linkage.tolerances.zero_rate) return "still";
     if (speed < 0) return "turns back";
     const step = stepping.taken(this.pose, rates, left);
     return step === null ? "lost" : this.#landed(stepping, step, way, value);
@@ -325,6 +323,6 @@ export class Motion {
 
   /** @param {Float64Array} angles */
   #beyond(angles) {
-    return this.linkage.limited && largest(angles) > Math.PI + ROUNDED;
+    return this.linkage.limited && largest(angles) > Math.PI + this.linkage.tolerances.immobile;
   }
 }

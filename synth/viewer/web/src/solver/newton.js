@@ -6,31 +6,33 @@
  */
 
 /** @import { Closure } from "./closure.js" */
+/** @import { Tolerances } from "./types.js" */
 import { NormalPattern } from "./cholesky.js";
 import { solvedSymmetric } from "./small.js";
 import { added, largest, putAll } from "./vectors.js";
 
-/** Loops that close to this, radians and units of the extent, are closed. */
-export const CLOSED = 1e-12;
-/** Part of the largest diagonal entry of the normal equations that is added to all. */
+/**
+ * Part of the largest diagonal entry of the normal equations that is added to all. Rounding along freedoms is
+ * multiplied by its inverse.
+ */
 const REGULAR = 1e-9;
 const STEPS = 12;
 /** Corrections after a held joint was put back. */
 const HOLDS = 2;
 /** A step that leaves more of the error than this is the last with its derivatives. */
 const SLOW = 0.1;
-/** Squares of lengths of projected unit vectors below this are of joints that cannot move. */
-const STILL = 1e-9;
+/** Part of a wanted rate by which it may be missed. */
 const MISSED = 1e-4;
 
 /** The equations of one linkage, with what all their factors share. */
 export class Equations {
   /**
    * @param {Closure} closure
-   * @param {number[]} order - Where each joint goes in factors.
+   * @param {{order: number[], tolerances: Tolerances}} linkage - Where each joint goes in factors; what is zero.
    */
-  constructor(closure, order) {
+  constructor(closure, { order, tolerances }) {
     this.closure = closure;
+    this.tolerances = tolerances;
     this.pattern = new NormalPattern(closure.joints, closure.loops, order);
   }
 
@@ -48,7 +50,7 @@ export class Equations {
     /** @type {TangentSpace | null} */
     let space = null;
     for (let steps = 1; steps <= STEPS; steps++) {
-      if (best.error <= CLOSED / 100) break;
+      if (best.error <= this.tolerances.closed / 100) break;
       space ??= best.space;
       const moved = added(best.angles, 1, space.step(off, held));
       ({ residual, derivatives } = this.closure.at(moved));
@@ -105,7 +107,7 @@ export class Corrected {
 
   /** Whether all loops close. */
   get closed() {
-    return this.error <= CLOSED;
+    return this.error <= this.equations.tolerances.closed;
   }
 
   /** Rates there. */
@@ -124,10 +126,13 @@ export class TangentSpace {
    * @param {Equations} equations
    * @param {Float64Array} derivatives
    */
-  constructor({ closure, pattern }, derivatives) {
+  constructor({ closure, pattern, tolerances }, derivatives) {
     this.closure = closure;
     this.derivatives = derivatives;
-    this.solve = pattern.solver(closure.loops, derivatives, REGULAR);
+    this.zero = tolerances.zero;
+    const { solve, regular } = pattern.solver(closure.loops, derivatives, REGULAR);
+    this.solve = solve;
+    this.regular = regular;
   }
 
   /**
@@ -137,7 +142,7 @@ export class TangentSpace {
    * @param {number[]} held - Places of joints that are not to move, if they need not.
    */
   step(residual, held) {
-    return this.#without(this.solve(this.closure.gathered(this.derivatives, residual)).map((x) => -x), held);
+    return this.#without(added(new Float64Array(this.closure.joints), -1, this.#leastExactly(residual)), held);
   }
 
   /**
@@ -150,10 +155,44 @@ export class TangentSpace {
   projected(rates, held = []) {
     let kept = rates;
     for (let n = 0; n < 2; n++) { // the second takes off what regularisation left
-      const image = this.closure.image(this.derivatives, kept);
-      kept = added(kept, -1, this.solve(this.closure.gathered(this.derivatives, image)));
+      kept = added(kept, -1, this.#least(this.closure.image(this.derivatives, kept)));
     }
     return this.#without(kept, held);
+  }
+
+  /**
+   * Return the least rates at which loops part by given amounts: none of them along freedoms.
+   *
+   * The solution x of (A' A + m) x = A' b is A' (b - A x) / m too. Solved for, it has rounding along freedoms that
+   * was divided by m; a sum of rows of A has no part along freedoms. Across them half the digits are lost.
+   *
+   * @param {Float64Array} off - Of each equation.
+   */
+  #least(off) {
+    return this.#sumOfRows(off, this.solve(this.closure.gathered(this.derivatives, off)));
+  }
+
+  /**
+   * Return the same with all digits: what two solutions differ by has the lost ones across freedoms.
+   *
+   * @param {Float64Array} off
+   */
+  #leastExactly(off) {
+    const rates = this.solve(this.closure.gathered(this.derivatives, off));
+    const least = this.#sumOfRows(off, rates);
+    return added(least, 1, this.#least(this.closure.image(this.derivatives, added(rates, -1, least))));
+  }
+
+  /**
+   * Return a solution of the normal equations as a sum of the rows of A.
+   *
+   * @param {Float64Array} off
+   * @param {Float64Array} rates - The solution.
+   */
+  #sumOfRows(off, rates) {
+    const left = this.closure.image(this.derivatives, rates);
+    for (let row = 0; row < left.length; row++) left[row] = (off[row] - left[row]) / this.regular;
+    return this.closure.gathered(this.derivatives, left);
   }
 
   /**
@@ -168,7 +207,7 @@ export class TangentSpace {
     const rates = this.#combined(joints, this.#shares(joints, joints.map((_, n) => (n ? 0 : wanted))));
     const most = Math.max(...joints.map((one) => Math.abs(this.#move(one)[joint])));
     const missed = Math.max(...joints.map((one, n) => Math.abs(rates[one] - (n ? 0 : wanted))));
-    return missed <= MISSED * Math.abs(wanted) && most > STILL ? rates : rates.fill(0);
+    return missed <= MISSED * Math.abs(wanted) && most > this.zero ? rates : rates.fill(0);
   }
 
   /**
@@ -201,7 +240,8 @@ export class TangentSpace {
    * @returns {number[]}
    */
   #shares(joints, given) {
-    return solvedSymmetric(joints.map((one) => joints.map((other) => this.#move(other)[one])), given);
+    const moves = joints.map((one) => joints.map((other) => this.#move(other)[one]));
+    return solvedSymmetric(moves, given, this.zero);
   }
 
   /**

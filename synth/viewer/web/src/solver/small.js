@@ -1,8 +1,5 @@
 /** Small systems of equations: shares of a few joints that are held or driven together. */
 
-/** Pivots below this part of the largest entry of the diagonal are none: joints that depend on each other. */
-const DEPENDS = 1e-9;
-
 /**
  * Return what solves a symmetric system without negative eigenvalues; unknowns that depend on others are zero.
  *
@@ -10,11 +7,12 @@ const DEPENDS = 1e-9;
  *
  * @param {number[][]} matrix
  * @param {number[]} given
+ * @param {number} zero - Pivots below this part of the largest entry of the diagonal are none.
  */
-export function solvedSymmetric(matrix, given) {
+export function solvedSymmetric(matrix, given, zero) {
   const rows = matrix.map((row, i) => [...row, given[i]]);
   const size = rows.length;
-  const least = DEPENDS * Math.max(0, ...matrix.map((row, i) => row[i]));
+  const least = zero * Math.max(0, ...matrix.map((row, i) => row[i]));
   /** @type {number[]} */
   const taken = [];
   const left = new Set(rows.keys());

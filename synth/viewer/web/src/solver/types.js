@@ -9,6 +9,15 @@
  * @property {Centre} centre
  * @property {number[][] | null} frame - Of parallel axes: two directions across them, and theirs.
  *
+ * What is zero: graphs/tolerances.py. At a closed configuration, which is solved for in double precision.
+ *
+ * @typedef {object} Tolerances
+ * @property {number} closed - Loops that miss by no more are closed: radians and units of the extent.
+ * @property {number} zero - Singular values and eigenvalues below this part of the largest are zero.
+ * @property {number} zero_rate - Rates below this part of the largest are none.
+ * @property {number} immobile - Radians: a joint that turns by less does not move.
+ * @property {number} same_configuration - Radians: angles that differ by less are one.
+ *
  * @typedef {object} LinkageData
  * @property {number[][]} points - A point on each axis, in units of the extent, about the middle.
  * @property {number[][]} directions - Unit vectors.
@@ -18,5 +27,6 @@
  * @property {boolean} limited - Whether joints end at 180 degrees, where panels lie on each other.
  * @property {[number, number, number, number][]} tree - Link, the link beyond, the joint between, its sign.
  * @property {number} links - How many there are.
+ * @property {Tolerances} tolerances
  */
 export {};
