@@ -114,7 +114,8 @@ def test_all_verbs_agree_on_a_sample(tmp_path):
     table, wrong, asked = Table(), [], set()
     for name, guises in SAMPLE.items():
         for guise in guises:
-            for one in comparisons(specimens(name), tmp_path, variants=guise):
+            doors = DOORS if guise in ("as it is", "frame") else DOORS[:1]
+            for one in comparisons(specimens(name), tmp_path, variants=guise, doors=doors):
                 table.add(one.variant, one.outcomes, one.disagreements)
                 wrong += [f"{one.file} | {one.variant} | {each}" for each in one.disagreements]
                 asked.update(verb for (verb, _), outcome in one.outcomes.items() if outcome.kind == "told")
