@@ -18,6 +18,8 @@ EPSILON = 2.0**-52
 _BLURRED, _COARSEST = 30.0, 3e-3
 """Singular values and eigenvalues at rounded coordinates are zero up to this many times the precision, and never
 above the second value: within it nothing that moves is told from what does not."""
+_MEANT_FLAT = 1e-5
+"""Whoever draws or solves for points of one plane puts them this close to it."""
 _MOVED = 4.0
 """A length between two rounded points, or an angle over a length of 1, is wrong by so many precisions at most."""
 
@@ -45,6 +47,8 @@ class Tolerances:
         Two points that are nearer than this are one; two lines or planes that pass nearer meet.
     parallel : float
         Directions that differ by less, in radians, are parallel.
+    flat : float
+        Points that are this close to one plane, in units of their own extent, are meant to lie in it.
 
     Examples
     --------
@@ -62,6 +66,7 @@ class Tolerances:
     same_configuration: float
     same_point: float
     parallel: float
+    flat: float
 
     @classmethod
     def of(cls, precision: float, joints: int = 1) -> Tolerances:
@@ -86,6 +91,7 @@ class Tolerances:
             same_configuration=1e-6,
             same_point=max(1e-9, wrong),
             parallel=max(1e-9, wrong),
+            flat=max(_MEANT_FLAT, 2.0 * precision),
         )
 
 

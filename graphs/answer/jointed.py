@@ -17,6 +17,7 @@ from graphs.answer.report import MobilityAnswer
 from graphs.arrays import Floats
 from graphs.count.report import mobility_report
 from graphs.errors import shown
+from graphs.geometry import frame_about, unit
 from graphs.ids import JointId
 from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.kinds import JointKind
@@ -28,11 +29,10 @@ from graphs.mechanism.sc import SCGraph
 from graphs.rank.closure import independent_cycles
 from graphs.rank.pose import pose_mobility_of_axes
 from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
 
 __all__ = ["Passive", "freedoms_by_screws", "mobility_of_jointed", "passive_freedoms"]
 
-_ERROR = 1e-12
-"""Of screws at places that are given in full."""
 _FEW = 3
 
 
@@ -117,7 +117,7 @@ def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
     found = []
     for row in (row for leg in legs(linkage.chain) for row in _rows_between_ends(linkage, leg)):
         columns = np.hstack([screws[joint] for joint in row])
-        rank = spectrum(columns, _ERROR).rank
+        rank = spectrum(columns, DOUBLE.closed).rank
         if rank is not None and rank < columns.shape[1]:
             free = columns.shape[1] - rank
             found.append(Passive(row, free, free == 1 and _spins(linkage, row)))
@@ -163,7 +163,7 @@ def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
         for joint, sign in signed_cycle(loop.joints, chain.joints):
             place = columns[joint]
             matrix[6 * row : 6 * row + 6, starts[place] : starts[place + 1]] = sign * screws[joint]
-    rank = spectrum(matrix, _ERROR).rank
+    rank = spectrum(matrix, DOUBLE.closed).rank
     return None if rank is None else int(starts[-1]) - rank
 
 
@@ -195,14 +195,13 @@ def _screws(linkage: JointedLinkage) -> dict[JointId, Floats]:
 
 
 def _screws_of(kind: JointKind, place: JointPlace, point: Floats) -> Floats:
-    axes = np.array(place.axes, dtype=float).reshape(-1, 3)
-    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    axes = unit(np.reshape(place.axes, (-1, 3)))
     turns = np.eye(3) if kind is JointKind.SPHERICAL else axes[:0] if kind is JointKind.PRISMATIC else axes
     shifts = axes[:0]
     if kind in (JointKind.PRISMATIC, JointKind.CYLINDRICAL):
         shifts = axes
     elif kind is JointKind.PLANAR:
-        shifts = np.linalg.svd(axes)[2][1:]
+        shifts = frame_about(axes[0])[:2]
     turning = np.hstack([turns, np.cross(point, turns)]) if len(turns) else np.zeros((0, 6))
     sliding = np.hstack([np.zeros_like(shifts), shifts]) if len(shifts) else np.zeros((0, 6))
     return np.asarray(np.vstack([turning, sliding]).T)

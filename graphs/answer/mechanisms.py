@@ -26,16 +26,13 @@ from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.pose import pose_mobility_of_axes
+from graphs.tolerances import DOUBLE
 
 __all__ = ["lying", "mobility", "precision_of_steps"]
 
 _ASSUMED = "a link-joint graph without centres: each face of a drawing was given a finite one, which decides M"
 _ANY_CONE = pi / 4
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
-
-
-_SOLVED = 1e-12
-"""Error of steps that a solver found, in radians."""
 
 
 def mobility(
@@ -139,7 +136,7 @@ def precision_of_steps(linkage: ConicalLinkage) -> Precision:
     assert linkage.steps is not None
     steps = np.degrees(list(linkage.steps.values()))[:, None]
     written = precision_of(steps.tolist())
-    size = max(np.radians(written.size * extent_of(steps)), _SOLVED) * len(linkage.chain.joints) ** 0.5
+    size = max(np.radians(written.size * extent_of(steps)), DOUBLE.closed) * len(linkage.chain.joints) ** 0.5
     return Precision(float(size), written.source)
 
 

@@ -17,6 +17,7 @@ from graphs.rank.generic import exact_mobility
 from graphs.rank.overconstraint import diagnose
 from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model
+from graphs.tolerances import DOUBLE
 
 __all__ = ["MOST_JOINTS", "model_with_exact", "model_with_pose", "notes_of_pose", "with_exact", "with_pose"]
 
@@ -24,9 +25,6 @@ MOST_JOINTS = 1200
 """Larger mechanisms are ranked on request only: time grows with the cube of the joints."""
 
 _MOST_DIAGNOSED = 400
-
-_ROUNDED = 1e-12
-"""Noise below this is that of double precision, and not told."""
 
 
 def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = False) -> MobilityAnswer:
@@ -144,7 +142,7 @@ def notes_of_pose(pose: PoseMobility) -> list[str]:
         told = f"singular value(s) {near} are near the noise" if near else "two counts of small values differ"
         return [f"indeterminate at this pose: {told}; precision of the coordinates: {_precision(pose)}"]
     notes = []
-    if evidence.largest_zero > _ROUNDED and pose.precision.size > _ROUNDED:
+    if min(evidence.largest_zero, pose.precision.size) > DOUBLE.closed:
         zeros = f"singular values up to {evidence.largest_zero:.0e} are noise"
         notes.append(f"coordinates precise to {_precision(pose)}: {zeros}")
     if evidence.nearly:

@@ -12,15 +12,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import common_direction, lines_meet
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.precision import extent_of, precision_of_sheet
 from graphs.mechanism.sheet import Edge, Sheet
+from graphs.tolerances import DOUBLE, Tolerances
 
 __all__ = ["axes_meet", "loops_with_centres"]
 
-_MEANT = 1e-6
-"""Lines that are off by less than this, in units of the extent, are meant to be parallel or to meet."""
-_NOISE = 6.0
 _FARTHEST = 1e3
 """A point where lines meet that is farther than this, in units of the extent, is not told from infinity."""
 
@@ -41,11 +41,9 @@ def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: 
     >>> loops_with_centres(sheet, [(7, 8, 9)], {7: (0, 1), 8: (2, 3), 9: (4, 5)})[0].centre
     <Centre.INFINITE: 'infinite'>
     """
-    points = np.zeros((sheet.vertices, 3))
-    given = np.asarray(sheet.coordinates, dtype=float)
-    points[:, : given.shape[1]] = given
+    points = in_space(sheet.coordinates or ())
     points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
-    tolerance = max(_NOISE * precision_of_sheet(sheet).size, _MEANT)
+    tolerance = Tolerances.of(precision_of_sheet(sheet).size).same_point
     centres = [axes_meet(points, [hinges[joint] for joint in cycle], tolerance) for cycle in cycles]
     return [
         Loop(cycle, centre) for cycle, centre in zip(cycles, centres, strict=True) if centre is not Centre.NONE
@@ -72,16 +70,10 @@ def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centr
     lengths = np.linalg.norm(along, axis=1)
     if not lengths.all():
         return Centre.NONE
-    direction = np.linalg.svd(along)[2][0]
-    if (np.linalg.norm(np.cross(along, direction), axis=1) <= 2 * tolerance).all():
+    if (np.linalg.norm(np.cross(along, common_direction(along)), axis=1) <= 2 * tolerance).all():
         return Centre.INFINITE
-    units = along / lengths[:, None]
-    across = np.eye(3) - units[:, :, None] * units[:, None, :]
-    solved, _, rank, _ = np.linalg.lstsq(
-        across.reshape(-1, 3), np.einsum("jab,jb->ja", across, start).ravel(), rcond=1e-9
-    )
-    if rank < 3 or np.abs(solved).max() > _FARTHEST:
+    meeting = lines_meet(start, along)
+    if meeting.spread <= DOUBLE.parallel or np.abs(meeting.point).max() > _FARTHEST:
         return Centre.NONE
-    off = np.linalg.norm(np.einsum("jab,jb->ja", across, solved - start), axis=1)
-    reach = np.linalg.norm(solved - (start + along / 2), axis=1)
-    return Centre.FINITE if (off <= tolerance * (1 + 2 * reach / lengths)).all() else Centre.NONE
+    reach = np.linalg.norm(meeting.point - (start + along / 2), axis=1)
+    return Centre.FINITE if (meeting.off <= tolerance * (1 + 2 * reach / lengths)).all() else Centre.NONE

@@ -23,11 +23,9 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.precision import off_panel_planes, precision_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
+from graphs.tolerances import DOUBLE
 
 __all__ = ["SheetMechanism", "mechanism_of_sheet"]
-
-ROUNDED = 1e-9
-"""Panels farther off their planes than this, in units of their extent, are told of."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +121,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
         notes.repairs.append(f"{split} collinear split hinge(s) joined")
     notes.repairs += lines.repairs
     notes.warnings += lines.warnings
-    if (off := off_panel_planes(sheet)) > ROUNDED:
+    if (off := off_panel_planes(sheet)) > DOUBLE.same_point:
         notes.warnings.append(f"rounded coordinates: a panel is off its plane by {off:.0e} of the extent")
     return SheetMechanism(
         sc,

@@ -14,16 +14,17 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.centres import loops_with_centres
 from graphs.errors import InvariantError, shown
+from graphs.geometry import area_vector
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
-__all__ = ["oriented_panels", "ring_area", "rings_of", "scd_from_panels", "scd_of_placed_panels"]
+__all__ = ["oriented_panels", "rings_of", "scd_from_panels", "scd_of_placed_panels"]
 
 Panel = tuple[Any, ...]
 
@@ -249,13 +250,11 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
     after = {b: a for a, b in sides if (b, a) not in sides}
     if len(after) < sum((b, a) not in sides for a, b in sides):
         return None  # boundaries that touch in a vertex are not told apart
-    places = np.zeros((sheet.vertices, 3))
-    given = np.asarray(sheet.coordinates, dtype=float)
-    places[:, : given.shape[1]] = given
+    places = in_space(sheet.coordinates or ())
     rings = rings_of(after)
     if len(rings) < 2:
         return None
-    widest = max(rings, key=lambda ring: float(np.linalg.norm(ring_area(places[list(ring)]))))
+    widest = max(rings, key=lambda ring: float(np.linalg.norm(area_vector(places[list(ring)]))))
     return widest[0], widest[1]
 
 
@@ -277,20 +276,3 @@ def rings_of(after: Mapping[int, int]) -> list[tuple[int, ...]]:
         if ring:
             rings.append(tuple(ring))
     return rings
-
-
-def ring_area(ring: Floats) -> Floats:
-    """Return the area that a closed polygon goes round, as a vector across it.
-
-    Parameters
-    ----------
-    ring : float[n, 3]
-
-    Examples
-    --------
-    >>> ring_area(np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]])).tolist()
-    [0.0, 0.0, 2.0]
-    """
-    around = ring - ring.mean(axis=0)
-    area: Floats = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0) / 2
-    return area

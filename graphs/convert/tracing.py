@@ -16,6 +16,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.welding import Lines, Network, either_way, networks_of
 from graphs.errors import InvariantError
+from graphs.geometry import signed_area
 from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
 
 __all__ = ["MOST", "TOLERANCES", "trace_sheet"]
@@ -195,8 +196,7 @@ def _faces(network: Network) -> list[tuple[int, ...]]:
             seen.add(dart)
             walk.append(dart[0])
             dart = (dart[1], after[dart[1], dart[0]])
-        x, y = network.points[walk].T
-        if np.dot(x, np.roll(y, -1)) > np.dot(y, np.roll(x, -1)):
+        if signed_area(network.points[walk]) > 0.0:
             faces.append(tuple(walk))
     return faces
 

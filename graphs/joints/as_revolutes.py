@@ -13,12 +13,12 @@ from itertools import count, pairwise
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import across, frame_about, unit
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
 from graphs.joints.knees import placed_knees
-from graphs.joints.linkage import JointedLinkage, JointPlace
+from graphs.joints.linkage import JointedLinkage, JointPlace, plain_vector
 from graphs.joints.placing import placed
-from graphs.joints.vectors import beside, plain_vector, unit
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids
@@ -125,7 +125,7 @@ def _rows(kind: JointKind, place: JointPlace, size: float) -> list[Row]:
     point, axes = np.array(place.point), [unit(axis) for axis in place.axes]
     if kind in (JointKind.REVOLUTE, JointKind.UNIVERSAL):
         return [[(point, axis) for axis in axes]]
-    x, y = beside(axes[0])
+    x, y, _ = frame_about(axes[0])
     if kind is JointKind.PLANAR:
         return [[(point + size * (u * x + v * y), axes[0]) for u, v in _TRIANGLE]]
     step = size * axes[0]  # a prismatic or a cylindrical joint: the linkage of Sarrus
@@ -142,11 +142,10 @@ def _turned_along(kind: JointKind, place: JointPlace) -> Line | None:
 
 def _knee(one: Floats, other: Floats, normal: Floats, size: float) -> Line:
     """Return the middle axis of a knee between parallel axes through two points."""
-    step = other - one
-    step = step - (step @ normal) * normal
+    step = across(other - one, normal)
     length = float(np.linalg.norm(step))
     if length < size:  # the two lie on each other: any arm will do
-        return one + step / 2 + size * beside(normal)[0], normal
+        return one + step / 2 + size * frame_about(normal)[0], normal
     return (one + other) / 2 + _ARM * np.cross(normal, step), normal
 
 
@@ -155,5 +154,5 @@ def _about_a_point(point: Floats, shared: tuple[int, Floats] | None) -> Row:
     if shared is None:
         return [(point, axis) for axis in np.eye(3)]
     place, normal = shared
-    axes = [normal, *beside(normal)]
+    axes = [normal, *frame_about(normal)[:2]]
     return [(point, axis) for axis in (axes if place == 0 else axes[::-1])]

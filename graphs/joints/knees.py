@@ -13,15 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import frame_about, unit
 from graphs.ids import JointId
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, legs
-from graphs.joints.vectors import across, unit
+from graphs.mechanism.precision import precision_of_axes
+from graphs.tolerances import Tolerances
 
-__all__ = ["PARALLEL", "Knee", "KneeEnd", "knees_of_type", "placed_knees"]
+__all__ = ["Knee", "KneeEnd", "knees_of_type", "placed_knees"]
 
-PARALLEL = 1e-7
-"""Sine between axes that count as parallel; cosine between those that count as at a right angle."""
 _ENDS = (JointKind.REVOLUTE, JointKind.UNIVERSAL, JointKind.SPHERICAL)
 
 
@@ -72,13 +72,12 @@ def placed_knees(linkage: JointedLinkage) -> list[tuple[Knee, Floats]]:
     linkage : JointedLinkage
         With places.
     """
-    fitting = (knee for knee in _possible(linkage) if _normal(linkage, knee) is not None)
-    found = []
-    for knee in _taken_once(fitting):
-        normal = _normal(linkage, knee)
-        assert normal is not None
-        found.append((knee, normal))
-    return found
+    points = np.array([place.point for place in linkage.places.values()])
+    axes = np.array([axis for place in linkage.places.values() for axis in place.axes]).reshape(-1, 3)
+    parallel = Tolerances.of(precision_of_axes(points, axes).size).parallel
+    normals = ((knee, _normal(linkage, knee, parallel)) for knee in _possible(linkage))
+    fitting = {knee: normal for knee, normal in normals if normal is not None}
+    return [(knee, fitting[knee]) for knee in _taken_once(iter(fitting))]
 
 
 def _possible(linkage: JointedLinkage) -> Iterator[Knee]:
@@ -107,12 +106,12 @@ def _taken_once(knees: Iterator[Knee]) -> Iterator[Knee]:
             yield knee
 
 
-def _normal(linkage: JointedLinkage, knee: Knee) -> Floats | None:
+def _normal(linkage: JointedLinkage, knee: Knee, parallel: float) -> Floats | None:
     """Return the direction across the slide that the axes beside it have in common, None if they have none."""
     slide = unit(linkage.places[knee.slide].axes[0])
     given = [unit(linkage.places[end.joint].axes[end.axis]) for end in knee.ends if end.axis is not None]
     if not given:
-        return unit(across(np.eye(3)[int(np.abs(slide).argmin())], slide))
-    if any(abs(one @ slide) > PARALLEL or np.linalg.norm(np.cross(one, given[0])) > PARALLEL for one in given):
+        return np.asarray(frame_about(slide)[1])
+    if any(abs(one @ slide) > parallel or np.linalg.norm(np.cross(one, given[0])) > parallel for one in given):
         return None
     return given[0]

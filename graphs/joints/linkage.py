@@ -11,15 +11,24 @@ from dataclasses import dataclass, field
 from math import hypot
 from types import MappingProxyType
 
+from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered, shown
 from graphs.extent import LEAST, MOST, check_extent, in_reach
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind, kind_named
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["JointPlace", "JointedLinkage", "Leg", "legs"]
+__all__ = ["JointPlace", "JointedLinkage", "Leg", "legs", "plain_vector"]
 
 Vector = tuple[float, float, float]
+
+
+def plain_vector(one: Floats) -> Vector:
+    """Return a vector as three plain numbers."""
+    x, y, z = one.tolist()
+    return (x, y, z)
+
+
 _RIGHT = 1e-6
 """Cosine between the axes of a universal joint, at most."""
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import across, unit
 from graphs.ids import JointId
 from graphs.joints.kinds import JointKind
 from graphs.joints.knees import Knee, knees_of_type
-from graphs.joints.linkage import JointedLinkage, JointPlace
-from graphs.joints.vectors import across, plain_vector, unit
+from graphs.joints.linkage import JointedLinkage, JointPlace, plain_vector
 
 __all__ = ["placed"]
 

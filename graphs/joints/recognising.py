@@ -8,19 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import across, unit
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
-from graphs.joints.knees import PARALLEL
-from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs
-from graphs.joints.vectors import across, plain_vector, unit
-from graphs.mechanism.precision import extent_of
+from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs, plain_vector
+from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
+from graphs.tolerances import Tolerances
 
 __all__ = ["recognised"]
 
-_NEAR = 1e-7
-"""Distance of axes that meet, and difference of arms that are alike, in units of the extent."""
 _FLAT = 1e-3
 """Volume of three unit vectors through a point that turn about it in all ways, at least."""
 
@@ -73,8 +71,10 @@ class _Seen:
         self._links: list[LinkId] = list(solids.chain.nodes)
         points = np.array([point for point, _ in solids.axes.values()], dtype=float).reshape(-1, 3)
         axes = np.array([axis for _, axis in solids.axes.values()], dtype=float).reshape(-1, 3)
-        axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-        self._near = _NEAR * (extent_of(points) or 1.0)
+        tolerances = Tolerances.of(precision_of_axes(points, axes).size)
+        axes = unit(axes)
+        self._near = tolerances.same_point * (extent_of(points) or 1.0)
+        self._parallel = tolerances.parallel
         self._points: dict[JointId, Floats] = dict(zip(solids.axes, points, strict=True))
         self._axes: dict[JointId, list[Floats]] = {j: [one] for j, one in zip(solids.axes, axes, strict=True)}
         self._kinds = dict.fromkeys(self._joints, JointKind.REVOLUTE)
@@ -181,11 +181,11 @@ class _Seen:
 
     def _is_parallel(self, joints: Sequence[JointId]) -> bool:
         first = self._axes[joints[0]][0]
-        return all(np.linalg.norm(np.cross(first, self._axes[joint][0])) <= PARALLEL for joint in joints[1:])
+        return all(np.linalg.norm(np.cross(first, self._axes[joint][0])) <= self._parallel for joint in joints[1:])
 
     def _is_universal(self, joints: Sequence[JointId]) -> bool:
         one, other = (self._axes[joint][0] for joint in joints)
-        return abs(float(one @ other)) <= PARALLEL and self._pass(joints, self._meeting(joints))
+        return abs(float(one @ other)) <= self._parallel and self._pass(joints, self._meeting(joints))
 
     def _is_spherical(self, joints: Sequence[JointId]) -> bool:
         axes = np.array([self._axes[joint][0] for joint in joints])

@@ -8,15 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.errors import UnsolvableError
-from graphs.mechanism.precision import Precision, extent_of, off_plane, precision_of_sheet
+from graphs.geometry import across, best_plane, unit
+from graphs.mechanism.precision import extent_of, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE, Tolerances
 
-__all__ = ["Flattened", "flat_places", "flat_within", "flattened", "in_space", "lies_flat"]
+__all__ = ["Flattened", "flat_places", "flattened", "in_space", "lies_flat"]
 
-_FLAT = 1e-5
-"""Points that are this close to one plane, in units of the extent, lie in it."""
 _WHOLE = 1e15
 """Numbers as large have no decimals to be rounded."""
 _PLANES = ("yz", "xz", "xy")
@@ -52,17 +51,6 @@ def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
     return points
 
 
-def flat_within(precision: Precision) -> float:
-    """Return how far off one plane points may be that lie in it, in units of their extent.
-
-    Examples
-    --------
-    >>> flat_within(Precision(1e-16, "double precision")), flat_within(Precision(1e-3, "2 decimals"))
-    (1e-05, 0.002)
-    """
-    return max(_FLAT, 2 * precision.size)
-
-
 def lies_flat(sheet: Sheet) -> bool:
     """Tell whether a sheet lies in one plane, as far as its coordinates are precise.
 
@@ -94,18 +82,16 @@ def flattened(sheet: Sheet) -> Flattened | None:
     if places.size == 0 or places.shape[1] < 3 or len(set(places[:, 2].tolist())) == 1:
         return Flattened(places.reshape(len(places), -1)[:, :2], "")
     size = float(np.abs(places).max())
-    unit = places / size  # products of coordinates stay finite
-    normal = _normal_of_sheet(sheet, places, unit)
+    scaled = places / size  # products of coordinates stay finite
+    normal = _normal_of_sheet(sheet, places, scaled)
     if normal is None:
         return None
     upright = abs(normal) == 1
     if upright[2]:
         return Flattened(places[:, :2], "flattened: points were a little off the xy plane")
-    if (facing := float(_area_vector(unit, sheet.faces) @ normal)) != 0:
+    if (facing := float(_area_vector(scaled, sheet.faces) @ normal)) != 0:
         normal = normal * np.sign(facing)
-    along = np.eye(3)[1 if abs(normal[0]) > 0.9 else 0]
-    along = along - (along @ normal) * normal
-    along /= np.linalg.norm(along)
+    along = unit(across(np.eye(3)[1 if abs(normal[0]) > 0.9 else 0], normal))
     seen: Floats = places @ np.column_stack([along, np.cross(normal, along)])
     came_from = f"the {_PLANES[int(upright.argmax())]} plane" if upright.any() else "a slanted plane"
     return Flattened(seen + 0.0, f"turned from {came_from} into the xy plane")
@@ -132,14 +118,15 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     return [(x, y) for x, y in flat.places.tolist()]
 
 
-def _normal_of_sheet(sheet: Sheet, places: Floats, unit: Floats) -> Floats | None:
+def _normal_of_sheet(sheet: Sheet, places: Floats, scaled: Floats) -> Floats | None:
     """Return the normal of the plane that a sheet lies in, None if in none; precision matters off an axis only."""
     still = np.flatnonzero(places.min(axis=0) == places.max(axis=0))
     if len(still):
         upright: Floats = np.eye(3)[still[-1]]
         return upright
-    tolerance = _FLAT if np.abs(places).max() > _WHOLE else flat_within(precision_of_sheet(sheet))
-    return None if off_plane(unit) > tolerance else _normal(unit, tolerance)
+    has_decimals = np.abs(places).max() <= _WHOLE
+    tolerance = Tolerances.of(precision_of_sheet(sheet).size).flat if has_decimals else DOUBLE.flat
+    return None if off_plane(scaled) > tolerance else _normal(scaled, tolerance)
 
 
 def _normal(places: Floats, tolerance: float) -> Floats:
@@ -148,10 +135,7 @@ def _normal(places: Floats, tolerance: float) -> Floats:
         if np.ptp(places[:, axis]) <= tolerance * extent_of(places):
             upright: Floats = np.eye(3)[axis]
             return upright
-    arms = places - places.mean(axis=0)
-    normal: Floats = np.linalg.eigh(arms.T @ arms)[1][:, 0]
-    normal = normal * np.sign(normal[leading(normal)])
-    return normal
+    return best_plane(places).direction
 
 
 def _area_vector(places: Floats, faces: Sequence[Sequence[int]]) -> Floats:

@@ -12,17 +12,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import best_plane
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE, EPSILON
 
-__all__ = ["Precision", "extent_of", "off_panel_planes", "off_plane", "precision_of", "precision_of_sheet"]
+__all__ = [
+    "Precision",
+    "extent_of",
+    "off_panel_planes",
+    "off_plane",
+    "precision_of",
+    "precision_of_axes",
+    "precision_of_sheet",
+]
 
 _MOST_DECIMALS = 12
 _COARSEST = 3e-3
 """A last decimal that is worth more of the extent than this is no rounding: few sizes were chosen on purpose."""
 _DIGITS = 3
 """Rounded numbers end in many digits; those of a grid of halves or quarters in few."""
-_MEANT_FLAT = 1e-5
-"""Points that are this close to one plane, in units of their extent, are meant to lie in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,20 +79,20 @@ def precision_of(coordinates: Sequence[Sequence[float]]) -> Precision:
     points = np.asarray(coordinates, dtype=float)
     extent = extent_of(points)
     if extent == 0.0:
-        return Precision(float(np.finfo(float).eps), "double precision")
+        return Precision(EPSILON, "double precision")
     largest = float(np.abs(points).max())
     decimals = _decimals(points, extent, largest)
     if decimals is not None:
         return Precision(0.5 * 10.0**-decimals / extent, f"{decimals} decimals")
     if _is_single(points):
         return Precision(float(np.finfo(np.float32).eps) / 2 * largest / extent, "single precision")
-    return Precision(float(np.finfo(float).eps) * largest / extent, "double precision")
+    return Precision(EPSILON * largest / extent, "double precision")
 
 
 def _decimals(points: Floats, extent: float, largest: float) -> int | None:
     """Return to how many decimals numbers were rounded, or None where nothing says that they were."""
     numbers = np.unique(np.abs(points))
-    slack = 4 * np.finfo(float).eps * largest
+    slack = 4 * EPSILON * largest
     for decimals in range(_MOST_DECIMALS + 1):
         if np.abs(numbers - numbers.round(decimals)).max() > slack:
             continue
@@ -103,6 +111,25 @@ def _is_single(points: Floats) -> bool:
         return False
     mantissas = np.frexp(points)[0] * 2.0**12
     return bool((mantissas != np.rint(mantissas)).any())
+
+
+def precision_of_axes(points: Floats, directions: Floats) -> Precision:
+    """Return how precise axes are: the coarser of their points and their directions.
+
+    Parameters
+    ----------
+    points, directions : float[n, 3]
+        Points in any unit of length.
+
+    Examples
+    --------
+    >>> ups = np.tile([0.0, 0.0, 1.0], (9, 1))
+    >>> precision_of_axes(np.random.default_rng(0).random((9, 3)).round(5), ups).source
+    '5 decimals'
+    """
+    return max(
+        precision_of(points.tolist()), precision_of(directions.tolist()), key=lambda precision: precision.size
+    )
 
 
 def precision_of_sheet(sheet: Sheet) -> Precision:
@@ -129,7 +156,7 @@ def precision_of_sheet(sheet: Sheet) -> Precision:
         Precision(off_panel_planes(sheet), "panels off their planes"),
         Precision(off_plane(points), "vertices off one plane"),
     ]
-    meant = [one for one in seen if one.size <= _MEANT_FLAT]
+    meant = [one for one in seen if one.size <= DOUBLE.flat]
     return max([written, welded, *meant], key=lambda precision: precision.size)
 
 
@@ -144,15 +171,13 @@ def off_plane(points: Floats) -> float:
     extent = extent_of(points)
     if extent == 0.0 or len(points) < 4 or points.shape[1] < 3:
         return 0.0
-    middle = points - points.mean(axis=0)
-    normal = np.linalg.svd(middle, full_matrices=False)[2][-1]
-    return float(np.abs(middle @ normal).max()) / extent
+    return float(best_plane(points).off) / extent
 
 
 def off_panel_planes(sheet: Sheet) -> float:
     """Return how far vertices are off the planes of their panels at most, in units of the sheet's extent.
 
-    Of a panel the first three vertices that are not in line make the plane.
+    The plane of a panel is the best one through its vertices.
     """
     if sheet.coordinates is None or not sheet.coordinates or len(sheet.coordinates[0]) < 3:
         return 0.0
@@ -162,10 +187,5 @@ def off_panel_planes(sheet: Sheet) -> float:
     for face in sheet.faces:
         if len(face) > 3:
             by_size.setdefault(len(face), []).append(face)
-    farthest = 0.0
-    for faces in by_size.values():
-        corners = points[np.array(faces)]
-        middle = corners - corners.mean(axis=1, keepdims=True)
-        normals = np.linalg.svd(middle, full_matrices=False)[2][:, -1]
-        farthest = max(farthest, float(np.abs(np.einsum("fvc,fc->fv", middle, normals)).max()))
-    return farthest / extent if extent else 0.0
+    farthest = [float(best_plane(points[np.array(faces)]).off.max()) for faces in by_size.values()]
+    return max(farthest, default=0.0) / extent if extent else 0.0

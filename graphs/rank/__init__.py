@@ -35,6 +35,13 @@ if TYPE_CHECKING:
     from graphs.rank.rods import exact_mobility_of_model as exact_mobility_of_model
     from graphs.rank.singular_values import Spectrum as Spectrum
     from graphs.rank.singular_values import spectrum as spectrum
+    from graphs.rank.spaces import Inertia as Inertia
+    from graphs.rank.spaces import Split as Split
+    from graphs.rank.spaces import inertia as inertia
+    from graphs.rank.spaces import null_space as null_space
+    from graphs.rank.spaces import rank_of as rank_of
+    from graphs.rank.spaces import row_space as row_space
+    from graphs.rank.spaces import split as split
 else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
@@ -47,5 +54,6 @@ else:
             "pose": "PoseMobility pose_mobility pose_mobility_of_axes pose_mobility_of_model",
             "rods": "exact_mobility_of_model",
             "singular_values": "Spectrum spectrum",
+            "spaces": "Inertia Split inertia null_space rank_of row_space split",
         },
     )

@@ -11,6 +11,8 @@ import random
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+from graphs.tolerances import DOUBLE
+
 __all__ = ["PRIMES", "Field", "PrimeField", "Reals", "null_vectors"]
 
 PRIMES = (2**61 - 1, 2**61 - 31)
@@ -110,7 +112,7 @@ class Reals:
 
     def is_zero(self, value: float) -> bool:
         """Tell whether a number of the size of coordinates is rounded zero."""
-        return abs(value) < 1e-9
+        return abs(value) < DOUBLE.zero
 
 
 def null_vectors(rows: Sequence[Sequence[Any]], field: Field) -> list[list[Any]]:

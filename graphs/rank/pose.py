@@ -19,8 +19,9 @@ import scipy.sparse
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.geometry import principal_axes, unit
 from graphs.ids import JointId
-from graphs.mechanism.plane import flat_within, in_space
+from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import (
     Precision,
@@ -28,6 +29,7 @@ from graphs.mechanism.precision import (
     off_panel_planes,
     off_plane,
     precision_of,
+    precision_of_axes,
     precision_of_sheet,
 )
 from graphs.mechanism.sc import SCGraph
@@ -38,6 +40,7 @@ from graphs.rank.fields import Reals
 from graphs.rank.general_member import Line, join
 from graphs.rank.rods import velocity_constraints
 from graphs.rank.singular_values import NEARLY, Spectrum, spectrum
+from graphs.tolerances import DOUBLE, Tolerances
 
 __all__ = [
     "PoseMobility",
@@ -51,8 +54,6 @@ _DENSE = 500
 """Up to this many joints all singular values are computed."""
 _SHORT = 5e-3
 """A nearly mobile mechanism has an error of this part of a typical crease at most."""
-_FLAT = 1e-5
-"""Axes that are this close to one plane, in units of their length, lie in it."""
 _SPREAD = 1e-2
 """Points that are this close to a plane, in units of the extent, may be meant to lie in it."""
 
@@ -185,23 +186,18 @@ def pose_mobility_of_axes(
     """
     points = np.array([axes[joint][0] for joint in sc.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in sc.joints], dtype=float).reshape(-1, 3)
-    sizes = np.linalg.norm(directions, axis=1)
-    for joint in np.array(list(sc.joints), dtype=object)[sizes == 0.0]:
+    for joint in np.array(list(sc.joints), dtype=object)[~directions.any(axis=1)]:
         raise InvariantError("axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero")
     near = _centred(points.tolist())
     lines = {
         joint: join((*p, 1.0), (*(p + u), 1.0), Reals())
-        for joint, p, u in zip(sc.joints, near, directions / sizes[:, None], strict=True)
+        for joint, p, u in zip(sc.joints, near, unit(directions), strict=True)
     }
     if precision is None:
-        precision = max(precision_of(points.tolist()), precision_of(directions.tolist()), key=_size)
+        precision = precision_of_axes(points, directions)
     closure = closure_of(SCGraph(sc.nodes, sc.joints), lines, {}, Reals())
     evidence = spectrum(dense(closure), 2 * precision.size, 2 * NEARLY)
     return _mobility(evidence, len(sc.joints), 6 * sc.independent_loops, points, precision)
-
-
-def _size(precision: Precision) -> float:
-    return precision.size
 
 
 def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
@@ -271,7 +267,7 @@ def _mobility(
         None if rank is None else unknowns - rank,
         None if rank is None else equations - rank,
         evidence,
-        off_plane(points) <= flat_within(precision),
+        off_plane(points) <= Tolerances.of(precision.size).flat,
         precision,
     )
 
@@ -304,8 +300,8 @@ def _flat_loops(points: Floats, found: SheetMechanism, precision: Precision) -> 
         if len(loop.joints) < 3:
             continue
         ends = points[np.array([hinges[joint] for joint in loop.joints]).ravel()]
-        values = np.linalg.svd(ends - ends.mean(axis=0), compute_uv=False)
-        flat += bool(values[2] <= 2 * precision.size * len(ends) ** 0.5 + _FLAT * values[0])
+        sizes, _ = principal_axes(ends)
+        flat += bool(sizes[2] <= 2 * precision.size * len(ends) ** 0.5 + DOUBLE.flat * sizes[0])
     return flat
 
 

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 
-__all__ = ["NEARLY", "Certainty", "Spectrum", "Verdict", "judged", "rounding", "spectrum", "verdict"]
+__all__ = ["NEARLY", "Certainty", "Spectrum", "Verdict", "judged", "judged_at", "rounding", "spectrum", "verdict"]
 
 NEARLY = 2e-3
 """The error of coordinates that would make a nearly mobile mechanism mobile: a thousandth of the size, in units of
@@ -140,6 +140,25 @@ def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats
 def rounding(shape: tuple[int, int]) -> float:
     """Return the floor that rounding in double precision makes, as part of the largest singular value."""
     return float(np.finfo(float).eps * max(shape) / _NOISE)
+
+
+def judged_at(values: Floats, zero: float) -> Spectrum:
+    """Return the rank that singular values tell, of which those up to a part of the largest are zero.
+
+    Parameters
+    ----------
+    values : float[k]
+        Descending, in any unit.
+    zero : float
+
+    Examples
+    --------
+    >>> judged_at(np.array([2.0, 1.0, 1e-10]), 1e-9).rank, judged_at(np.array([1.0, 2e-9]), 1e-9).rank
+    (2, None)
+    """
+    if not values.max(initial=0.0) > 0.0:
+        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+    return judged(values / values[0], np.full(len(values), zero / _NOISE), np.zeros(len(values)))
 
 
 def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> Spectrum:

@@ -213,9 +213,9 @@ class Configuration:
             Why the answer is not about a branch.
         """
         found = None if other_question else self.branches
-        immobile = None
-        if branch is not None:
-            immobile = [str(self.joints[place]) for place in branch.still]
+        freedoms, still = (None, None) if branch is None else (branch.freedoms, branch.still)
+        if found is not None and found.no_motion == "proved":
+            freedoms, still = 0, tuple(range(len(self.joints)))
         return {
             "links": len(self.linkage.graph),
             "joints": [str(joint) for joint in self.joints],
@@ -225,8 +225,8 @@ class Configuration:
             "flat": self.flat,
             "branches": None if found is None else {"number": len(found.branches), "exhaustive": found.exhaustive},
             "branch": None if branch is None else branch.signs,
-            "freedoms": None if branch is None else branch.freedoms,
-            "immobile_joints": immobile,
+            "freedoms": freedoms,
+            "immobile_joints": None if still is None else [str(self.joints[place]) for place in still],
             "other_question": other_question,
         }
 

@@ -206,7 +206,7 @@ def shown_of(
     verdict = answer.verdict
     assert verdict is not None
     report("drawing", 3, _STEPS)
-    pictures = _pictures(placed, notes)
+    pictures = _pictures(placed if at is None else at, notes)
     return Shown(
         plain(name),
         verdict.text,
@@ -266,7 +266,7 @@ def _begun(at: Configuration, notes: list[str]) -> Ways | None:
         return None
 
 
-def _pictures(thing: Mechanism, notes: list[str]) -> dict[str, str]:
+def _pictures(thing: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:
     """Return the picture on light and on dark paper; note why there is none."""
     try:
         scene = draw(thing, box=_BOX, caption=None)

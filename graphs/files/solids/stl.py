@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from graphs.files.solids.mesh import Mesh
+from graphs.geometry import unit
 
 __all__ = ["stl_bytes"]
 
@@ -26,6 +27,6 @@ def stl_bytes(meshes: Sequence[Mesh]) -> bytes:
     corners = np.concatenate([mesh.corners[mesh.triangles] for mesh in meshes])
     rows = np.zeros(len(corners), dtype=_TRIANGLE)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    rows["normal"] = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    rows["normal"] = unit(normals)
     rows["corners"] = corners
     return _HEAD + len(rows).to_bytes(4, "little") + rows.tobytes()

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.convert.duality import SheetMechanism
 from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import LinkId
 from graphs.loops.loop import Centre
@@ -25,6 +25,8 @@ from synth.drawing.mechanisms.signs import SIGN, centre_sign
 from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
+from synth.drawing.space.panels import panels_made
+from synth.folding.configuration import SheetConfiguration
 
 __all__ = ["COLOURINGS", "crease_scene", "inside", "places_on_page"]
 
@@ -73,7 +75,7 @@ class _Drawn:
 
 
 def crease_scene(
-    sheet: Sheet,
+    sheet: Sheet | SheetConfiguration,
     *,
     colour: str = "letters",
     branch: int | str | None = None,
@@ -86,7 +88,7 @@ def crease_scene(
 
     Parameters
     ----------
-    sheet : Sheet
+    sheet : Sheet or SheetConfiguration
     colour : {"letters", "verdict", "branch", "centres", "none"}, optional
         What the colours of creases tell; see `COLOURINGS`.
     branch : int or str, optional
@@ -118,9 +120,9 @@ def crease_scene(
         raise InvariantError("colour", f"the colouring {shown(colour)} is not known", ", ".join(COLOURINGS))
     if branch is not None and colour != "branch":
         raise InvariantError("branch", f"the colouring {shown(colour)} shows none", "the colouring 'branch'")
-    whole = with_all_edges(sheet)
+    given, mechanism = panels_made(sheet)
+    whole = with_all_edges(given)
     frame, places = _framed(whole, box)
-    mechanism = mechanism_of_sheet(sheet)
     drawn = _Drawn(whole, mechanism, frame, places, _motions(sheet, colour, branch))
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
     if graph:
@@ -161,7 +163,7 @@ def _framed(whole: Sheet, box: tuple[float, float]) -> tuple[Frame, list[Point]]
     return frame, frame.row(flat)
 
 
-def _motions(sheet: Sheet, colour: str, branch: int | str | None) -> Motions:
+def _motions(sheet: Sheet | SheetConfiguration, colour: str, branch: int | str | None) -> Motions:
     if colour == "verdict":
         return motions_by_verdict(sheet)
     return motions_on_branch(sheet, branch) if colour == "branch" else Motions()

@@ -11,8 +11,9 @@ import numpy as np
 from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
-from synth.folding.configuration import configuration_of_sheet
+from synth.folding.configuration import SheetConfiguration
 from synth.motion.beginning import Wanted, beginning
+from synth.moving.made import configuration_of
 from synth.verdict.of_motion import verdict_of_motion
 
 __all__ = ["Doing", "Motions", "motions_by_verdict", "motions_on_branch"]
@@ -40,12 +41,12 @@ class Motions:
     said: str = ""
 
 
-def motions_by_verdict(sheet: Sheet) -> Motions:
+def motions_by_verdict(sheet: Sheet | SheetConfiguration) -> Motions:
     """Return what the verdict on a sheet says of its joints: that they move on some way, are still, or neither.
 
     Parameters
     ----------
-    sheet : Sheet
+    sheet : Sheet or SheetConfiguration
         With coordinates.
 
     Raises
@@ -62,7 +63,7 @@ def motions_by_verdict(sheet: Sheet) -> Motions:
     >>> set(motions.of.values()), motions.clusters, motions.said
     ({'still'}, ((0, 1, 2),), 'no crease moves (grey, dotted; proved); panels of one colour move as one')
     """
-    pattern = configuration_of_sheet(sheet)
+    pattern = configuration_of(sheet)
     verdict = verdict_of_motion(pattern)
     still = set() if verdict.certainty == "not known" else set(verdict.stiff_joints)
     ways = [set(way.stiff_joints) for way in verdict.ways if way.certainty != "not known"]
@@ -93,12 +94,12 @@ def _said_of_verdict(of: Mapping[JointId, Doing], certainty: str) -> str:
     return "; ".join(told)
 
 
-def motions_on_branch(sheet: Sheet, branch: int | str | None = None) -> Motions:
+def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | None = None) -> Motions:
     """Return how joints begin to move on a branch.
 
     Parameters
     ----------
-    sheet : Sheet
+    sheet : Sheet or SheetConfiguration
         With coordinates.
     branch : int or str, optional
         Its number, as `synth fold --branches` lists them, or its signs; by default the one that agrees best with
@@ -119,7 +120,7 @@ def motions_on_branch(sheet: Sheet, branch: int | str | None = None) -> Motions:
     >>> list(motions_on_branch(sheet).of.values())
     ['mountain', 'valley', 'valley', 'valley']
     """
-    pattern = configuration_of_sheet(sheet)
+    pattern = configuration_of(sheet)
     linkage, found = pattern.linkage, pattern.branches
     joints = list(linkage.graph.joints)
     number, rates = beginning(pattern, Wanted(branch))

@@ -28,12 +28,14 @@ from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_sce
 from synth.drawing.mechanisms.strips import strip_scene
 from synth.drawing.scene.frame import COLUMN
 from synth.drawing.scene.shapes import Scene
+from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
+from synth.motion.configuration import Configuration
 
 __all__ = ["COLOURINGS", "KINDS", "Drawable", "Look", "draw"]
 
 
-Drawable: TypeAlias = Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
+Drawable: TypeAlias = Configuration | Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
 
 _SMALL = 200.0
 """Points of width and height below which a chain has smaller joints, without numbers."""
@@ -72,8 +74,9 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
 
     Parameters
     ----------
-    thing : Mechanism, Orientations, ChainString, OrderOnCircle or networkx graph
-        What a file may hold; a string; an order of joints round a cone; a plain link-joint graph.
+    thing : Mechanism, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
+        What a file may hold, or where that moves from; a string; an order of joints round a cone; a plain
+        link-joint graph.
     kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle", "sphere"}, optional
         A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
         the centres, vertices and rods, solids in space, a linkage on its circle and cone, the order of joints
@@ -101,6 +104,8 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     ['links', 'joints', 'labels', 'caption']
     """
     check_given("draw", thing, Drawable)
+    if isinstance(thing, Configuration) and not isinstance(thing, SheetConfiguration):
+        thing = thing.given
     kind = _suiting(thing) if kind is None else kind
     if kind not in KINDS:
         raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
@@ -116,6 +121,8 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
 
 def _suiting(thing: object) -> str:
     """Return the kind of picture that suits a thing."""
+    if isinstance(thing, SheetConfiguration):
+        thing = thing.drawn
     if isinstance(thing, Sheet):
         if thing.coordinates is None:
             return "graph"
@@ -221,8 +228,8 @@ def _model(thing: Any, look: Look) -> Scene:
     return model_scene(thing, box=look.box, caption=look.caption)
 
 
-def _sheet(thing: object) -> Sheet:
-    if not isinstance(thing, Sheet):
+def _sheet(thing: object) -> Sheet | SheetConfiguration:
+    if not isinstance(thing, Sheet | SheetConfiguration):
         raise UnsolvableError(f"only a crease pattern or a folded sheet can be drawn so, and this is {thing!r}")
     return thing
 

@@ -25,6 +25,7 @@ from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, S
 from synth.drawing.space.bodies import bodies_of
 from synth.drawing.space.panels import Panels, panel_shapes, panels_of
 from synth.drawing.space.view import view_from_above
+from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
 
 __all__ = ["folded_scene", "model_scene", "solids_scene"]
@@ -33,13 +34,17 @@ _MANY = 60
 
 
 def folded_scene(
-    sheet: Sheet, *, numbers: bool = True, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = ""
+    sheet: Sheet | SheetConfiguration,
+    *,
+    numbers: bool = True,
+    box: tuple[float, float] = (COLUMN, COLUMN),
+    caption: str | None = "",
 ) -> Scene:
     """Return a picture of a folded sheet: panels shaded, creases in the colours of their letters.
 
     Parameters
     ----------
-    sheet : Sheet
+    sheet : Sheet or SheetConfiguration
     numbers : bool, optional
         Write the numbers of links on panels that are not covered.
     box : (width, height), optional
@@ -56,9 +61,10 @@ def folded_scene(
     >>> [layer.name for layer in folded_scene(roof).layers]
     ['panels', 'labels', 'caption']
     """
-    if sheet.coordinates is None:
+    given = sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet
+    if given.coordinates is None:
         raise UnsolvableError("a sheet without coordinates has no picture in space")
-    points = in_space(sheet.coordinates)
+    points = in_space(given.coordinates)
     view, panels = view_from_above(points), panels_of(sheet)
     seen = view.places(points)
     extent = float(np.ptp(seen, axis=0).max()) or 1.0

@@ -9,14 +9,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.duality import mechanism_of_sheet
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.shapes import Line, Point, Polygon, Shape
 from synth.drawing.space.view import View, drawn_order
+from synth.folding.configuration import SheetConfiguration
 
-__all__ = ["HINGE", "Panels", "front_up", "panel_shapes", "panels_of", "same_side_up"]
+__all__ = ["HINGE", "Panels", "front_up", "panel_shapes", "panels_made", "panels_of", "same_side_up"]
 
 HINGE = "H"
 """The letter of an edge that is a hinge of solids."""
@@ -49,7 +50,14 @@ class Panels:
     solid: bool = False
 
 
-def panels_of(sheet: Sheet) -> Panels:
+def panels_made(sheet: Sheet | SheetConfiguration) -> tuple[Sheet, SheetMechanism]:
+    """Return a sheet as it was given, and its mechanism, which a configuration holds."""
+    if isinstance(sheet, SheetConfiguration):
+        return sheet.drawn, sheet.dual
+    return sheet, mechanism_of_sheet(sheet)
+
+
+def panels_of(sheet: Sheet | SheetConfiguration) -> Panels:
     """Return the panels of a sheet.
 
     Examples
@@ -59,8 +67,8 @@ def panels_of(sheet: Sheet) -> Panels:
     >>> panels.faces, panels.joint_of
     ([(0, 1, 2), (3, 1, 0)], {frozenset({0, 1}): 0})
     """
-    whole = with_all_edges(sheet)
-    mechanism = mechanism_of_sheet(sheet)
+    given, mechanism = panels_made(sheet)
+    whole = with_all_edges(given)
     letters = {frozenset(edge): letter for edge, letter in zip(whole.edges, whole.assignments, strict=True)}
     return Panels(
         same_side_up(whole.faces),

@@ -17,8 +17,8 @@ import numpy as np
 import scipy.optimize
 
 from graphs.arrays import Floats
-from graphs.convert.panels import ring_area
 from graphs.errors import UnsolvableError
+from graphs.geometry import area_vector
 from synth.realisation.pattern import Pattern, Pointing
 from synth.realisation.space.lifting import evenly_folded, folds_of, planes_over
 
@@ -139,7 +139,7 @@ def _around(best: Floats, folds: Floats, random: np.random.Generator) -> Iterato
 def _is_widest(places: Floats, pattern: Pattern) -> bool:
     """Tell whether the border goes round a larger area than every hole."""
     border, *holes = (
-        float(np.linalg.norm(ring_area(places[list(ring)]))) for ring in (pattern.outer, *pattern.holes)
+        float(np.linalg.norm(area_vector(places[list(ring)]))) for ring in (pattern.outer, *pattern.holes)
     )
     return all(hole * (1.0 + _WIDER) < border for hole in holes)
 
