@@ -25,6 +25,7 @@ __all__ = [
     "best_line",
     "best_plane",
     "common_direction",
+    "facing",
     "frame_about",
     "lines_meet",
     "nearest_rotation",
@@ -326,7 +327,7 @@ def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
         ends = [0, *(np.flatnonzero(~tied[place]) + 1).tolist(), given.shape[-1]]
         for first, last in pairwise(ends):
             axes[place][first:last] = canonical_basis(axes[place][first:last].T).T
-    return sizes, _facing(axes)
+    return sizes, facing(axes)
 
 
 def best_plane(points: npt.ArrayLike) -> Fit:
@@ -349,7 +350,7 @@ def best_plane(points: npt.ArrayLike) -> Fit:
     for place in map(tuple, np.argwhere(tied[..., -1])):
         first = int(np.flatnonzero(np.append(False, ~tied[place]))[-1]) if not tied[place].all() else 0
         normal[place] = canonical_basis(axes[place][first:].T)[:, -1]
-    normal = _facing(normal)
+    normal = facing(normal)
     off = np.abs((around * normal[..., None, :]).sum(axis=-1)).max(axis=-1, initial=0.0)
     return Fit(middle, normal, off)
 
@@ -402,7 +403,7 @@ def _longest(axes: Floats, tied: Flags) -> Floats:
     for place in map(tuple, np.argwhere(tied[..., 0])):
         last = int(np.append(tied[place], False).argmin()) + 1
         direction[place] = canonical_basis(axes[place][:last].T)[:, 0]
-    return _facing(direction)
+    return facing(direction)
 
 
 def _fitted(points: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Flags]:
@@ -428,8 +429,18 @@ def _tied(sizes: Floats) -> Flags:
     return np.asarray(sizes[..., :-1] - sizes[..., 1:] <= MARGIN * sizes[..., :-1] + _ROUNDING * sizes[..., :1])
 
 
-def _facing(directions: Floats) -> Floats:
-    """Return directions or their negatives: the first of the largest components is positive."""
+def facing(directions: Floats) -> Floats:
+    """Return directions or their negatives: those whose largest component is positive, the first of equal ones.
+
+    Parameters
+    ----------
+    directions : float[..., d]
+
+    Examples
+    --------
+    >>> facing(np.array([0.0, -0.8, 0.6])).tolist()
+    [0.0, 0.8, -0.6]
+    """
     sizes = np.abs(directions)
     place = (sizes >= (1.0 - MARGIN) * sizes.max(axis=-1, keepdims=True)).argmax(axis=-1)
     ahead = np.take_along_axis(directions, place[..., None], axis=-1) >= 0.0

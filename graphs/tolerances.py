@@ -35,12 +35,18 @@ class Tolerances:
     closed : float
         Loops that miss by no more are closed: radians and units of the extent. Independent of the precision:
         a configuration is solved for in double precision, whatever the file says.
+    derivative : float
+        Error of an entry of the closure equations' derivatives at a configuration whose loops are closed.
     zero : float
         A singular value or eigenvalue below this part of the largest is zero.
+    clear : float
+        One above this part of the largest is certainly not zero: what proofs rest on.
     zero_rate : float
         A rate below this part of the largest is none.
     immobile : float
         A joint that turns by less, in radians, while others turn by degrees does not move.
+    moved : float
+        A path that ends before, in radians, shows no motion: so far loops are closed that open at fourth order.
     same_configuration : float
         Two configurations whose angles differ by less, in radians, are one.
     same_point : float
@@ -60,9 +66,12 @@ class Tolerances:
 
     precision: float
     closed: float
+    derivative: float
     zero: float
+    clear: float
     zero_rate: float
     immobile: float
+    moved: float
     same_configuration: float
     same_point: float
     parallel: float
@@ -82,12 +91,17 @@ class Tolerances:
         rounding = max(precision, EPSILON)
         wrong = _MOVED * precision
         grown = max(1.0, sqrt(joints / 1000.0))  # the fixed values hold for a thousand joints
+        closed = 1e-12 * grown
+        zero = max(1e-9 * grown, min(_COARSEST, _BLURRED * precision))
         return cls(
             precision=rounding,
-            closed=1e-12 * grown,
-            zero=max(1e-9 * grown, min(_COARSEST, _BLURRED * precision)),
+            closed=closed,
+            derivative=100.0 * closed,
+            zero=zero,
+            clear=max(1e-6, zero),
             zero_rate=1e-7,
             immobile=1e-9 * grown,
+            moved=sqrt(sqrt(closed)),
             same_configuration=1e-6,
             same_point=max(1e-9, wrong),
             parallel=max(1e-9, wrong),

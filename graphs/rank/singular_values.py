@@ -16,7 +16,19 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 
-__all__ = ["NEARLY", "Certainty", "Spectrum", "Verdict", "judged", "judged_at", "rounding", "spectrum", "verdict"]
+__all__ = [
+    "NEARLY",
+    "Certainty",
+    "Spectra",
+    "Spectrum",
+    "Verdict",
+    "judged",
+    "judged_at",
+    "rounding",
+    "spectra",
+    "spectrum",
+    "verdict",
+]
 
 NEARLY = 2e-3
 """The error of coordinates that would make a nearly mobile mechanism mobile: a thousandth of the size, in units of
@@ -135,6 +147,53 @@ def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats
     _, values, right = np.linalg.svd(matrix, full_matrices=False)
     effects = [np.linalg.norm(right * of, axis=1) / values[0] for of in (error, nearly)]
     return judged(values / values[0], rounding(matrix.shape) + effects[0], effects[1])
+
+
+@dataclass(frozen=True, slots=True)
+class Spectra:
+    """The singular values of many matrices of one shape, judged.
+
+    Attributes
+    ----------
+    values : float[..., k]
+        Descending.
+    rows : float[..., n, n]
+        Right singular vectors, as rows; not canonical.
+    floors : float[..., k]
+        What errors do to each value, as parts of the largest.
+    verdict : Verdict
+    """
+
+    values: Floats
+    rows: Floats
+    floors: Floats
+    verdict: Verdict
+
+    @property
+    def parts(self) -> Floats:
+        """The values as parts of the largest: float[..., k]."""
+        return self.values / self.values[..., :1]
+
+
+def spectra(matrices: Floats, error: float, nearly: float) -> Spectra:
+    """Return singular values of many matrices, each judged as `spectrum` judges those of one.
+
+    Parameters
+    ----------
+    matrices : float[..., m, n]
+        None of them zero.
+    error, nearly : float
+        Of a column: the length of the errors of its entries.
+
+    Examples
+    --------
+    >>> spectra(np.array([[[2.0, 0.0], [2.0, 1e-17]]]), 1e-12, 1e-3).verdict.noise.tolist()
+    [[False, True]]
+    """
+    _, values, rows = np.linalg.svd(matrices, full_matrices=True)
+    largest = values[..., :1]
+    floors = np.broadcast_to(rounding(matrices.shape[-2:]) + error / largest, values.shape)
+    return Spectra(values, rows, floors, verdict(values / largest, floors, nearly / largest))
 
 
 def rounding(shape: tuple[int, int]) -> float:

@@ -78,7 +78,7 @@ def split(matrix: Floats, zero: float = DOUBLE.zero) -> Split:
     return Split(_counted(values, zero), left, values, right, zero)
 
 
-def null_space(matrix: Floats, zero: float = DOUBLE.zero) -> Floats:
+def null_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:
     """Return the canonical basis of the kernel of a matrix: orthonormal columns, float[n, n - rank].
 
     Parameters
@@ -86,6 +86,8 @@ def null_space(matrix: Floats, zero: float = DOUBLE.zero) -> Floats:
     matrix : float[m, n]
     zero : float, optional
         As for `split`.
+    scale : float, optional
+        What `zero` is a part of, where the matrix may be zero but for rounding; by default the largest value.
 
     Examples
     --------
@@ -93,17 +95,17 @@ def null_space(matrix: Floats, zero: float = DOUBLE.zero) -> Floats:
     [[0.0, 0.707], [0.0, -0.707], [1.0, 0.0]]
     """
     _, values, right = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
-    return canonical_basis(right[_counted(values, zero) :].T)
+    return canonical_basis(right[_counted(values, zero, scale) :].T)
 
 
-def row_space(matrix: Floats, zero: float = DOUBLE.zero) -> Floats:
+def row_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:
     """Return the canonical basis of the rows of a matrix: orthonormal columns, float[n, rank].
 
     Parameters
     ----------
     matrix : float[m, n]
-    zero : float, optional
-        As for `split`.
+    zero, scale : float, optional
+        As for `null_space`.
 
     Examples
     --------
@@ -111,7 +113,7 @@ def row_space(matrix: Floats, zero: float = DOUBLE.zero) -> Floats:
     [[0.707], [0.0], [0.707]]
     """
     _, values, right = np.linalg.svd(matrix, full_matrices=False)
-    return canonical_basis(right[: _counted(values, zero)].T)
+    return canonical_basis(right[: _counted(values, zero, scale)].T)
 
 
 def rank_of(matrix: Floats, zero: float = DOUBLE.zero) -> int:
@@ -146,9 +148,9 @@ def singular_values(matrices: Floats) -> Floats:
     return np.asarray(np.linalg.svd(matrices, compute_uv=False))
 
 
-def _counted(values: Floats, zero: float) -> int:
+def _counted(values: Floats, zero: float, scale: float | None = None) -> int:
     """Return how many singular values are none; all that are greater than the floor, where some are undecided."""
-    return int((values > zero * values.max(initial=0.0)).sum())
+    return int((values > zero * (values.max(initial=0.0) if scale is None else scale)).sum())
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,8 @@ from graphs.ids import JointId, LinkId
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import spectrum
+from graphs.rank.spaces import split
+from graphs.tolerances import DOUBLE
 from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
 from synth.advice.general_pose import GeneralPose, general_pose
@@ -41,11 +43,8 @@ _STEPS = 300_000
 """Steps of a search, however small the matrices."""
 _ONE_MORE = 1
 """Diagonals beyond the fewest that are looked for if nothing is said."""
-_STILL = 1e-7
 _DIGITS = 6
 """Of how much joints move: what moves alike is told apart by its place."""
-_ERROR = 1e-10
-"""Of the derivatives at a pose that closes to 1e-12."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,15 +204,15 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     """Return a set of joints with what comes of locking them, its freedoms by a rank."""
     every = list(pose.linkage.graph.joints)
     chosen = set(places)
-    _, holds, turned = np.linalg.svd(pose.rates[list(places)])
-    left = np.abs(pose.rates @ turned[len(places) :].T).max(axis=1, initial=0.0)
+    parts = split(pose.rates[list(places)])
+    still = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     flaps = set(pose.flaps)
     return Locked(
         tuple(every[place] for place in places),
         sum(costs[place][0] for place in places),
         tuple(every[place] for place in places if place in flaps),
-        tuple(joint for place, joint in enumerate(every) if place not in chosen and left[place] <= _STILL),
-        float(1.0 / holds[-1]) if holds[-1] else inf,
+        tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
+        float(1.0 / parts.values[-1]) if parts.values[-1] else inf,
         _freedoms_without(pose, places),
     )
 
@@ -222,7 +221,7 @@ def _freedoms_without(pose: GeneralPose, places: tuple[int, ...]) -> int | None:
     """Return the freedoms with joints locked: those left, less the rank of their closure equations."""
     matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
     others = np.delete(matrix, list(places), axis=1)
-    rank = spectrum(others, _ERROR).rank
+    rank = spectrum(others, DOUBLE.derivative).rank
     return None if rank is None else others.shape[1] - rank
 
 

@@ -15,18 +15,16 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import NumericalError
+from graphs.geometry import principal_axes, signed_area
 from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import sides_of_face
+from graphs.rank.spaces import split
+from graphs.tolerances import DOUBLE
 from synth.advice.general_pose import GeneralPose
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["Diagonal", "diagonals_of", "loads_on_stresses"]
-
-_ON_LINE = 1e-9
-"""A corner this close to a line, in units of the extent (squared: areas), lies on it."""
-_ZERO = 1e-8
-"""Singular values below this part of the largest are zero; all others at a general pose are far larger."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,16 +129,16 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
         for joint, sign in zip(loop.joints, loop.signs, strict=True):
             twist = _twist(linkage.points[joint], linkage.directions[joint])
             matrix[6 * number : 6 * number + 6, joint] += sign * twist
-    left, values, _ = np.linalg.svd(matrix)
-    rank = int((values > _ZERO * values.max(initial=0.0)).sum())
+    parts = split(matrix)
     expected = len(linkage.angles) - pose.rates.shape[1]
-    if rank != expected:
+    if parts.rank != expected:
         raise NumericalError(
-            f"the closure equations in space have rank {rank} at this pose; expected {expected}, as about centres"
+            f"the closure equations in space have rank {parts.rank} at this pose; "
+            f"expected {expected}, as about centres"
         )
     columns = np.array([_column(pose, one) for one in diagonals]).reshape(len(diagonals), len(matrix))
     flaps = [not column.any() for column in columns]
-    return left[:, rank:].T @ columns.T, flaps
+    return parts.cokernel.T @ columns.T, flaps
 
 
 def _points(pose: GeneralPose) -> Floats:
@@ -206,8 +204,7 @@ def _twist(point: Floats, direction: Floats) -> Floats:
 
 def _in_plane(points: Floats) -> Floats:
     """Return points of a panel in its plane: float[n, 2]."""
-    off = points - points.mean(axis=0)
-    return np.asarray(off @ np.linalg.svd(off, full_matrices=False)[2][:2].T)
+    return np.asarray((points - points.mean(axis=0)) @ principal_axes(points)[1][:2].T)
 
 
 def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
@@ -216,8 +213,8 @@ def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
     parts = (corners[first : last + 1], np.concatenate([corners[last:], corners[: first + 1]]))
     if min(map(len, parts)) < 3:
         return False
-    whole, areas = _area(corners), [_area(part) for part in parts]
-    if min(area * np.sign(whole) for area in areas) <= _ON_LINE:
+    whole, areas = signed_area(corners), [signed_area(part) for part in parts]
+    if min(area * np.sign(whole) for area in areas) <= DOUBLE.same_point:
         return False
     start, end = corners[list(pair)]
     count = len(corners)
@@ -231,14 +228,6 @@ def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
 
 def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
     """Tell whether two segments share a point."""
-    over = _area(np.array([a, b, c])), _area(np.array([a, b, d]))
-    under = _area(np.array([c, d, a])), _area(np.array([c, d, b]))
-    return bool(
-        min(over) <= _ON_LINE and max(over) >= -_ON_LINE and min(under) <= _ON_LINE and max(under) >= -_ON_LINE
-    )
-
-
-def _area(corners: Floats) -> float:
-    """Return the area of a polygon, counter-clockwise positive."""
-    x, y = corners.T
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2.0)
+    over, under = signed_area([[(a, b, c), (a, b, d)], [(c, d, a), (c, d, b)]])
+    near = DOUBLE.same_point
+    return all(min(areas) <= near and max(areas) >= -near for areas in (over, under))

@@ -15,12 +15,10 @@ from heapq import heappop, heappush
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE
 from synth.motion.walk.stepping import Allowance
 
-__all__ = ["HOLDS", "Cost", "cheapest_sets", "held"]
-
-HOLDS = 1e-6
-"""A joint that moves less than this against those locked already holds nothing: play in them would move it too."""
+__all__ = ["Cost", "cheapest_sets", "held"]
 
 Cost = tuple[float, ...]
 """Weights, the first above all; compared as words are."""
@@ -124,7 +122,7 @@ def _greedy(
         if len(chosen) == size or (allowance is not None and not allowance.take()):
             break
         left = float(np.linalg.norm(free[joint]))
-        if left <= HOLDS or joint in chosen:
+        if left <= DOUBLE.clear or joint in chosen:  # it holds nothing: play in the others would move it too
             continue
         along = free[joint] / left
         free -= np.outer(free @ along, along)

@@ -16,14 +16,13 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from synth.advice.diagonals import Diagonal
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.walk.stepping import Allowance
 
 __all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
 
-_ZERO = 1e-8
-"""A column this small beside those of a set is made of them."""
 
 MOST_FOLDED = 100
 """Sheets with diagonals that are folded, of one size: a few seconds."""
@@ -70,7 +69,7 @@ class Candidates:
                 continue
             load = loads[:, place]
             length = float(np.linalg.norm(load))
-            if length <= _ZERO:
+            if length <= DOUBLE.zero:
                 yield from self._grown((*chosen, place), loads, rank, size)
             elif rank:
                 along = load / length

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats, Ints
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import corrected
 from synth.motion.second_order import rates_at
@@ -19,7 +20,6 @@ from synth.moving.circuits import Circuit, circuit_through
 
 __all__ = ["Members", "members_of_circuits"]
 
-_SAME = 1e-6
 _NEARINGS = 4
 
 
@@ -107,7 +107,7 @@ def _passes(closure: ClosureEquations, circuit: Circuit, pose: int, off: Floats)
     for _ in range(_NEARINGS):
         here = corrected(closure, here).angles
         here = here + (target - here) @ along / (along @ along) * along
-    return float(np.abs(corrected(closure, here).angles - target).max()) <= _SAME
+    return float(np.abs(corrected(closure, here).angles - target).max()) <= DOUBLE.same_configuration
 
 
 def _branch(

@@ -13,22 +13,18 @@ from graphs.canonical import canonical_order
 from graphs.errors import InvariantError, SynthedraError, shown
 from graphs.given import check_given
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.assembly.answer import Position, Positions
 from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of
 from synth.assembly.general import GeneralPositions, apart, general_positions
-from synth.assembly.kernel import Complexes
+from synth.assembly.kernel import CLOSED, Complexes
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
 
 __all__ = ["positions", "solutions"]
 
-_REAL = 1e-7
-"""Imaginary parts of a position that is real, radians."""
-_CLOSED = 1e-10
 _POLISHED = 4
-_HALF_TURN = 1e-9
-"""So little beyond 180 degrees, radians, is 180 degrees and not -180."""
 _SURER = (SMALL, SMALL / 30, SMALL / 1000)
 """Corrections that are allowed: less, where two paths came to one place or one was lost."""
 
@@ -81,7 +77,7 @@ def positions(
     zero = linkage.angles[[names.index(joint) for joint in drive]]
     member = np.concatenate([axes, np.array(list(drive.values())) - zero])
     values, far, lost = solutions(family, general, member, seed)
-    real = np.abs(values.imag).max(axis=1, initial=0.0) <= _REAL
+    real = np.abs(values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
     found = _in_order([_angles(linkage, family, member, one) for one in values.real[real]])
     answer = Positions(
         at,
@@ -136,10 +132,10 @@ def solutions(
 def _polished(family: Family, parameters: Complexes, found: Followed) -> Complexes:
     """Return where paths arrived, real ones with angles that are so to the last digit."""
     values = found.values[found.arrived]
-    real = np.abs(values.imag).max(axis=1, initial=0.0) <= _REAL
+    real = np.abs(values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
     near = np.where(real[:, None], values.real, values)
     sharp, errors = family.corrected(parameters[found.arrived], near, _POLISHED)
-    return np.where((errors <= _CLOSED)[:, None], sharp, values)
+    return np.where((errors <= CLOSED)[:, None], sharp, values)
 
 
 def _angles(linkage: PosedLinkage, family: Family, member: Floats, unknowns: Floats) -> Floats:
@@ -149,7 +145,8 @@ def _angles(linkage: PosedLinkage, family: Family, member: Floats, unknowns: Flo
     inputs = member[2 * len(family.joints) :]
     for joint, column in zip(family.joints, family.column.tolist(), strict=True):
         whole[names.index(joint)] += unknowns[column] if column >= 0 else inputs[-1 - column]
-    return np.asarray(np.pi + _HALF_TURN - np.remainder(np.pi + _HALF_TURN - whole, 2 * np.pi))
+    half_turn = np.pi + DOUBLE.parallel  # 180 degrees but for rounding, and not -180
+    return np.asarray(half_turn - np.remainder(half_turn - whole, 2 * np.pi))
 
 
 def _in_order(found: list[Floats]) -> list[Floats]:

@@ -12,18 +12,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.errors import NumericalError, UnsolvableError
+from graphs.rank.spaces import rank_of
+from graphs.tolerances import DOUBLE
 from synth.assembly.family import Family
-from synth.assembly.kernel import Complexes
+from synth.assembly.kernel import CLOSED, Complexes
 
 __all__ = ["GeneralPositions", "apart", "general_positions"]
 
 _STARTS, _STEPS = 64, 25
-_CLOSED = 1e-10
-_SAME = 1e-6
 _QUIET = 6
 """Curves in a row that bring nothing new, before the positions are taken for all."""
 _MOST_CURVES = 60
-_SINGULAR = 1e-10
 _WIDE = 0.7
 """Imaginary parts of the angles of a general member's axes, at most, radians."""
 
@@ -71,8 +70,9 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
     number, inputs = len(family.joints), family.driven
     here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
     known = np.zeros((1, family.unknowns), dtype=complex)  # the pose at which the axes are told
-    values = np.linalg.svd(family.derivatives(here, known[0]), compute_uv=False)
-    if len(values) and values[-1] <= _SINGULAR * values[0]:
+    derivatives = family.derivatives(here, known[0])
+    parts = np.block([[derivatives.real, -derivatives.imag], [derivatives.imag, derivatives.real]])
+    if rank_of(parts) < min(parts.shape):
         raise UnsolvableError("the driven joints do not determine the others: drive joints that do")
     known = apart(np.concatenate([known, _by_newton(family, here, random)]))
     quiet = 0
@@ -88,7 +88,7 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
     raise NumericalError(f"after {_MOST_CURVES} curves new positions turn up still, {len(known)} by now")
 
 
-def apart(values: Complexes, same: float = _SAME) -> Complexes:
+def apart(values: Complexes, same: float = DOUBLE.same_configuration) -> Complexes:
     """Return solutions each once; angles are alike if they are so but for whole turns.
 
     Examples
@@ -114,7 +114,7 @@ def _by_newton(family: Family, parameters: Complexes, random: np.random.Generato
     starts = _random(random, (_STARTS, family.unknowns), np.pi, 1.5)
     many = np.tile(parameters, (_STARTS, 1))
     values, error = family.corrected(many, starts, _STEPS)
-    return values[error <= _CLOSED]
+    return values[error <= CLOSED]
 
 
 def _carried(

@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.kernel.compiled import compiled
+from graphs.tolerances import DOUBLE
 
-__all__ = ["ARRIVED", "FAR", "STOPPED", "Complexes", "corrected_all", "evaluated", "followed_all"]
+__all__ = ["ARRIVED", "CLOSED", "FAR", "STOPPED", "Complexes", "corrected_all", "evaluated", "followed_all"]
 
 Complexes = npt.NDArray[np.complex128]
 Places = npt.NDArray[np.int64]
@@ -23,7 +24,8 @@ STOPPED, ARRIVED, FAR = 0, 1, 2
 _FIRST, _LARGEST, _LEAST = 0.05, 0.25, 1e-8
 _NUDGE = 1e-6
 _CORRECTIONS = 3
-_CLOSED = 1e-10
+CLOSED = 100.0 * DOUBLE.closed
+"""Loops that miss by no more are closed where angles are complex: sines, and rounding, are large there."""
 _FAR = 30.0
 """Imaginary part of an angle that has gone to infinity."""
 _MOST = 5000
@@ -209,7 +211,7 @@ def followed(
             onwards = 1.0 if length >= 1.0 - s else s + length
             there = parameters_at(curve[0], curve[1], curve[2], onwards)
             first, error = corrected(loops, signs, column, there, tried, _CORRECTIONS)
-            if first <= small and error <= _CLOSED:
+            if first <= small and error <= CLOSED:
                 farthest = 0.0
                 for i in range(n):
                     unknowns[i] = tried[i]

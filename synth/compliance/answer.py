@@ -14,6 +14,7 @@ from graphs.canonical import canonical_order
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import DOUBLE
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.freedoms import State
 from synth.compliance.members import Members
@@ -24,8 +25,6 @@ __all__ = ["Elastic", "PathPose", "RestPassed", "States", "Transition"]
 
 _LISTED = 20
 """Sets, transitions, poses and modes that are printed; data has all."""
-_LEVEL = 1e-9
-"""Moments below this part of the largest of a path are printed as zero."""
 
 _OTHER_QUESTION = "states asks of each set of active members which freedoms it has, on the freest branch"
 
@@ -165,7 +164,7 @@ class Elastic:
     def _load_path(self) -> list[Block]:
         if self.driver is None:
             return []
-        level = _LEVEL * max(abs(float(one.pose.held[0])) for one in self.path)
+        level = DOUBLE.zero * max(abs(float(one.pose.held[0])) for one in self.path)
         step = -(-len(self.path) // _LISTED)
         shown_poses = [*self.path[:-1:step], self.path[-1]]
         rows = [self._row(one, level) for one in shown_poses]

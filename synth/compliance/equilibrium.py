@@ -9,12 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
 
 from graphs.arrays import Floats
 from graphs.errors import NumericalError
+from graphs.rank.spaces import null_space
+from graphs.tolerances import DOUBLE
 from synth.compliance.springs import Bent, ElasticLinkage
-from synth.motion.newton import CLOSED, corrected, exactly_held
+from synth.motion.newton import corrected, exactly_held
 from synth.motion.path import driven_path
 
 __all__ = ["Equilibrium", "LoadPath", "equilibrium", "load_path"]
@@ -174,7 +175,7 @@ def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.A
 def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, Bent]:
     """Return the rates that leave held joints still, float[J, n], and how the energy bends along them."""
     tangent = elastic.tangent(angles)
-    along = tangent.rates @ scipy.linalg.null_space(tangent.rates[list(held)]) if held else tangent.rates
+    along = tangent.rates @ null_space(tangent.rates[list(held)]) if held else tangent.rates
     return along, elastic.bent(angles, tangent, along, held)
 
 
@@ -199,7 +200,7 @@ def _lower(
         pose = corrected(elastic.closure, angles + part * step, places)
         if places:
             pose = exactly_held(elastic.closure, pose, places, values)
-        if pose.error > CLOSED or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
+        if pose.error > DOUBLE.closed or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
             continue
         if elastic.energy(pose.angles) <= before + _DOWN * part * float(slope @ step) + rounding:
             return pose.angles

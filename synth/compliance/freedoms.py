@@ -12,6 +12,7 @@ import networkx as nx
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
 from synth.compliance.members import Members, released
 from synth.motion.branches import MOST_JOINTS, Certainty, branches_of, search_for
 from synth.motion.closure import ClosureEquations
@@ -21,8 +22,6 @@ __all__ = ["Kind", "State", "state_of", "states_of_sets"]
 
 MOST_MEMBERS = 10
 """Of more members not all sets are looked at: there are a thousand."""
-_ERROR = 1e-10
-"""Of derivatives at a pose that closes to 1e-12."""
 _OF_A_BODY = 6
 """Freedoms of a part that hangs on active links only."""
 
@@ -122,7 +121,7 @@ def _freedoms(linkage: PosedLinkage) -> tuple[int | None, Certainty]:
     """Return the finite freedoms from a pose, on the freest way."""
     joints = len(linkage.angles)
     closure = ClosureEquations(linkage)
-    rank = spectrum(closure.at(linkage.angles)[1].toarray(), _ERROR).rank
+    rank = spectrum(closure.at(linkage.angles)[1].toarray(), DOUBLE.derivative).rank
     if rank in (joints, closure.rows):
         return joints - rank, "proved"
     if joints > MOST_JOINTS:

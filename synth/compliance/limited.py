@@ -13,9 +13,11 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.geometry import angles_between, lines_meet
 from graphs.ids import LinkId
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.compliance.freedoms import state_of
 from synth.compliance.limits_answer import End, Limits, RideAlong, Truss
 from synth.compliance.members import NONE, Members, released
@@ -24,13 +26,6 @@ from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
 
 __all__ = ["Corner", "angles_left", "limits"]
-
-_ERROR = 1e-10
-"""Of derivatives at a pose that closes to 1e-12."""
-_MEETS = 1e-9
-"""Cosines this near to 1 or -1 are these: the range just reaches."""
-_PARALLEL = 1e-6
-"""Sine of the angle of axes that are parallel, but for the rounding of coordinates."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,10 +87,10 @@ def angles_left(corner: Corner, angle: float) -> tuple[End | None, End | None]:
     [('stretched', -80.0), ('stretched', 80.0)]
     """
     low, high = corner.cosines()
-    if low <= -1.0 + _MEETS and high >= 1.0 - _MEETS:
+    if low <= -1.0 + DOUBLE.parallel and high >= 1.0 - DOUBLE.parallel:
         return None, None
-    widest = pi if low <= -1.0 + _MEETS else acos(min(low, 1.0))
-    narrowest = 0.0 if high >= 1.0 - _MEETS else acos(max(high, -1.0))
+    widest = pi if low <= -1.0 + DOUBLE.parallel else acos(min(low, 1.0))
+    narrowest = 0.0 if high >= 1.0 - DOUBLE.parallel else acos(max(high, -1.0))
     mirrored = angle > pi
     if narrowest == 0.0:
         turn = tau if mirrored else 0.0
@@ -137,17 +132,18 @@ def limits(thing: Movable, keep: Collection[LinkId] = ()) -> Limits:
     if not steps:
         raise UnsolvableError("there are no ride-alongs: expected two binary links on two adjacent ones")
     middles = Members(tuple(step.joints[1] for step in steps))
-    return Limits(at, tuple(_ride_alongs(linkage, steps)), _truss(linkage, middles))
+    tolerances = Tolerances.of(at.precision.size)
+    return Limits(at, tuple(_ride_alongs(linkage, steps, tolerances)), _truss(linkage, middles))
 
 
-def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep]) -> Iterator[RideAlong]:
+def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: Tolerances) -> Iterator[RideAlong]:
     place = {joint: number for number, joint in enumerate(linkage.graph.joints)}
     for step in steps:
         assert step.joint is not None
         joint = place[step.joint]
         first, middle, last = (place[one] for one in step.joints)
         forwards = linkage.graph.joints[step.joint][0] == step.onto[0]
-        corner, angle = _corner(linkage, (joint, first, middle, last))
+        corner, angle = _corner(linkage, (joint, first, middle, last), tolerances)
         now = float(linkage.angles[joint])
         ends = angles_left(corner, angle)
         turned = [None if end is None else _at_joint(end, now, angle, forwards=forwards) for end in ends]
@@ -162,27 +158,27 @@ def _at_joint(end: End, now: float, angle: float, *, forwards: bool) -> End:
     return End(now + way * (end.angle - angle), end.how)
 
 
-def _corner(linkage: PosedLinkage, places: tuple[int, int, int, int]) -> tuple[Corner, float]:
+def _corner(
+    linkage: PosedLinkage, places: tuple[int, int, int, int], tolerances: Tolerances
+) -> tuple[Corner, float]:
     """Return the corner of a joint and the three of a ride-along, and the angle of its base links, 0 to 2 pi."""
     points, axes = linkage.points[list(places)], linkage.directions[list(places)]
-    parallel = float(np.abs(np.cross(axes, axes[0])).max()) < _PARALLEL
-    rays = points - points[0] if parallel else _rays(points, axes)
+    parallel = float(np.abs(np.cross(axes, axes[0])).max()) <= tolerances.parallel
+    rays = points - points[0] if parallel else _rays(points, axes, tolerances.same_point)
     along = axes[0]
     if parallel:
         rays = rays - np.outer(rays @ along, along)
         corner = Corner(*_pairs(rays, lambda a, b: float(np.linalg.norm(a - b))), parallel=True)
     else:
-        corner = Corner(*_pairs(rays, lambda a, b: atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b))))
+        corner = Corner(*_pairs(rays, lambda a, b: float(angles_between(a, b))))
     one, other = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))
     return corner, atan2(float(np.cross(one, other) @ along), float(one @ other)) % tau
 
 
-def _rays(points: Floats, axes: Floats) -> Floats:
+def _rays(points: Floats, axes: Floats, same: float) -> Floats:
     """Return unit vectors along axes from where they meet, towards their points where these lie off it."""
-    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    centre = np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0]
-    out = ((points - centre) * axes).sum(axis=1)
-    return np.asarray(axes * np.where(np.abs(out) > _PARALLEL, np.sign(out), 1.0)[:, None])
+    out = ((points - lines_meet(points, axes).point) * axes).sum(axis=1)
+    return np.asarray(axes * np.where(np.abs(out) > same, np.sign(out), 1.0)[:, None])
 
 
 def _pairs(
@@ -197,7 +193,7 @@ def _truss(linkage: PosedLinkage, middles: Members) -> Truss:
     """Return what is left of a linkage with all ride-alongs rigid, as they are where they are straight."""
     left = released(linkage, middles, NONE)
     closure = ClosureEquations(left)
-    rank = spectrum(closure.at(left.angles)[1].toarray(), _ERROR).rank
+    rank = spectrum(closure.at(left.angles)[1].toarray(), DOUBLE.derivative).rank
     redundant = None if rank is None else closure.rows - rank
     freedoms = state_of(linkage, middles, NONE).freedoms
     return Truss(middles.joints, len(left.graph), len(left.angles), rank, redundant, freedoms)

@@ -16,18 +16,18 @@ from graphs.canonical import leading
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.geometry import unit
 from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.rank.spaces import inertia
+from graphs.tolerances import DOUBLE
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.springs import ElasticLinkage
 from synth.motion.linkage import PosedLinkage
 from synth.motion.placement import joints_outwards, link_motions
 
 __all__ = ["Mass", "Masses", "SmallMotion", "mass_matrix", "sheet_masses", "small_motions"]
-
-_NO_MASS = 1e-12
-"""Motions that move less than this part of the largest mass move none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,12 +145,11 @@ def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> l
     """
     masses.checked(elastic.linkage)
     tangent = elastic.tangent(at.angles)
-    inertia = tangent.rates.T @ mass_matrix(elastic.linkage, at.angles, masses) @ tangent.rates
-    sizes = np.linalg.eigvalsh(inertia)
-    if sizes[0] <= _NO_MASS * sizes[-1]:
+    mass = tangent.rates.T @ mass_matrix(elastic.linkage, at.angles, masses) @ tangent.rates
+    if not (inertia(mass, DOUBLE.clear**2).signs > 0).all():  # squares of speeds
         raise UnsolvableError("some motion moves no mass: expected masses on the links that move")
     curvature = elastic.bent(at.angles, tangent, tangent.rates, ()).curvature
-    squares, vectors = scipy.linalg.eigh(curvature, inertia)
+    squares, vectors = scipy.linalg.eigh(curvature, mass)
     return [
         _mode(square, tangent.rates @ vector) for square, vector in zip(squares.tolist(), vectors.T, strict=True)
     ]
@@ -226,8 +225,7 @@ def sheet_masses(sheet: Sheet, density: float) -> tuple[Mass, ...]:
 def _lamina(link: int, corners: Floats, density: float) -> list[Mass]:
     """Return the masses of a plane panel, a fan of triangles from a corner; those turned back count as less."""
     doubled = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0])
-    normal = doubled.sum(axis=0)
-    areas = doubled @ (normal / np.linalg.norm(normal)) / 2.0
+    areas = doubled @ unit(doubled.sum(axis=0)) / 2.0
     made = []
     for area, one, other in zip(areas.tolist(), corners[1:-1], corners[2:], strict=True):
         for a, b in ((corners[0], one), (one, other), (other, corners[0])):

@@ -15,6 +15,8 @@ from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
 from graphs.ids import JointId
+from graphs.rank.spaces import split
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.driving import check_closed
@@ -23,8 +25,6 @@ from synth.motion.linkage import PosedLinkage
 __all__ = ["Bent", "ElasticLinkage", "Springs", "Tangent"]
 
 _NUDGE = 1e-5
-_CLEAR = 1e-6
-"""Singular values that count are larger than this beside the largest: else the pose is singular."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,11 +164,10 @@ class ElasticLinkage:
         jacobian = self.closure.at(angles)[1].toarray()
         if not len(jacobian):
             return Tangent(jacobian, np.eye(len(angles)))
-        _, values, right = np.linalg.svd(jacobian)
-        rank = len(angles) - self.freedoms
-        if rank and values[rank - 1] <= _CLEAR * values[0]:
+        parts, rank = split(jacobian, DOUBLE.clear), len(angles) - self.freedoms
+        if parts.rank < rank:
             raise NumericalError("springs led to a singular pose, where it is open which way the linkage goes")
-        return Tangent(jacobian, right[rank:].T)
+        return Tangent(jacobian, parts.right[rank:].T)
 
     def bent(self, angles: Floats, tangent: Tangent, along: Floats, held: tuple[int, ...]) -> Bent:
         """Return how the energy bends on the closed poses along some rates.

@@ -14,6 +14,7 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.given import check_given
 from graphs.ids import JointId, LinkId
+from graphs.tolerances import DOUBLE
 from synth.compliance.answer import Elastic, PathPose, RestPassed, States, Transition
 from synth.compliance.equilibrium import LoadPath, equilibrium, load_path
 from synth.compliance.freedoms import State, state_of, states_of_sets
@@ -27,8 +28,6 @@ from synth.moving.made import Movable, configuration_of
 
 __all__ = ["Drive", "states"]
 
-AT_REST = 1e-6
-"""Radians: a joint this near to the angle of its spring is at rest."""
 _FRAMES = 20
 
 
@@ -131,7 +130,7 @@ class _Asked:
 
     def active(self, angles: Floats) -> Members:
         """Return the members that are not at rest. Links have no springs, and are told at rest."""
-        return Members(tuple(one for one in self.compliant.joints if abs(self.off_rest(one, angles)) > AT_REST))
+        return Members(tuple(one for one in self.compliant.joints if not _is_rest(self.off_rest(one, angles))))
 
     def elastic(self, drive: Drive | None, masses: Masses | None) -> Elastic:
         """Return what springs do."""
@@ -164,14 +163,20 @@ class _Asked:
             ends = [float(pose.angles[path.driver]) for pose in (before, after)]
             for joint in self.compliant.joints:
                 was, now = (self.off_rest(joint, pose.angles) for pose in (before, after))
-                if abs(was) <= AT_REST or (was * now > 0.0 and abs(now) > AT_REST):
+                if _is_rest(was) or (was * now > 0.0 and not _is_rest(now)):
                     continue
 
                 def off(driven: float, joint: JointId = joint, start: Floats = before.angles) -> float:
                     between = load_path(bending, start, path.driver, [driven])
                     return self.off_rest(joint, between.poses[-1].angles)
 
-                yield RestPassed(joint, ends[1] if abs(now) <= AT_REST else brentq(off, *ends, xtol=AT_REST))
+                passed = ends[1] if _is_rest(now) else brentq(off, *ends, xtol=DOUBLE.same_configuration)
+                yield RestPassed(joint, passed)
+
+
+def _is_rest(off: float) -> bool:
+    """Tell whether a joint that is so far from the angle of its spring, in radians, is at rest."""
+    return abs(off) <= DOUBLE.same_configuration
 
 
 def _transitions(sets: Sequence[State]) -> Iterator[Transition]:

@@ -23,6 +23,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Flags, Floats, Ints, Signs
 from graphs.errors import NumericalError
+from graphs.tolerances import DOUBLE
 from synth.conformed.outward import OutwardRate, joint_rates, outward_rates
 from synth.conformed.rates import ConformedChain
 from synth.conformed.sign_reasoning import SignRelations
@@ -367,7 +368,7 @@ def _looked_for(
 
     def seen(joints: Sequence[int], before: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
         mine = rates[..., list(joints)]
-        clear = np.abs(mine).min(axis=-1) > 1e-9 * np.abs(rates).max(axis=-1)
+        clear = np.abs(mine).min(axis=-1) > DOUBLE.zero_rate * np.abs(rates).max(axis=-1)
         one_sign = (mine > 0).all(axis=-1) | (mine < 0).all(axis=-1)
         either = (one_sign & clear).any(axis=-1) & (~one_sign & clear).any(axis=-1)
         return np.where((before == Allowed.UNKNOWN) & either, Allowed.ANGLES, before).astype(np.int8)

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, FirstOrder, first_order
 
 __all__ = [
@@ -29,11 +30,6 @@ __all__ = [
     "link_arcs",
     "shadow_allows",
 ]
-
-_STILL = 1e-10
-"""Outward rates below this part of the fastest in the linkage are zero."""
-_NO_TURN = 1e-13
-"""Rates of turning below this part of a link's motion are zero."""
 
 
 class Way(IntEnum):
@@ -165,7 +161,7 @@ def behaviour_of_motion(
     t = np.asarray(places, dtype=float)
     ranges = _outward_ranges(motion.motions, np.asarray(arcs, dtype=float))
     scale = np.abs(motion.motions[..., ::2]).max(axis=(-2, -1))
-    small = (_STILL * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
+    small = (DOUBLE.zero_rate * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
     out, into = ranges[..., 1] > small, ranges[..., 0] < -small
     ways = np.where(out & into, Way.BOTH, out.astype(int) - into.astype(int)).astype(np.int8)
     one_sided = np.abs(ways) == 1
@@ -261,7 +257,7 @@ def icrl(motions: npt.ArrayLike) -> Floats:
     w = np.asarray(motions, dtype=float)
     size = np.hypot(w[..., 0], w[..., 2])
     scale = np.abs(w).max(axis=(-2, -1), initial=0.0)[..., np.newaxis]
-    return np.where(size > _STILL * scale, np.arctan2(w[..., 0], w[..., 2]), np.nan)
+    return np.where(size > DOUBLE.zero_rate * scale, np.arctan2(w[..., 0], w[..., 2]), np.nan)
 
 
 def instant_centres(motions: npt.ArrayLike) -> Floats:
@@ -284,7 +280,9 @@ def instant_centres(motions: npt.ArrayLike) -> Floats:
     [[2.0, 0.0]]
     """
     w = np.asarray(motions, dtype=float)
-    turning = np.where(np.abs(w[..., 1:2]) > _NO_TURN * np.abs(w).max(axis=-1, keepdims=True), w[..., 1:2], 0.0)
+    turning = np.where(
+        np.abs(w[..., 1:2]) > DOUBLE.zero_rate * np.abs(w).max(axis=-1, keepdims=True), w[..., 1:2], 0.0
+    )
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(w[..., ::2] / turning)
 

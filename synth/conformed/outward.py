@@ -26,6 +26,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
+from graphs.rank.spaces import rank_of
 from synth.conformed.chords import arc_sets, sign_of_sum
 from synth.conformed.cycles import signed_cycles
 from synth.conformed.rates import ConformedChain
@@ -308,7 +309,7 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     )
     for chosen in bases:
         basis = cycles[list(chosen)]
-        if np.linalg.matrix_rank(basis) < loops:
+        if rank_of(basis.astype(float)) < loops:
             continue
         kernel = [[((-1) ** i * sign, triples) for sign, triples in _minor(basis, i)] for i in range(joints)]
         values = np.stack([_value(terms, places) for terms in kernel], axis=-1)

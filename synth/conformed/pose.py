@@ -14,12 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.geometry import across, sectors, unit
 from synth.surfaces.circuit import azimuths
 from synth.surfaces.cone import checked_cone_angle
 
 __all__ = [
     "PoseCheck",
-    "angles_between",
     "check_pose",
     "dihedral_angles",
     "joint_axes",
@@ -113,22 +113,6 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     return np.asarray(np.arctan2(volume, flat))
 
 
-def angles_between(first: npt.ArrayLike, second: npt.ArrayLike) -> Floats:
-    """Return the angles between vectors, radians, without loss of digits near 0 and pi.
-
-    Parameters
-    ----------
-    first, second : float[..., 3]
-
-    Examples
-    --------
-    >>> float(angles_between([1.0, 0, 0], [1.0, 1e-9, 0]))
-    1e-09
-    """
-    u, v = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
-    return np.asarray(np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1)))
-
-
 def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
     """Return the dihedral angles of closed loops of axes in space, measured.
 
@@ -149,11 +133,8 @@ def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
     [-90.0, -90.0, -90.0]
     """
     e = np.asarray(axes, dtype=float)
-    before, after = np.roll(e, 1, axis=-2), np.roll(e, -1, axis=-2)
-    e = e / np.linalg.norm(e, axis=-1, keepdims=True)
-    u = before - (before * e).sum(axis=-1, keepdims=True) * e
-    v = after - (after * e).sum(axis=-1, keepdims=True) * e
-    return np.asarray(np.arctan2((np.cross(u, v) * e).sum(axis=-1), (u * v).sum(axis=-1)))
+    u, v = across(np.roll(e, 1, axis=-2), e), across(np.roll(e, -1, axis=-2), e)
+    return np.asarray(np.arctan2((np.cross(u, v) * unit(e)).sum(axis=-1), (u * v).sum(axis=-1)))
 
 
 def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float], points: int = 24) -> Floats:
@@ -203,7 +184,7 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
     (True, True)
     """
     axes = joint_axes(azimuths(steps), cone_angle)
-    measured = angles_between(axes, np.roll(axes, -1, axis=-2))
+    measured = sectors(axes)
     lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis]
     tilt = np.arctan2(-axes[..., 1], np.hypot(axes[..., 0], axes[..., 2]))
     return PoseCheck(

@@ -24,12 +24,11 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.singular_values import rounding, verdict
+from graphs.rank.singular_values import spectra
+from graphs.tolerances import DOUBLE
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
 
-SOLVED = 1e-12
-"""The error of azimuths that were solved for, in radians."""
 NEARLY_DEGREES = 0.05
 """The error of azimuths that is told of: what cutting a model brings."""
 
@@ -163,7 +162,7 @@ def ring_axes(places: npt.ArrayLike) -> Floats:
     return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
 
 
-def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = SOLVED) -> FirstOrder:
+def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOUBLE.closed) -> FirstOrder:
     """Return rank and first-order motion of linkages at their conformed position.
 
     Parameters
@@ -207,26 +206,17 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = SOL
             np.zeros((*shape, 0)), np.full(shape, np.inf),
             np.full(t.shape, np.nan), np.full((*shape, len(chain.links), 3), np.nan),
         )  # fmt: skip
-    values, rows = _svd(closure)
-    parts = values / values[..., :1]
     # A joint is in two loops at most of a basis of a planar chain, in few of any: two entries of its column move.
-    by_error = np.sqrt(2) / values[..., :1]
-    floors = np.broadcast_to(rounding(closure.shape[-2:]) + by_error * error, values.shape)
-    judged = verdict(parts, floors, by_error * np.radians(NEARLY_DEGREES))
+    found = spectra(closure, np.sqrt(2) * error, np.sqrt(2) * np.radians(NEARLY_DEGREES))
+    judged = found.verdict
     counted = ~judged.noise & ~judged.undecided
     freedoms = count - counted.sum(axis=-1)
     undecided = judged.undecided.sum(axis=-1)
     told = (freedoms == 1) & (undecided == 0)
-    rates = np.where(told[..., np.newaxis], rows[..., -1, :], np.nan)
+    rates = np.where(told[..., np.newaxis], found.rows[..., -1, :], np.nan)
     motions = np.einsum("nj,...j,...jc->...nc", chain.paths, rates, axes)
-    gap = _gap(parts, counted, floors)
-    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), values, gap, rates, motions)
-
-
-def _svd(closure: Floats) -> tuple[Floats, Floats]:
-    """Return singular values and all right singular vectors; the batched call is one loop in LAPACK."""
-    _, values, rows = np.linalg.svd(closure, full_matrices=True)
-    return values, rows
+    gap = _gap(found.parts, counted, found.floors)
+    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), found.values, gap, rates, motions)
 
 
 def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Floats:

@@ -20,6 +20,7 @@ import numpy.typing as npt
 
 from enumerate.kernel.compiled import compiled
 from graphs.arrays import Ints, Signs
+from graphs.rank.spaces import rank_of
 from synth.conformed.rates import ConformedChain
 
 __all__ = ["SignRelations"]
@@ -174,4 +175,4 @@ def _direction(chain: ConformedChain, joint: int, m: int, n: int) -> int:
     step[joint] -= 1
     # +1 if the rest is a sum of loops, that is, rates that close leave nothing over
     basis = chain.loops
-    return 1 if np.linalg.matrix_rank(np.vstack([basis, step])) == len(basis) else -1
+    return 1 if rank_of(np.vstack([basis, step])) == len(basis) else -1

@@ -17,11 +17,10 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.tolerances import DOUBLE
 
 __all__ = ["COLUMNS", "ROWS", "TableRow", "table4", "table_row"]
 
-_DIAMETER = 1e-9
-"""A chord whose ends are this near to half a turn apart (radians) is a diameter."""
 
 ROWS: dict[tuple[int, str, str], tuple[str, str]] = {
     (1, "open", "A"): ("Y*", "Y"),
@@ -142,10 +141,10 @@ def table_row(places: npt.ArrayLike) -> TableRow:
     order = np.argsort(round_)
     sorted_places = round_[order]
     gaps = np.remainder(np.roll(sorted_places, -1) - sorted_places, 2 * np.pi)
-    if gaps.min() <= _DIAMETER:
+    if gaps.min() <= DOUBLE.parallel:
         raise InvariantError("azimuths", "two joints lie on one ruling line", "four different azimuths")
     widest = int(gaps.argmax())
-    case = 1 if gaps[widest] >= np.pi - _DIAMETER else 2
+    case = 1 if gaps[widest] >= np.pi - DOUBLE.parallel else 2
     first = (widest + 1) % 4 if case == 1 else _first_of_case_2(sorted_places)
     rank = np.empty(4, dtype=int)
     rank[order] = (np.arange(4) - first) % 4 + 1
@@ -156,10 +155,10 @@ def table_row(places: npt.ArrayLike) -> TableRow:
     pair = frozenset((frozenset((c, o)), frozenset((a, b))))
     column = "A" if COLUMNS[configuration, "A"] == pair else "B"
     if case == 1:
-        special = bool(abs(gaps[widest] - np.pi) <= _DIAMETER)
+        special = bool(abs(gaps[widest] - np.pi) <= DOUBLE.parallel)
     else:
         across = sorted_places[2:] - sorted_places[:2]
-        special = bool((np.abs(across - np.pi) <= _DIAMETER).any())
+        special = bool((np.abs(across - np.pi) <= DOUBLE.parallel).any())
     intra, extra = table4(case, configuration, column, diameter=special)
     return TableRow(case, configuration, column, labels, intra, extra, special)
 

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.geometry import unit
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
 from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.rates import ConformedChain, first_order
@@ -173,8 +174,7 @@ def _half_plane(p: Point, q: Point, turned: bool) -> object:
     """Return what of the page is on one side of a line, far enough for a circle."""
     from shapely.geometry import Polygon as Area
 
-    along = np.subtract(q, p)
-    along = along / np.linalg.norm(along) * 4 * _SIDE
+    along = unit(np.subtract(q, p)) * 4 * _SIDE
     across = np.array([-along[1], along[0]]) * (1 if turned else -1)
     middle = np.asarray(p)
     return Area([middle - along, middle + along, middle + along + across, middle - along + across])

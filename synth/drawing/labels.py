@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import unit
 
 __all__ = ["spread"]
 
@@ -35,8 +36,7 @@ def spread(points: Floats, reach: float, gap: float, only_x: bool = False) -> Fl
     if not len(points):
         return points
     random = np.random.default_rng(7)  # to part points that are one
-    away = points - points.mean(axis=0) + 1e-3 * random.normal(size=points.shape)
-    away /= np.linalg.norm(away, axis=1, keepdims=True)
+    away = unit(points - points.mean(axis=0) + 1e-3 * random.normal(size=points.shape))
     places = points + max(reach, 1e-3 * gap) * away
     if only_x:
         places[:, 1] = points[:, 1]

@@ -9,6 +9,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import numbered
+from graphs.geometry import signed_area
 from synth.drawing.hammer import hammer, region
 from synth.drawing.labels import spread
 from synth.drawing.scene.frame import COLUMN, Frame, framed, page_of
@@ -81,7 +82,7 @@ def _regions(orientations: Orientations, frame: Frame, width: int) -> list[Shape
         for rings in region(lambda points, of=verdict: order_verdicts(orientations, points) == of, width):  # type: ignore[misc]
             for ring, hole in rings:
                 shape = Polygon(frame.row(ring[:-1].tolist()), NEITHER if hole else colour, None)
-                found.append((_area(ring), not hole, shape))
+                found.append((abs(float(signed_area(ring))), not hole, shape))
     found.sort(key=lambda item: (-item[0], item[1]))
     whole = Polygon(frame.row(rim[:-1].tolist()), NEITHER, None)
     outlines = [
@@ -90,11 +91,6 @@ def _regions(orientations: Orientations, frame: Frame, width: int) -> list[Shape
         if shape.fill in _DASHES
     ]
     return [whole, *(shape for _, _, shape in found), *outlines]
-
-
-def _area(ring: Floats) -> float:
-    x, y = ring[:-1].T
-    return abs(float(x @ np.roll(y, 1) - y @ np.roll(x, 1))) / 2
 
 
 def _graticule(frame: Frame) -> list[Shape]:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.geometry import across, unit
 from synth.drawing.labels import spread
 from synth.drawing.scene.frame import Frame, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
@@ -71,17 +72,15 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
         raise UnsolvableError(
             f"a picture of {len(orientations)} orientations shows nothing; {_MOST_DRAWN} at most"
         )
-    start = orientations.relative_axis(1, 2)
-    start = start - (start @ g) * g
-    start /= np.linalg.norm(start)
-    across = np.cross(g, start) * (1.0 if hoop.direction == "ccw" else -1.0)
+    start = unit(across(orientations.relative_axis(1, 2), g))
+    beside = np.cross(g, start) * (1.0 if hoop.direction == "ccw" else -1.0)
     needed = set(hoop.required)
     shown = [c for c in hoop.crossings if c.pair in needed or len(orientations) <= _MOST_LABELLED]
-    globe = _Globe(unit_vector(0.75 * across + 0.45 * g + 0.25 * start))
-    ends = _ends(orientations, g, start, across, shown, needed)
+    globe = _Globe(unit_vector(0.75 * beside + 0.45 * g + 0.25 * start))
+    ends = _ends(orientations, g, start, beside, shown, needed)
     layers = [
         Layer("sphere", tuple(globe.graticule())),
-        Layer("hoop", tuple(_hoops(globe, g, start, across, hoop))),
+        Layer("hoop", tuple(_hoops(globe, g, start, beside, hoop))),
         Layer("orientations", tuple(_bodies(globe, orientations))),
         Layer("axes", tuple(_marks(globe, ends, orientations))),
         Layer("angles", tuple(_strip(shown, needed))),

@@ -16,12 +16,12 @@ from math import ceil, radians
 import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
+from graphs.geometry import area_vector, frame_about, unit
 from graphs.mechanism.precision import extent_of
+from graphs.tolerances import DOUBLE, Tolerances
 
 __all__ = ["Collision", "Panels", "Poses", "first_collision"]
 
-_TOUCHING = 1e-7
-"""In units of the extent: what is no deeper is no collision."""
 _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
 _HALVINGS = 30
@@ -59,6 +59,8 @@ class Panels:
         The panel that each face is part of.
     flat : float[vertices, 3]
         Places of the vertices in a pose in which faces are plane.
+    tolerances : Tolerances, optional
+        Of the coordinates: panels that go no deeper into each other than points are told apart touch.
 
     Examples
     --------
@@ -67,7 +69,13 @@ class Panels:
     ((0, 1), None)
     """
 
-    def __init__(self, faces: Sequence[Sequence[int]], panel_of: Sequence[int], flat: Floats) -> None:
+    def __init__(
+        self,
+        faces: Sequence[Sequence[int]],
+        panel_of: Sequence[int],
+        flat: Floats,
+        tolerances: Tolerances = DOUBLE,
+    ) -> None:
         pieces = [
             (piece, panel) for face, panel in zip(faces, panel_of, strict=True) for piece in _convex(face, flat)
         ]
@@ -76,16 +84,14 @@ class Panels:
             [[*piece, *[piece[-1]] * (most - len(piece))] for piece, _ in pieces], dtype=np.int64
         )
         self._panel = np.array([panel for _, panel in pieces], dtype=np.int64)
-        self._touching = _TOUCHING * (extent_of(flat) or 1.0)
+        self._touching = tolerances.same_point * (extent_of(flat) or 1.0)
 
     def crossing(self, places: Floats) -> tuple[int, int] | None:
         """Return two panels that cross where vertices are at float[vertices, 3]; None if there are none."""
         if len(self._panel) < 2:
             return None
         corners = places[self._corners]
-        normals = np.cross(corners, np.roll(corners, -1, axis=1)).sum(axis=1)
-        sizes = np.linalg.norm(normals, axis=1, keepdims=True)
-        normals /= np.where(sizes == 0.0, 1.0, sizes)
+        normals = unit(area_vector(corners))
         for first, second in self._near(corners):
             found = np.flatnonzero(self._cross(corners, normals, first, second))
             if len(found):
@@ -107,9 +113,7 @@ class Panels:
 
     def _cross(self, corners: Floats, normals: Floats, first: Ints, second: Ints) -> Flags:
         """Tell which pairs of pieces cross: bool[pairs]."""
-        line = np.cross(normals[first], normals[second])
-        size = np.linalg.norm(line, axis=1, keepdims=True)
-        line /= np.where(size == 0.0, 1.0, size)
+        line = unit(np.cross(normals[first], normals[second]))
         origin = corners[first, :1]
         ends = []
         for one, other in ((first, second), (second, first)):
@@ -205,21 +209,20 @@ def _convex(face: Sequence[int], flat: Floats) -> list[list[int]]:
     """Return a face as convex pieces: itself, or triangles."""
     corners = list(face)
     places = flat[corners]
-    normal = np.cross(places, np.roll(places, -1, axis=0)).sum(axis=0)
-    across = np.linalg.svd(normal[None])[2][1:]
+    normal = area_vector(places)
+    across = frame_about(normal)[:2]
     plane = {corner: across @ place for corner, place in zip(corners, places, strict=True)}
-    turn = 1.0 if np.cross(*across) @ normal >= 0.0 else -1.0
 
     def bend(a: int, b: int, c: int) -> float:
         (x, y), (u, v) = plane[b] - plane[a], plane[c] - plane[b]
-        return float(turn * (x * v - y * u))
+        return float(x * v - y * u)
 
     def is_ear(k: int) -> bool:
         a, b, c = corners[k - 1], corners[k], corners[(k + 1) % len(corners)]
         inside = (all(bend(p, q, d) > 0.0 for p, q in ((a, b), (b, c), (c, a))) for d in {*corners} - {a, b, c})
         return bend(a, b, c) > 0.0 and not any(inside)
 
-    rounding = -1e-9 * float(np.abs(normal).max(initial=0.0))
+    rounding = -DOUBLE.same_point * float(np.abs(normal).max(initial=0.0))
     if all(bend(corners[k - 2], corners[k - 1], corners[k]) >= rounding for k in range(len(corners))):
         return [corners]
     pieces = []

@@ -19,9 +19,10 @@ from graphs.errors import UnsolvableError
 from graphs.ids import JointId
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.folding.collisions import Panels, Poses, first_collision
 from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.repair import Mended, flattened, mended, nearly, nearly_agreeing, precision_of
+from synth.folding.mending.repair import Mended, flattened, mended, nearly_agreeing, precision_of
 from synth.folding.opened import opened
 from synth.folding.vertices import vertex_places
 from synth.motion.branches import MOST_BRANCHES
@@ -33,7 +34,7 @@ from synth.motion.misfit import EXACT, doubt_of, least_misfit
 from synth.motion.newton import corrected
 from synth.motion.path import DrivenPath
 from synth.motion.second_order import rate_spaces, rates_near
-from synth.motion.singular.quadrics import ZERO, quadrics_of
+from synth.motion.singular.quadrics import quadrics_of
 from synth.motion.walk.event import PathEvent
 
 __all__ = ["SheetConfiguration", "configuration_of_sheet"]
@@ -41,7 +42,6 @@ __all__ = ["SheetConfiguration", "configuration_of_sheet"]
 _ALL_WAYS = 120
 """Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
 
-_FOLDED = 1e-9
 _TURNED_WAYS = 4
 """So many motions are tried of what is rigid."""
 
@@ -78,7 +78,7 @@ class SheetConfiguration(Configuration):
     @cached_property
     def flat(self) -> bool:
         """Whether all fold angles are zero."""
-        return bool(np.abs(self.linkage.angles).max(initial=0.0) <= _FOLDED)
+        return bool(np.abs(self.linkage.angles).max(initial=0.0) <= DOUBLE.parallel)
 
     @property
     def limited(self) -> bool:
@@ -161,7 +161,7 @@ def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
     marks = np.array([{"V": 1.0, "M": -1.0}.get(letters.get(joint, "U"), 0.0) for joint in linkage.graph.joints])
     if marks.any():
         return marks
-    return np.where(np.abs(linkage.angles) > _FOLDED, np.sign(linkage.angles), 0.0)
+    return np.where(np.abs(linkage.angles) > DOUBLE.parallel, np.sign(linkage.angles), 0.0)
 
 
 def configuration_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, mend: bool = True) -> SheetConfiguration:
@@ -227,7 +227,7 @@ def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> M
     if precision.size <= EXACT:
         return None
     wanted, most = _wanted(_marks_of(sheet, linkage)), _most(linkage)
-    nearly_all = () if most is None else _ways(linkage, nearly(precision))
+    nearly_all = () if most is None else _ways(linkage, Tolerances.of(precision.size).zero)
 
     def moves(linkage: PosedLinkage) -> bool:
         if most is not None:
@@ -249,7 +249,7 @@ def _most(linkage: PosedLinkage) -> int | None:
     return MOST_BRANCHES if len(linkage.graph.joints) <= _ALL_WAYS else None
 
 
-def _ways(linkage: PosedLinkage, zero: float = ZERO) -> tuple[int, ...]:
+def _ways(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> tuple[int, ...]:
     """Return the dimensions of the spaces of rates that agree, the largest first."""
     quadrics = quadrics_of(linkage)
     spaces, _ = rate_spaces(ClosureEquations(linkage), linkage.angles, quadrics, MOST_BRANCHES, zero)

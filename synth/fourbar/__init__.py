@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from synth.fourbar.position import input_limits_spherical as input_limits_spherical
     from synth.fourbar.position import output_planar as output_planar
     from synth.fourbar.position import output_spherical as output_spherical
-    from synth.fourbar.position import rotated as rotated
     from synth.fourbar.position import transmission_planar as transmission_planar
     from synth.fourbar.position import transmission_spherical as transmission_spherical
     from synth.fourbar.rounding import rounding_of as rounding_of
@@ -36,7 +35,7 @@ else:
                 "kind_of_planar kind_of_spherical planar_differences spherical_differences"
             ),
             "position": (
-                "input_limits_planar input_limits_spherical output_planar output_spherical rotated "
+                "input_limits_planar input_limits_spherical output_planar output_spherical "
                 "transmission_planar transmission_spherical"
             ),
             "rounding": "rounding_of",

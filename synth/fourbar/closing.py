@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.tolerances import DOUBLE
 from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 
 __all__ = [
@@ -33,8 +34,6 @@ __all__ = [
 
 _SIGNS = np.array([[1, -1, 1, -1], [1, -1, -1, 1], [-1, -1, 1, 1]])
 """Of g, a, h, b in T1, T2, T3."""
-_SMALLEST = 1e-9
-"""Smallest link angle, radians, and smallest length, of the longest, that a loop sum can be told of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,7 +293,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
             told = f"link angle {place + 1} is {_degrees(angle)} degrees"
             hint = f"; {angle:g} looks like degrees: angles are radians" if 4 * np.pi < angle <= 360 else ""
             raise InvariantError("link angle", told + hint, "between 0 and 360", ("angles", place))
-        if min(angle, 2.0 * np.pi - angle) < _SMALLEST:
+        if min(angle, 2.0 * np.pi - angle) < DOUBLE.same_point:
             told = f"link angle {place + 1} is {np.degrees(angle):.12g} degrees"
             raise InvariantError("link angle", told, "one that can be told from 0 and 360", ("angles", place))
     made = np.where(given > np.pi, 2.0 * np.pi - given, given)
@@ -341,7 +340,7 @@ together; expected lengths of a closed loop [closed loop]
             raise InvariantError(
                 "link length", f"length {place + 1} is {length:.12g}", "a length above 0", ("lengths", place)
             )
-        if length < _SMALLEST * given.max():
+        if length < DOUBLE.same_point * given.max():
             told = f"length {place + 1} is {length:.12g}, the longest {given.max():.12g}"
             raise InvariantError("link length", told, "lengths within a factor of 1e9", ("lengths", place))
     longest = given.max()

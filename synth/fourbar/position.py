@@ -16,19 +16,18 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE
 
 __all__ = [
     "input_limits_planar",
     "input_limits_spherical",
     "output_planar",
     "output_spherical",
-    "rotated",
     "transmission_planar",
     "transmission_spherical",
 ]
 
 Branch = Literal[1, -1]
-_AT_LIMIT = 1e-12
 
 
 def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Floats:
@@ -93,7 +92,7 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
 def _two_branches(x: Floats, y: Floats, c: Floats, branch: npt.ArrayLike) -> Floats:
     """Solve x cos(psi) + y sin(psi) = c."""
     ratio = c / np.hypot(x, y)
-    ratio = np.where(np.abs(ratio) <= 1 + _AT_LIMIT, np.clip(ratio, -1, 1), np.nan)
+    ratio = np.where(np.abs(ratio) <= 1 + DOUBLE.closed, np.clip(ratio, -1, 1), np.nan)
     psi = np.arctan2(y, x) + np.asarray(branch) * np.arccos(ratio)
     return np.asarray(np.pi - np.remainder(np.pi - psi, 2 * np.pi))
 
@@ -148,7 +147,7 @@ def input_limits_spherical(angles: npt.ArrayLike) -> Floats:
 def _ends(cosines: list[Floats]) -> Floats:
     """Return the angles of the cosines that are some angle's, but for the ends of the range themselves."""
     both = np.stack(cosines, axis=-1)
-    return np.arccos(np.where(np.abs(both) < 1 - _AT_LIMIT, both, np.nan))
+    return np.arccos(np.where(np.abs(both) < 1 - DOUBLE.closed, both, np.nan))
 
 
 def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
@@ -200,24 +199,4 @@ def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Float
 
 
 def _within(cosine: Floats) -> Floats:
-    return np.arccos(np.where(np.abs(cosine) <= 1 + _AT_LIMIT, np.clip(cosine, -1, 1), np.nan))
-
-
-def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -> Floats:
-    """Rotate vectors about a unit axis, right-handed (Rodrigues).
-
-    Parameters
-    ----------
-    vectors, axis : float[..., 3]
-    angle : float[...]
-        Radians.
-
-    Examples
-    --------
-    >>> rotated([1.0, 0, 0], [0, 0, 1.0], np.pi / 2).round(12).tolist()
-    [0.0, 1.0, 0.0]
-    """
-    v, e = np.asarray(vectors, dtype=float), np.asarray(axis, dtype=float)
-    angle = np.asarray(angle, dtype=float)[..., np.newaxis]
-    along = (v * e).sum(axis=-1, keepdims=True) * e
-    return np.asarray(along + np.cos(angle) * (v - along) + np.sin(angle) * np.cross(e, v))
+    return np.arccos(np.where(np.abs(cosine) <= 1 + DOUBLE.closed, np.clip(cosine, -1, 1), np.nan))

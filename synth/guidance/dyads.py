@@ -18,16 +18,14 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.errors import UnsolvableError
+from graphs.geometry import facing, principal_axes
+from graphs.tolerances import DOUBLE
 from synth.guidance.hoop_method import Direction
 from synth.guidance.order import crank_angles, nearest_moving_axis, order_by_crank_angles
 from synth.guidance.orientations import Orientations, unit_vector
 
-__all__ = ["Dyad", "dyad_of", "dyads_of_three", "signed"]
-
-_SAME = 1e-9
-"""Relative size of a second singular value below which a moving axis is not unique."""
+__all__ = ["Dyad", "dyad_of", "dyads_of_three"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,7 +107,7 @@ def dyad_of(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayL
     >>> dyad.fixed.tolist(), dyad.direction, dyad.residual < 1e-15
     ([0.0, 0.0, 1.0], 'ccw', True)
     """
-    g, w = signed(unit_vector(fixed, "fixed axis")), signed(unit_vector(moving, "moving axis"))
+    g, w = facing(unit_vector(fixed, "fixed axis")), facing(unit_vector(moving, "moving axis"))
     cosines = orientations.matrices @ w @ g
     link_angles = np.arccos(np.clip(cosines, -1.0, 1.0))
     angles = crank_angles(orientations, g, w)
@@ -160,21 +158,9 @@ def dyads_of_three(orientations: Orientations, fixed_axes: Iterable[npt.ArrayLik
     for axis in fixed_axes:
         g = unit_vector(axis, "fixed axis")
         seen = orientations.matrices.transpose(0, 2, 1) @ g
-        sizes = np.linalg.svd(seen - seen.mean(axis=0), compute_uv=False)
-        if sizes[1] < _SAME:
+        if principal_axes(seen)[0][1] < DOUBLE.same_point:
             raise UnsolvableError(
                 "the fixed axis leaves its moving axis open: it lies on a relative axis; move the axis off it"
             )
         found.append(dyad_of(orientations, g, nearest_moving_axis(orientations, g)))
     return tuple(found)
-
-
-def signed(axis: Floats) -> Floats:
-    """Return the end of an axis line whose largest component is positive.
-
-    Examples
-    --------
-    >>> signed(np.array([0.0, -0.8, 0.6])).tolist()
-    [0.0, 0.8, -0.6]
-    """
-    return np.asarray(axis * np.copysign(1.0, axis[leading(axis)]) + 0.0)

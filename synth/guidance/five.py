@@ -18,6 +18,8 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.errors import NumericalError, UnsolvableError
+from graphs.rank.spaces import singular_values, split
+from graphs.tolerances import DOUBLE
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.orientations import Orientations
 
@@ -28,16 +30,11 @@ Numbers = npt.NDArray[Any]
 """Real or complex."""
 
 _SOLUTIONS = 6
-_RANK_GAP = 1e-11
-"""Relative size of a singular value below which it is zero, and the solutions are infinitely many."""
 _SOLVED = 1e-13
-"""Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors."""
+"""Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors: what Newton's steps reach."""
 _NEARLY_REAL = 1e-5
 """Imaginary part, of unit vectors, below which a real solution is looked for nearby: two that nearly coincide come
 out of an eigenvalue problem as a complex pair, the root of the rounding error apart."""
-_DISTINCT = 1e-6
-"""Sine of the angle between axes below which two solutions are one: rounding of the orientations moves two that
-nearly coincide by the root of the rounding error, 1e-8, and more."""
 _TRIES = 8
 _NEWTON_STEPS = 30
 _SQUARES = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
@@ -102,12 +99,12 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
     conditions = m[1:] - m[0]
     conditions /= np.linalg.norm(conditions, axis=(1, 2), keepdims=True)  # small turns weigh as much as large ones
     kernel, gap = _kernel(conditions)
-    if gap < _RANK_GAP:
+    if gap < DOUBLE.zero:
         raise _without_number(gap)
     forms = _forms(kernel)
     fixed, moving = _six(conditions, kernel, forms)
     gap = min(gap, *(_second_smallest(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
-    if gap < _RANK_GAP:
+    if gap < DOUBLE.zero:
         raise _without_number(gap)
     residual = float(max(_misses(conditions, g, w) for g, w in zip(fixed, moving, strict=True)))
     real, number = _real_ones(conditions, fixed, moving)
@@ -122,8 +119,8 @@ def _kernel(conditions: Floats) -> tuple[Floats, float]:
     for i in range(3):
         for times in range(3):
             equations[:, times, _PLACE[i, times]] += conditions[:, i]
-    _, sizes, rows = np.linalg.svd(equations.reshape(12, 18))
-    return rows[12:].T.reshape(6, 3, 6), float(sizes[11] / sizes[0])
+    parts = split(equations.reshape(12, 18))
+    return parts.right[12:].T.reshape(6, 3, 6), float(parts.values[11] / parts.values[0])
 
 
 def _without_number(gap: float) -> UnsolvableError:
@@ -142,9 +139,9 @@ def _forms(kernel: Floats) -> Floats:
         If every one is singular: then the solutions are infinitely many.
     """
     forms = np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
-    sizes = np.linalg.svd(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1], compute_uv=False)
+    sizes = singular_values(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1])
     ratios = sizes[:, -1] / sizes[:, 0]
-    if ratios.max() < _RANK_GAP:
+    if ratios.max() < DOUBLE.zero:
         raise _without_number(float(ratios.max()))
     return np.asarray(forms[np.argsort(-ratios)])
 
@@ -152,7 +149,7 @@ def _forms(kernel: Floats) -> Floats:
 def _second_smallest(conditions: Floats, g: Numbers, w: Numbers) -> float:
     """Return zero if one of the axes of a solution leaves the other a whole plane."""
     by_w, by_g = np.einsum("i,kij->kj", g, conditions), conditions @ w
-    return float(min(np.linalg.svd(rows, compute_uv=False)[1] for rows in (by_w, by_g)))
+    return float(min(singular_values(rows)[1] for rows in (by_w, by_g)))
 
 
 def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, Complexes]:
@@ -168,8 +165,8 @@ def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, 
         products = np.einsum("ki,kj->kij", fixed, moving).reshape(_SOLUTIONS, 9)
         overlap = np.abs(products.conj() @ products.T) - np.eye(_SOLUTIONS)
         closest = float(np.sqrt(max(0.0, 1.0 - overlap.max())))
-        double = max(_condition(conditions, g, w) for g, w in found) > 0.01 / _DISTINCT
-        if worst < _SOLVED and (closest > _DISTINCT or double):
+        double = max(_condition(conditions, g, w) for g, w in found) > 0.01 / DOUBLE.same_configuration
+        if worst < _SOLVED and (closest > DOUBLE.same_configuration or double):
             return fixed, moving
     raise NumericalError(
         f"six dyads could not be told apart: residual {worst:.0e}, two of them {closest:.0e} from each other"
@@ -187,10 +184,15 @@ def _eigenpairs(kernel: Floats, forms: Floats) -> list[tuple[Complexes, Complexe
     _, vectors = eig(first, second)
     pairs = []
     for vector in vectors.T:
-        u, _, v = np.linalg.svd(kernel @ vector)
-        square = u[[_PLACE[a, b] for a in range(3) for b in range(3)], 0].reshape(3, 3)
-        pairs.append((square[np.argmax(np.linalg.norm(square, axis=1))], v[0]))
+        products = kernel @ vector
+        w = _longest(products)
+        square = (products @ w.conj())[[_PLACE[a, b] for a in range(3) for b in range(3)]].reshape(3, 3)
+        pairs.append((_longest(square), w))
     return pairs
+
+
+def _longest(rows: Complexes) -> Complexes:
+    return np.asarray(rows[np.argmax(np.linalg.norm(rows, axis=1))])
 
 
 def _polished(conditions: Floats, g: Numbers, w: Numbers) -> tuple[Numbers, Numbers]:
@@ -235,14 +237,14 @@ def _real_ones(conditions: Floats, fixed: Complexes, moving: Complexes) -> tuple
         if apart > _NEARLY_REAL:
             continue
         near = []
-        for side in (0.0,) if apart < _DISTINCT / 100.0 else (1.0, -1.0):
+        for side in (0.0,) if apart < DOUBLE.same_configuration / 100.0 else (1.0, -1.0):
             start = g.real + side * g.imag, w.real + side * w.imag
             one = _polished(conditions, *start)
             if _misses(conditions, *one) < _SOLVED and _apart(one, start) < 10.0 * _NEARLY_REAL:
                 near.append(one)
         number += bool(near)
         for one in near:
-            if all(_apart(one, other) > _DISTINCT for other in real):
+            if all(_apart(one, other) > DOUBLE.same_configuration for other in real):
                 real.append(one)
     return real, number
 

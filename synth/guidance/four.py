@@ -16,6 +16,8 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.geometry import best_plane, frame_about, unit
+from graphs.tolerances import DOUBLE
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import order_verdicts
 from synth.guidance.orientations import Orientations
@@ -28,8 +30,6 @@ harm."""
 _HALVINGS = 20
 _POLISHINGS = 2
 _EIGHTHS: Floats = np.linspace(0.0, np.pi, 8, endpoint=False)
-_DEGENERATE = 1e-10
-"""Relative size of coefficients below which they are rounding only."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,7 +141,7 @@ class _Pencil:
         m = orientations.matrices
         self._conditions = (m[1:] - m[0]).transpose(0, 2, 1)
         self._base = orientations.relative_axis(1, 2)
-        self._across = np.linalg.svd(self._base[None])[2][1:]
+        self._across = frame_about(self._base)[:2]
         *forms, _ = self._coefficients(_EIGHTHS)
         self._size = float(np.abs(forms).max())  # the largest coefficient, about
 
@@ -158,7 +158,7 @@ class _Pencil:
         There all coefficients vanish. They are forms of degree one, two and three in cos and sin of the plane's
         angle: the common roots are among those of the first that is not zero everywhere.
         """
-        small = _DEGENERATE * self._size
+        small = DOUBLE.zero * self._size
         forms = [*self._coefficients(_EIGHTHS)[:3]]
         degree = next((k for k, q in enumerate(forms, start=1) if np.abs(q).max() > small), 0)
         if not degree:
@@ -168,7 +168,7 @@ class _Pencil:
         roots = [np.pi / 2.0] if abs(form[-1]) < small else []
         roots += [float(np.arctan(root.real)) for root in np.roots(form[::-1]) if abs(root.imag) < _UNIT]
         *there, directions = self._coefficients(np.array(roots))
-        whole = np.max(np.abs(there), axis=0) < np.sqrt(_DEGENERATE) * self._size
+        whole = np.max(np.abs(there), axis=0) < np.sqrt(DOUBLE.zero) * self._size
         return [(self._base, u) for u in directions[whole]]
 
     def _discriminant(self, turns: Floats) -> Floats:
@@ -181,11 +181,11 @@ class _Pencil:
         The discriminant is a form of degree four in cos and sin of the angle, so it has five Fourier terms.
         """
         terms = np.fft.fft(self._discriminant(_EIGHTHS)) / 8.0
-        if self._size < 1e-10:
+        if self._size < DOUBLE.zero:
             raise UnsolvableError(
                 "every axis is that of a dyad of these orientations (are they turns about one axis?)"
             )
-        if np.abs(terms).max() < (_DEGENERATE * self._size) ** 2:  # the two lines are one in every plane
+        if np.abs(terms).max() < (DOUBLE.zero * self._size) ** 2:  # the two lines are one in every plane
             return [(0.0, np.pi)]
         roots = np.roots(terms[[2, 1, 0, -1, -2]])
         ends = np.sort(np.angle(roots[np.abs(np.abs(roots) - 1.0) < _UNIT]) / 2.0)
@@ -205,7 +205,7 @@ class _Pencil:
         # The same ratio s : t twice; the larger pair has not lost its digits.
         s, t = np.where(np.hypot(*one) > np.hypot(*other), one, other)
         sizes = np.hypot(s, t)
-        sizes[sizes < _DEGENERATE * self._size] = np.nan
+        sizes[sizes < DOUBLE.zero * self._size] = np.nan
         return np.asarray((s[:, None] * self._base + t[:, None] * u) / sizes[:, None])
 
 
@@ -242,7 +242,7 @@ def _sampled(curve: Callable[[Floats], Floats], samples: int) -> Floats:
         t = np.insert(t, wide + 1, (t[wide] + t[wide + 1]) / 2.0)
     points = curve(t[t < 1.0])
     points = points[~np.isnan(points[:, 0])]
-    moved = np.linalg.norm(np.cross(points[1:], points[:-1]), axis=1) > _UNIT**2
+    moved = np.linalg.norm(np.cross(points[1:], points[:-1]), axis=1) > DOUBLE.closed
     return np.asarray(points[np.concatenate([[True], moved])[: len(points)]])
 
 
@@ -260,7 +260,7 @@ def _followed(points: Floats) -> Floats:
 def _curve(orientations: Orientations, fixed: Floats) -> AxisCurve:
     m = orientations.matrices
     seen = np.einsum("nij,mi->mnj", m, fixed)
-    moving = np.linalg.svd(seen - seen.mean(axis=1, keepdims=True))[2][:, -1]
+    moving = best_plane(seen).direction
     conditions = m[1:] - m[0]
     for _ in range(_POLISHINGS):
         fixed, moving = _polished(conditions, fixed, moving)
@@ -274,6 +274,4 @@ def _polished(conditions: Floats, fixed: Floats, moving: Floats) -> tuple[Floats
     values = np.einsum("mni,mi->mn", by_fixed, fixed)
     inverse = np.linalg.pinv(np.concatenate([by_fixed, by_moving], axis=2), rcond=1e-6)
     steps = np.einsum("mkn,mn->mk", inverse, values)
-    made = fixed - steps[:, :3], moving - steps[:, 3:]
-    unit = [axes / np.linalg.norm(axes, axis=1, keepdims=True) for axes in made]
-    return unit[0], unit[1]
+    return unit(fixed - steps[:, :3]), unit(moving - steps[:, 3:])

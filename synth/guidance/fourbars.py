@@ -20,6 +20,8 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
+from graphs.geometry import across, angles_between, rotated, unit
+from graphs.tolerances import DOUBLE
 from synth.fourbar.closing import FourBarKind, kind_of_spherical
 from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
 from synth.guidance.dyads import Dyad
@@ -30,8 +32,6 @@ from synth.guidance.orientations import Orientations
 __all__ = ["BodyMotion", "GuidedFourBar", "four_bar_of", "four_bars", "motion_of"]
 
 _TURN = 2.0 * np.pi
-_NO_LINK = 1e-6
-"""A link of this angle or less, radians, is a point; so is one of pi less this."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -171,7 +171,7 @@ def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[Guided
     made = []
     for driver, follower in permutations(tuple(dyads), 2):
         links = _link_angles(driver, follower)
-        if np.minimum(links, np.pi - links).min() > _NO_LINK:
+        if np.minimum(links, np.pi - links).min() > DOUBLE.same_configuration:
             made.append(four_bar_of(orientations, driver, follower))
     order = canonical_order([np.array([len(one.defects), -one.transmission]) for one in made])
     return tuple(made[place] for place in order)
@@ -203,7 +203,7 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
     ([69.08, 21.81, 87.95, 46.21], 'crank-rocker', ())
     """
     links = _link_angles(driver, follower)
-    if np.minimum(links, np.pi - links).min() <= _NO_LINK:
+    if np.minimum(links, np.pi - links).min() <= DOUBLE.same_configuration:
         raise UnsolvableError(
             "a link of this four-bar has no angle, or one of 180 degrees: two of its axes are one"
         )
@@ -278,20 +278,16 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
 
 def _link_angles(driver: Dyad, follower: Dyad) -> Floats:
     """Return gamma, alpha, eta, beta."""
-    ground = _angle(driver.fixed, follower.fixed)
-    coupler = _angle(driver.moving, follower.moving)
+    ground = angles_between(driver.fixed, follower.fixed)
+    coupler = angles_between(driver.moving, follower.moving)
     return np.array([ground, driver.link_angle, coupler, follower.link_angle])
-
-
-def _angle(a: Floats, b: Floats) -> float:
-    return float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
 
 
 def _azimuths(axis: Floats, zero: Floats, vectors: Floats) -> Floats:
     """Return the angles of vectors about an axis from the plane through a given direction, in [0, 2 pi)."""
-    across = np.cross(axis, zero)
-    along = np.cross(across, axis)
-    return np.asarray(np.mod(np.arctan2(vectors @ across, vectors @ along), _TURN))
+    beside = np.cross(axis, zero)
+    along = np.cross(beside, axis)
+    return np.asarray(np.mod(np.arctan2(vectors @ beside, vectors @ along), _TURN))
 
 
 def _sides(fixed: Floats, driven: Floats, following: Floats) -> npt.NDArray[np.int64]:
@@ -365,15 +361,13 @@ def _least_transmission(links: Floats, angles: Floats) -> float:
 
 def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats) -> Floats:
     """Return rotation matrices of the body where the driver is at given angles, on the branch of orientation 1."""
-    from scipy.spatial.transform import Rotation
-
     driver, follower = four_bar.driver, four_bar.follower
     first = orientations.matrices[0]
-    turns = (angles - four_bar.angles[0])[:, None] * driver.fixed
-    driven = Rotation.from_rotvec(turns).apply(first @ driver.moving)
+    driven = rotated(first @ driver.moving, driver.fixed, angles - four_bar.angles[0])
     side = int(_sides(follower.fixed, driven[:1], (first @ follower.moving)[None])[0])
     links = four_bar.link_angles.copy()
-    links[1] = _angle(driver.fixed, driven[0])  # a dyad that does not fit quite has another angle on the average
+    # a dyad that does not fit quite has another angle on the average
+    links[1] = angles_between(driver.fixed, driven[0])
     psi = output_spherical(links, angles, 1 if side else -1)
     if np.isnan(psi).any():
         raise UnsolvableError("this four-bar does not close all the way: its dyads do not fit well enough")
@@ -384,14 +378,11 @@ def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats
 def _at_output(zero: Floats, follower: Dyad, psi: Floats) -> Floats:
     """Return W_2 at output angles, which are counted about G_2 from the ground link prolonged: float[m, 3]."""
     fixed, beta = follower.fixed, follower.link_angle
-    prolonged = (fixed @ zero) * fixed - zero
-    prolonged /= np.linalg.norm(prolonged)
-    out = np.cos(psi)[:, None] * prolonged + np.sin(psi)[:, None] * np.cross(fixed, prolonged)
+    out = rotated(-unit(across(zero, fixed)), fixed, psi)
     return np.asarray(np.cos(beta) * fixed + np.sin(beta) * out)
 
 
 def _frame(a: Floats, b: Floats) -> Floats:
     """Return right-handed frames, as columns: the first axis along a, the second in the plane of a and b."""
-    normal = np.cross(a, b)
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = unit(np.cross(a, b))
     return np.stack([a, np.cross(normal, a), normal], axis=2)

@@ -19,6 +19,8 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
+from graphs.geometry import across
+from graphs.tolerances import DOUBLE
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = [
@@ -37,9 +39,6 @@ Direction: TypeAlias = Literal["ccw", "cw"]
 """Counter-clockwise or clockwise, seen from the tip of the fixed axis."""
 
 DIRECTIONS: tuple[Direction, Direction] = ("ccw", "cw")
-
-_ON_AXIS = 1e-9
-"""Sine of the angle between two lines, below which they are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,10 +169,10 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     """
     g = unit_vector(axis, "fixed axis")
     lines = _lines_off_axis(orientations, g)
-    start = lines[1, 2] - (lines[1, 2] @ g) * g
-    across = np.cross(g, start) * (1.0 if direction == "ccw" else -1.0)
+    start = across(lines[1, 2], g)
+    beside = np.cross(g, start) * (1.0 if direction == "ccw" else -1.0)
     angles = {
-        pair: float(np.arctan2(s @ across, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)
+        pair: float(np.arctan2(s @ beside, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)
     }
     pairs = list(angles)
     order = canonical_order([np.array([angles[pair]]) for pair in pairs])
@@ -222,7 +221,7 @@ def _ahead(g: Floats, here: Floats, there: Floats) -> float:
 
 def _lines_off_axis(orientations: Orientations, g: Floats) -> dict[Pair, Floats]:
     lines = orientations.relative_axes()
-    on: Sequence[Pair] = [pair for pair, s in lines.items() if np.linalg.norm(np.cross(g, s)) < _ON_AXIS]
+    on: Sequence[Pair] = [pair for pair, s in lines.items() if np.linalg.norm(np.cross(g, s)) < DOUBLE.parallel]
     if on:
         raise UnsolvableError(
             f"the fixed axis lies on the relative axis {pair_name(on[0])}: the hoop holds it at every angle, "

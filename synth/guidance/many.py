@@ -11,6 +11,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
+from graphs.tolerances import DOUBLE
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import nearest_moving_axis
 from synth.guidance.orientations import Orientations
@@ -19,9 +20,7 @@ __all__ = ["dyads_by_least_squares", "fibonacci_sphere"]
 
 _GRID = 2000
 _NEIGHBOURS = 7
-_SAME = 1e-6
 _MOST_STARTS = 100
-_NO_ERROR = 1e-13
 _MOST = 12
 """How many dyads are given; those that fit worse are left out."""
 
@@ -58,7 +57,10 @@ def dyads_by_least_squares(orientations: Orientations) -> tuple[Dyad, ...]:
     found: list[tuple[float, Dyad]] = []
     for start in _starts(orientations):
         error, dyad = _fitted(orientations, start)
-        if all(min(_apart(dyad.fixed, d.fixed), 1.0) + _apart(dyad.moving, d.moving) > _SAME for _, d in found):
+        if all(
+            min(_apart(dyad.fixed, d.fixed), 1.0) + _apart(dyad.moving, d.moving) > DOUBLE.same_configuration
+            for _, d in found
+        ):
             found.append((error, dyad))
     order = canonical_order([np.concatenate([[error], dyad.fixed, dyad.moving]) for error, dyad in found])
     return tuple(found[place][1] for place in order[:_MOST])
@@ -88,7 +90,7 @@ def _starts(orientations: Orientations) -> Floats:
     apart = orientations.matrices - orientations.matrices.mean(axis=0)
     moments = np.tensordot(apart, apart, axes=(0, 0))  # no array grows with both grid and orientations
     errors = np.linalg.eigvalsh(np.einsum("ma,ajbk,mb->mjk", grid, moments, grid))[:, 0]
-    if np.median(errors) < _NO_ERROR * np.trace(np.einsum("ajbj->ab", moments)):
+    if np.median(errors) < DOUBLE.zero * np.trace(np.einsum("ajbj->ab", moments)):
         raise UnsolvableError("infinitely many dyads take these orientations (are they turns about one axis?)")
     both_ends = np.concatenate([grid, -grid])
     _, near = cKDTree(both_ends).query(grid, _NEIGHBOURS)

@@ -16,7 +16,9 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.geometry import across, best_plane
 from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import EPSILON
 from synth.guidance.hoop_method import (
     DIRECTIONS,
     Direction,
@@ -41,7 +43,6 @@ __all__ = [
 
 _BLOCK = 1 << 15
 """Axes that are checked together: what they need stays in the processor's cache."""
-_ROUNDING = 1e-15
 _FITS = radians(1e-4)
 """Axes are printed to six digits or so."""
 
@@ -273,7 +274,7 @@ def nearest_moving_axis(orientations: Orientations, axis: npt.ArrayLike) -> Floa
         If the fixed axis has no direction.
     """
     seen = orientations.matrices.transpose(0, 2, 1) @ unit_vector(axis, "fixed axis")
-    return np.asarray(np.linalg.svd(seen - seen.mean(axis=0))[2][-1])
+    return best_plane(seen).direction
 
 
 def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.ArrayLike) -> Floats:
@@ -295,7 +296,7 @@ def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.A
     """
     g = unit_vector(fixed, "fixed axis")
     w = orientations.matrices @ unit_vector(moving, "moving axis")
-    start = w[0] - (w[0] @ g) * g
+    start = across(w[0], g)
     angles = np.mod(np.arctan2(w @ np.cross(g, start), w @ start), 2.0 * np.pi)
     angles[0] = 0.0  # rounding may have made it a whole turn
     return np.asarray(angles)
@@ -332,5 +333,5 @@ def _verdicts(axes: Floats, first: int, from_start: Floats, between: Floats) -> 
     products = ahead[:, :-1] * apart * ahead[:, 1:]
     lowest, highest = products.min(axis=1), products.max(axis=1)
     kept = (lowest > 0.0).astype(np.int8) - (highest < 0.0).astype(np.int8)
-    kept[np.minimum(np.abs(ahead).min(axis=1), np.abs(apart).min(axis=1)) < _ROUNDING] = 0
+    kept[np.minimum(np.abs(ahead).min(axis=1), np.abs(apart).min(axis=1)) < 4 * EPSILON] = 0
     return np.asarray(kept)

@@ -20,6 +20,8 @@ from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.atomic import write_text
 from graphs.files.native.orientations import orientation_rows, orientations_document
 from graphs.files.text import json_text
+from graphs.geometry import nearest_rotation, unit
+from graphs.tolerances import DOUBLE
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -40,8 +42,6 @@ Pair: TypeAlias = tuple[int, int]
 _NORM_TOLERANCE = 1e-3
 """Printed quaternions have five digits or so; more is a mistake and not rounding."""
 
-_EQUAL = 1e-8
-"""Half the angle between two orientations, radians, below which they are one."""
 
 _FEWEST = 3
 _MOST_IN_PAIRS = 2000
@@ -97,7 +97,7 @@ class Orientations:
 
         n = len(self)
         both_signs = cKDTree(np.concatenate([self.quaternions, -self.quaternions]))
-        pairs = sorted(sorted((i % n, j % n)) for i, j in both_signs.query_pairs(_EQUAL))
+        pairs = sorted(sorted((i % n, j % n)) for i, j in both_signs.query_pairs(DOUBLE.parallel))
         for i, j in pairs:
             raise InvariantError(
                 "different orientations",
@@ -134,10 +134,9 @@ class Orientations:
         if m.ndim != 3 or m.shape[1:] != (3, 3) or not np.isfinite(m).all():
             raise InvariantError("matrices", f"an array of shape {m.shape}", "finite numbers, n by 3 by 3")
         far = np.abs(m).max(axis=(1, 2), initial=0.0) > 2.0
-        u, sizes, v = np.linalg.svd(np.where(far[:, None, None], 0.0, m))
-        nearest = u @ v
-        bad = (np.abs(sizes - 1.0).max(axis=1) > _NORM_TOLERANCE) | (np.linalg.det(nearest) < 0.0)
-        for i in np.flatnonzero(bad):
+        m = np.where(far[:, None, None], 0.0, m)
+        nearest = nearest_rotation(m)
+        for i in np.flatnonzero(np.linalg.norm(m - nearest, ord=2, axis=(1, 2)) > _NORM_TOLERANCE):
             raise InvariantError(
                 "rotation matrix",
                 f"orientation {i + 1} has a matrix that is no rotation",
@@ -224,8 +223,7 @@ class Orientations:
         >>> tilted.relative_axis(1, 2).tolist()
         [0.0, 1.0, 0.0]
         """
-        part = _between(self.quaternions[i - 1], self.quaternions[j - 1])[1:]
-        return np.asarray(part / np.linalg.norm(part))
+        return unit(_between(self.quaternions[i - 1], self.quaternions[j - 1])[1:])
 
     def relative_axes(self) -> dict[Pair, Floats]:
         """Return the relative rotation axes S_ij of all pairs.
@@ -240,8 +238,7 @@ class Orientations:
                 f"{len(self)} orientations have too many pairs; at most {_MOST_IN_PAIRS} will do"
             )
         i, j = np.triu_indices(len(self), 1)
-        parts = _between(self.quaternions[i], self.quaternions[j])[:, 1:]
-        axes = parts / np.linalg.norm(parts, axis=1, keepdims=True)
+        axes = unit(_between(self.quaternions[i], self.quaternions[j])[:, 1:])
         return dict(zip(zip((i + 1).tolist(), (j + 1).tolist(), strict=True), axes, strict=True))
 
     def subset(self, numbers: Sequence[int]) -> Orientations:

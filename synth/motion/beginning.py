@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import scipy.linalg
 
 from graphs.arrays import Floats
 from graphs.canonical import canonical_basis
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.rank.spaces import null_space
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.configuration import Configuration
 from synth.motion.marked import rates_as_marked
@@ -22,7 +23,6 @@ from synth.motion.singular.sampling import rates_towards
 __all__ = ["Wanted", "beginning"]
 
 _LARGE = 10**9
-_STILL = 1e-9
 _DIGITS = 6
 """Of a cosine: branches that point along rates alike are told apart by their order."""
 
@@ -134,7 +134,7 @@ def _rates(branch: Branch, wanted: Wanted, towards: Floats) -> Floats:
         return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
     for start in (towards, space.basis.sum(axis=1)):
         begun = rates_towards(space, start)
-        if np.abs(begun[list(wanted.driven)]).max() > _STILL:
+        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
             return begun
     which = "joints" if wanted.along else "driven joints"
     raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
@@ -142,7 +142,6 @@ def _rates(branch: Branch, wanted: Wanted, towards: Floats) -> Floats:
 
 def _in_proportion(space: RateSpace, wanted: Wanted) -> RateSpace:
     """Return the part of a space in which driven joints turn in proportion."""
-    across = scipy.linalg.null_space(wanted.turns[None])
+    across = null_space(wanted.turns[None])
     normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
-    turned, sizes, _ = np.linalg.svd(normals)
-    return replace(space, basis=canonical_basis(space.basis @ turned[:, int((sizes > _STILL).sum()) :]))
+    return replace(space, basis=canonical_basis(space.basis @ null_space(normals.T, scale=1.0)))

@@ -20,15 +20,15 @@ from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.ids import JointId
 from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, largest_only, rates_at, rates_near, spaces_within
 from synth.motion.singular.flat_vertices import FlatVertices
 from synth.motion.singular.nearest import spaces_near
-from synth.motion.singular.quadrics import ZERO, Quadric, all_quadrics
+from synth.motion.singular.quadrics import Quadric, all_quadrics
 from synth.motion.singular.rigidity import Rigidity, rigidity_of
 from synth.motion.singular.sampling import (
-    STILL,
     Followed,
     followed,
     general_rates,
@@ -48,6 +48,7 @@ __all__ = [
     "branches_of",
     "first_branch",
     "search_for",
+    "signs_of",
 ]
 
 Certainty = Literal["proved", "numerical", "not known"]
@@ -66,8 +67,6 @@ how fast a machine is."""
 
 _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
-_ERROR = 1e-10
-"""Of the derivatives at a pose that closes to 1e-12."""
 _START = 2e5
 """Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
@@ -94,7 +93,7 @@ class Search:
 
     most: int = 4096
     work: float = inf
-    zero: float = ZERO
+    zero: float = DOUBLE.zero
     follow: int | None = None
     towards: Floats | None = None
 
@@ -156,7 +155,7 @@ class Branch:
     @property
     def signs(self) -> str:
         """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-        return _signs(self.rates)
+        return signs_of(self.rates)
 
     def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
         """Return plain data, joints by their ids: those of the linkage, in order."""
@@ -343,7 +342,7 @@ class _Looking:
     def full_row_rank(self) -> bool:
         """Tell whether the closure equations are independent at the pose."""
         _, jacobian = self.closure.at(self.linkage.angles)
-        return spectrum(jacobian.toarray(), _ERROR).rank == self.closure.rows
+        return spectrum(jacobian.toarray(), DOUBLE.derivative).rank == self.closure.rows
 
     def parts(self, spaces: list[RateSpace]) -> list[tuple[RateSpace, Floats]]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
@@ -374,12 +373,12 @@ class _Looking:
         for space, rates in parts:
             near = rates_towards(space, towards)
             there = near if near.any() and same_part(space, near, rates) else rates
-            agree.append(abs(float(np.sign(np.where(np.abs(there) > STILL, there, 0.0)) @ towards)))
+            agree.append(abs(float(np.sign(np.where(np.abs(there) > DOUBLE.zero_rate, there, 0.0)) @ towards)))
         return int(np.argmax(agree))
 
     def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
-        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= STILL).tolist())
+        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
         if linear:
             came = in_half_tangents(self.closure, space, rates)
@@ -396,12 +395,18 @@ class _Looking:
         return Branch(freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far)
 
 
-def _signs(rates: Floats) -> str:
-    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-    return "".join("0" if abs(rate) <= STILL else "+-"[int(rate < 0)] for rate in rates)
+def signs_of(rates: Floats) -> str:
+    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all.
+
+    Examples
+    --------
+    >>> signs_of(np.array([1.0, -0.5, 1e-12]))
+    '+-0'
+    """
+    return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
 
 
 def _rank_of(space: RateSpace, rates: Floats) -> Floats:
     """Return what branches are listed by: most joints that move, most rates, signs in order of joints, rates."""
-    signs = [" +-0".index(sign) for sign in _signs(rates)]
+    signs = [" +-0".index(sign) for sign in signs_of(rates)]
     return np.array([signs.count(3), -space.basis.shape[1], *signs, *rates], dtype=float)

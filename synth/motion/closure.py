@@ -16,38 +16,11 @@ import numpy as np
 import scipy.sparse
 
 from graphs.arrays import Floats, Ints
+from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["ClosureEquations", "frames_of", "turns"]
-
-
-def turns(axes: Floats, angles: Floats) -> Floats:
-    """Return rotations about unit vectors (Rodrigues).
-
-    Parameters
-    ----------
-    axes : float[..., 3]
-    angles : float[...]
-        Radians.
-
-    Returns
-    -------
-    float[..., 3, 3]
-
-    Examples
-    --------
-    >>> turns(np.array([0.0, 0.0, 1.0]), np.array(np.pi / 2)).round(12).tolist()
-    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-    """
-    x, y, z = np.moveaxis(axes, -1, 0)
-    c, s = np.cos(angles), np.sin(angles)
-    v = 1.0 - c
-    made = np.empty((*np.broadcast_shapes(axes.shape[:-1], np.shape(angles)), 3, 3))
-    made[..., 0, 0], made[..., 0, 1], made[..., 0, 2] = c + x * x * v, x * y * v - z * s, x * z * v + y * s
-    made[..., 1, 0], made[..., 1, 1], made[..., 1, 2] = x * y * v + z * s, c + y * y * v, y * z * v - x * s
-    made[..., 2, 0], made[..., 2, 1], made[..., 2, 2] = x * z * v - y * s, y * z * v + x * s, c + z * z * v
-    return made
+__all__ = ["ClosureEquations", "frames_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +53,7 @@ class _Alike:
     def by_axes(self, angles: Floats) -> Floats:
         """Return derivatives by small motions of the axes, each a rotation and a shift: float[L, e, 6 k]."""
         loops, k = self.joints.shape
-        steps = turns(self.axes, angles[self.joints] * self.signs)
+        steps = rotations(self.axes, angles[self.joints] * self.signs)
         before = _carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
         rotation, moved = np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3))
         made = np.empty((loops, 6, k, 6))
@@ -100,7 +73,7 @@ class _Alike:
         """Return residuals float[L, e] and derivatives float[L, e, k]."""
         loops, k = self.joints.shape
         spherical = self.centre is Centre.FINITE
-        steps = turns(self.axes, angles[self.joints] * self.signs)
+        steps = rotations(self.axes, angles[self.joints] * self.signs)
         rotation = np.broadcast_to(np.eye(3), (loops, 3, 3))
         moved = np.zeros((loops, 3))
         twists = np.empty((loops, 3 if spherical else 6, k))
@@ -285,7 +258,7 @@ def frames_of(axes: Floats) -> Floats:
     >>> abs(frames_of(np.array([[[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]))[0, 2]).round(12).tolist()
     [0.0, 0.0, 1.0]
     """
-    return np.linalg.svd(axes)[2][:, [1, 2, 0]]
+    return frame_about(common_direction(axes))
 
 
 def _rotation_vectors(rotations: Floats) -> Floats:

@@ -17,11 +17,11 @@ from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.extent import LEAST, MOST, in_reach
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.motion.beginning import Wanted, beginning
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
-from synth.motion.newton import CLOSED
 from synth.motion.path import DrivenPath, PathOptions, driven_path
 from synth.motion.walk.stepping import Allowance
 
@@ -88,8 +88,8 @@ def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
         If they miss by more than 1e-12, radians and units of the extent.
     """
     error = closure.error(linkage.angles)
-    if error > CLOSED:
-        raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {CLOSED:.0e}")
+    if error > DOUBLE.closed:
+        raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {DOUBLE.closed:.0e}")
 
 
 def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:

@@ -17,6 +17,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.geometry import lines_meet, unit
 from graphs.ids import JointId
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Centre
@@ -25,11 +26,9 @@ from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.rank.closure import independent_cycles
+from graphs.tolerances import DOUBLE, Tolerances
 
-__all__ = ["PosedLinkage", "PosedLoop", "linkage_of_axes", "linkage_of_sheet"]
-
-_ON_EACH_OTHER = 1e-6
-"""Panels this close to a fold of 180 degrees, in radians, lie on each other: the file says which way."""
+__all__ = ["PosedLinkage", "PosedLoop", "axis_lengths", "linkage_of_axes", "linkage_of_sheet"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,11 +118,12 @@ def linkage_of_axes(
             )
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    return _posed(graph, points, directions, np.zeros(len(points)), points)
+    return _posed(graph, points, unit(directions), np.zeros(len(points)), points)
 
 
-def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> PosedLinkage:
+def linkage_of_sheet(
+    sheet: Sheet, mechanism: SheetMechanism | None = None, tolerances: Tolerances = DOUBLE
+) -> PosedLinkage:
     """Return the linkage that a crease pattern is as it lies: panels are links, creases are joints.
 
     Joint angles are fold angles. Where panels lie on each other, the fold angles of the file say to which side, or
@@ -135,6 +135,8 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
         With coordinates, flat or folded.
     mechanism : SheetMechanism, optional
         Of this sheet, where it is at hand.
+    tolerances : Tolerances, optional
+        Of its coordinates: panels whose fold is 180 degrees but for rounding lie on each other.
 
     Raises
     ------
@@ -173,15 +175,35 @@ def linkage_of_sheet(sheet: Sheet, mechanism: SheetMechanism | None = None) -> P
     ]
     ways = [panels.way((a, b), face) for (a, b), (_, face) in zip(edges.tolist(), beside, strict=True)]
     directions = along / lengths[:, None] * np.array(ways, dtype=float)[:, None]
-    normals = panels.normals(corners)
+    areas = panels.areas(corners)
     pairs = np.array(beside, dtype=np.int64).reshape(-1, 2)
-    angles = _fold_angles(normals[pairs[:, 0]], normals[pairs[:, 1]], directions)
-    on_each_other = np.pi - np.abs(angles) < _ON_EACH_OTHER
+    first, second = unit(areas[pairs.T])
+    angles = _fold_angles(first, second, directions)
+    widths = np.linalg.norm(areas[pairs], axis=2).min(axis=1, initial=np.inf) / lengths
+    # rounding turns a panel about a crease by as much as it moves points, over the width of the panel
+    within = tolerances.same_configuration * widths + tolerances.parallel * extent_of(corners)
+    on_each_other = (np.pi - np.abs(angles)) * widths < within
     if on_each_other.any():
         marks = _marks(sheet)
         marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])
         angles = np.where(on_each_other & (marked != 0.0), np.copysign(np.pi, marked), angles)
     return _posed(found.sc, corners[edges].mean(axis=1), directions, angles, corners)
+
+
+def axis_lengths(linkage: PosedLinkage) -> Floats:
+    """Return how long the pieces of the axes are by which their directions are known: float[J], of the extent.
+
+    A crease lies half on either side of its point, from the vertex that its loop goes round. Other axes are taken
+    to be known as if they were as long as the extent.
+    """
+    lengths = np.ones(len(linkage.angles))
+    for loop in linkage.loops:
+        joints = list(loop.joints)
+        if loop.centre is Centre.FINITE:
+            points = linkage.points[joints]
+            off = 2.0 * np.linalg.norm(points - lines_meet(points, linkage.directions[joints]).point, axis=1)
+            lengths[joints] = np.where(off > DOUBLE.same_point, off, 1.0)
+    return lengths
 
 
 def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, all_points: Floats) -> PosedLinkage:
@@ -228,14 +250,13 @@ class _Panels:
         """Return 1 if a face passes an edge from its first end to its second, else -1."""
         return 1 if edge in self._sides[face] else -1
 
-    def normals(self, corners: Floats) -> Floats:
-        """Return the unit normals of the faces (Newell), zeros where a face has no area: float[faces, 3]."""
+    def areas(self, corners: Floats) -> Floats:
+        """Return the areas of the faces as vectors across them (Newell): float[faces, 3]."""
         ends = np.array([side for face in self._faces for side in sides_of_face(face)]).reshape(-1, 2)
         of = np.repeat(np.arange(len(self._faces)), [len(face) for face in self._faces])
-        normals = np.zeros((len(self._faces), 3))
-        np.add.at(normals, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
-        sizes = np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.asarray(normals / np.where(sizes == 0.0, 1.0, sizes))
+        areas = np.zeros((len(self._faces), 3))
+        np.add.at(areas, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]) / 2.0)
+        return areas
 
 
 def _fold_angles(first: Floats, second: Floats, axes: Floats) -> Floats:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
@@ -22,7 +23,6 @@ __all__ = ["Marked", "MarkedWay", "agreeing_best", "marked_way", "rates_as_marke
 
 Marked = Literal["has", "none has", "none found"]
 
-_STILL = 1e-9
 _STARTS, _LEAST, _TOGETHER = 40, 4, 600
 """Starts from which rates with all marks are looked for where equations are left: at most and at least on one
 space, and on all together."""
@@ -83,7 +83,7 @@ def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates
-    return -branch.rates if branch.rates @ marks < -_STILL else branch.rates
+    return -branch.rates if branch.rates @ marks < -DOUBLE.zero_rate else branch.rates
 
 
 def agreeing_best(found: Branches, marks: Floats) -> int:
@@ -91,7 +91,7 @@ def agreeing_best(found: Branches, marks: Floats) -> int:
 
     def agreement(branch: Branch) -> int:
         rates = rates_as_marked(branch, marks)
-        return int((np.sign(np.where(np.abs(rates) > _STILL, rates, 0.0)) * marks).sum())
+        return int((np.sign(np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)) * marks).sum())
 
     return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
 
@@ -113,7 +113,7 @@ def _marked_rates(space: RateSpace, marks: Floats, starts: int) -> list[Floats]:
             start = start * np.random.default_rng((len(marks), number)).uniform(0.0, 2.0, len(marks))
         rates = rates_towards(space, start)
         turned = (rates * marks)[marked]
-        if (turned > _STILL).all() or (turned < -_STILL).all():
+        if (turned > DOUBLE.zero_rate).all() or (turned < -DOUBLE.zero_rate).all():
             found.append(rates)
     return found
 

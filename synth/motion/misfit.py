@@ -12,13 +12,14 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import leading
 from graphs.mechanism.precision import Precision
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 
 __all__ = ["EXACT", "TURNED", "doubt_of", "least_misfit"]
 
-EXACT = 1e-12
-"""Coordinates that are precise to this part of the extent are taken at their word."""
+EXACT = DOUBLE.closed
+"""Coordinates that are precise to this part of the extent are taken at their word: loops of them close."""
 
 TURNED = radians(10.0)
 """How far the joint that moves most is turned."""

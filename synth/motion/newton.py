@@ -17,12 +17,11 @@ import scipy.sparse
 from scipy.sparse.linalg import splu
 
 from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 
-__all__ = ["CLOSED", "Corrected", "TangentSpace", "corrected", "exactly_held"]
+__all__ = ["Corrected", "TangentSpace", "corrected", "exactly_held"]
 
-CLOSED = 1e-12
-"""Loops that close to this, radians and units of the extent, are closed."""
 _REGULAR = 1e-9
 """Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding
 along freedoms is multiplied by its inverse."""
@@ -33,9 +32,6 @@ _HOLDS = 2
 """Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
-_STILL = 1e-9
-"""Squares of lengths of projected unit vectors below this are of joints that cannot move."""
-_MISSED = 1e-4
 _FREE = 1e-3
 """Part of a vector across the freedoms that is left where it has become one of them."""
 
@@ -70,7 +66,7 @@ class TangentSpace:
             return change
         moves = np.stack([self._move(joint) for joint in held])
         places = list(held)
-        shares = np.linalg.lstsq(moves[:, places], change[places], rcond=_STILL)[0]
+        shares = np.linalg.lstsq(moves[:, places], change[places], rcond=DOUBLE.zero)[0]
         return np.asarray(change - shares @ moves)
 
     def projected(self, rates: Floats) -> Floats:
@@ -125,10 +121,11 @@ class TangentSpace:
         """Return the least rates at which some joints have wanted ones; zeros if they cannot: float[J]."""
         moves = np.stack([self._move(joint) for joint in joints])
         places = list(joints)
-        shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=_STILL)
+        shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=DOUBLE.zero)
         rates = shares @ moves
-        possible = rank and np.abs(rates[places] - wanted).max() <= _MISSED * np.abs(wanted).max()
-        return rates if possible and moves[:, places].max() > _STILL else np.zeros_like(rates)
+        # normal equations keep half the digits
+        possible = rank and np.abs(rates[places] - wanted).max() <= DOUBLE.zero**0.5 * np.abs(wanted).max()
+        return rates if possible and moves[:, places].max() > DOUBLE.zero else np.zeros_like(rates)
 
 
 def _solver(
@@ -174,7 +171,7 @@ class Corrected:
     @property
     def closed(self) -> bool:
         """Whether all loops close."""
-        return self.error <= CLOSED
+        return self.error <= DOUBLE.closed
 
     @cached_property
     def space(self) -> TangentSpace:
@@ -202,7 +199,7 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
     space, fresh = None, True
     for steps in range(1, _STEPS + 1):
-        if best.error <= CLOSED / 100:
+        if best.error <= DOUBLE.closed / 100:
             break
         space = space or best.space
         moved = best.angles + space.step(off, held)

@@ -12,8 +12,8 @@ import networkx as nx
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import rotations
 from graphs.ids import LinkId
-from synth.motion.closure import turns
 from synth.motion.linkage import PosedLinkage
 
 __all__ = ["joints_outwards", "link_motions", "moved"]
@@ -49,7 +49,7 @@ def link_motions(
     still = (np.broadcast_to(np.eye(3), (len(angles), 3, 3)), np.zeros((len(angles), 3)))
     motions: dict[LinkId, tuple[Floats, Floats]] = {}
     for near, far, place, sign in joints_outwards(linkage, ground):
-        turn = turns(linkage.directions[place], sign * (angles[:, place] - linkage.angles[place]))
+        turn = rotations(linkage.directions[place], sign * (angles[:, place] - linkage.angles[place]))
         rotation, shift = motions.setdefault(near, still)
         point = linkage.points[place]
         motions[far] = rotation @ turn, shift + (rotation @ (point - turn @ point)[..., None])[..., 0]

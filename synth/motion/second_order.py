@@ -20,20 +20,22 @@ import scipy.sparse
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import canonical_basis, canonical_order, signed
+from graphs.rank.spaces import inertia, null_space, split
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
-from synth.motion.singular.definite import CLEAR, definite_weights
-from synth.motion.singular.quadrics import ZERO, Quadric, local_forms
+from synth.motion.singular.definite import definite_weights
+from synth.motion.singular.quadrics import Quadric, local_forms
 from synth.motion.walk.stepping import Allowance
 
 __all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near", "spaces_within"]
 
-_CLOSED, _STEPS = 1e-11, 40
+_STEPS = 40
 _MANY = 600
 _CASE = 3e4
 """Work on a case besides that on its matrices, in products of numbers."""
-_SAME, _LOST = 1e-6, 10.0
-"""Spaces that are this close are one, or this many times closer than what counts as zero."""
+_LOST = 10.0
+"""Spaces that are this many times closer than what counts as zero are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +55,11 @@ class RateSpace:
 
 
 def rate_spaces(
-    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], most: int = 4096, zero: float = ZERO
+    closure: ClosureEquations,
+    angles: Floats,
+    quadrics: Sequence[Quadric],
+    most: int = 4096,
+    zero: float = DOUBLE.zero,
 ) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, none part of another, and whether these are all.
 
@@ -73,7 +79,7 @@ def rate_spaces(
 
 
 def spaces_within(
-    tangent: Floats, quadrics: Sequence[Quadric], zero: float = ZERO, allowance: Allowance | None = None
+    tangent: Floats, quadrics: Sequence[Quadric], zero: float = DOUBLE.zero, allowance: Allowance | None = None
 ) -> Iterator[RateSpace]:
     """Yield spaces that hold all rates which agree to second order, depth first; some may be part of others.
 
@@ -92,7 +98,7 @@ def spaces_within(
     yield from _split(case, allowance or Allowance(inf))
 
 
-def largest_only(spaces: Sequence[RateSpace], zero: float = ZERO) -> list[RateSpace]:
+def largest_only(spaces: Sequence[RateSpace], zero: float = DOUBLE.zero) -> list[RateSpace]:
     """Return the spaces that are not part of another, each once, in their order."""
     kept: dict[int, list[int]] = {}
     for size in sorted({space.basis.shape[1] for space in spaces}, reverse=True):
@@ -103,7 +109,11 @@ def largest_only(spaces: Sequence[RateSpace], zero: float = ZERO) -> list[RateSp
 
 
 def rates_near(
-    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = _CLOSED
+    closure: ClosureEquations,
+    angles: Floats,
+    quadrics: Sequence[Quadric],
+    wanted: Floats,
+    zero: float = DOUBLE.zero,
 ) -> Floats | None:
     """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 
@@ -129,7 +139,7 @@ def rates_near(
     rows = np.repeat(np.arange(len(quadrics)), [len(quadric.joints) for quadric in quadrics])
     columns = np.array([joint for quadric in quadrics for joint in quadric.joints], dtype=np.int64)
     for _ in range(_STEPS):
-        if not np.linalg.norm(rates) > _SAME * size:
+        if not np.linalg.norm(rates) > DOUBLE.zero_rate * size:
             return None
         rates = rates * (size / np.linalg.norm(rates))
         slopes = [quadric.form @ rates[list(quadric.joints)] for quadric in quadrics]
@@ -143,7 +153,7 @@ def rates_near(
     return None
 
 
-def rates_at(closure: ClosureEquations, angles: Floats, zero: float = ZERO) -> Floats:
+def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zero) -> Floats:
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
     By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
@@ -151,7 +161,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = ZERO) -> F
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:
-        return canonical_basis(np.asarray(scipy.linalg.null_space(matrix, rcond=zero)))
+        return null_space(matrix, zero)
     columns, triangle, _ = scipy.linalg.qr(matrix.T, pivoting=True, overwrite_a=True, check_finite=False)
     sizes = np.abs(np.diag(triangle))
     return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
@@ -161,7 +171,7 @@ def _within_one(
     space: RateSpace, spaces: Sequence[RateSpace], kept: Mapping[int, Sequence[int]], zero: float
 ) -> bool:
     """Tell whether all rates of a space are those of one of the spaces kept, which are listed by their size."""
-    same = max(_SAME, _LOST * zero)
+    same = max(DOUBLE.clear, _LOST * zero)
     one = space.basis.sum(axis=1)  # most spaces differ here already
     for numbers in kept.values():
         bases = np.concatenate([spaces[number].basis for number in numbers], axis=1)
@@ -175,7 +185,7 @@ def _within_one(
 def _within(space: RateSpace, other: RateSpace, zero: float) -> bool:
     """Tell whether all rates of one space are those of another."""
     outside = space.basis - other.basis @ (other.basis.T @ space.basis)
-    if np.abs(outside).max(initial=0.0) > max(_SAME, _LOST * zero):
+    if np.abs(outside).max(initial=0.0) > max(DOUBLE.clear, _LOST * zero):
         return False
     theirs = [quadric for quadric in other.left if not any(quadric is mine for mine in space.left)]
     return bool(np.abs(local_forms(space.basis, theirs)).max(initial=0.0) <= zero)
@@ -196,7 +206,8 @@ class _Case:
 
     def across(self, normals: Floats) -> _Case:
         """Return the part of the space across one normal, float[s], or several, float[s, n]."""
-        part = scipy.linalg.null_space(normals.reshape(len(normals), -1).T, rcond=self.zero)
+        parts = split(normals.reshape(len(normals), -1).T, self.zero)
+        part = parts.right[parts.rank :].T
         return replace(self, basis=self.basis @ part, forms=part.T @ self.forms @ part)
 
 
@@ -211,7 +222,7 @@ def _split(case: _Case, allowance: Allowance) -> Iterator[RateSpace]:
         by_joints = [signed(case.basis @ normal) for normal in factors]
         for place in canonical_order([one / np.linalg.norm(one) for one in by_joints]):
             yield from _split(case.across(factors[place]), allowance)
-    elif len(case.left) < 2 or definite_weights(case.forms, max(case.zero, CLEAR)) is None:
+    elif len(case.left) < 2 or definite_weights(case.forms, max(case.zero, DOUBLE.clear)) is None:
         yield RateSpace(canonical_basis(case.basis), case.left)
 
 
@@ -225,14 +236,13 @@ def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:
         case = case.only(np.flatnonzero(np.abs(case.forms).max(axis=(1, 2), initial=0.0) > case.zero))
         if not case.left:
             return case, None
-        values, vectors = np.linalg.eigh(case.forms)
-        there = np.abs(values) > case.zero * np.abs(values).max(axis=1, keepdims=True)
-        positive, negative = (there & (values > 0)).sum(axis=1), (there & (values < 0)).sum(axis=1)
-        definite = np.flatnonzero((positive == 0) | (negative == 0))
+        found = inertia(case.forms, case.zero)
+        definite = np.flatnonzero((found.positive == 0) | (found.negative == 0))
         if not len(definite):
-            products = np.flatnonzero((positive == 1) & (negative == 1))
-            return case, _factors(values[products[0]], vectors[products[0]]) if len(products) else None
-        case = case.across(np.concatenate([vectors[one][:, there[one]] for one in definite], axis=1))
+            products = np.flatnonzero((found.positive == 1) & (found.negative == 1))
+            return case, _factors(found.values[products[0]], found.vectors[products[0]]) if len(products) else None
+        normals = [found.vectors[one][:, found.signs[one] != 0] for one in definite]
+        case = case.across(np.concatenate(normals, axis=1))
     return case.only(np.zeros(0, dtype=np.int64)), None
 
 

@@ -17,15 +17,16 @@ import networkx as nx
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import leading
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.geometry import frame_about, unit
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import precision_of
 from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import Tolerances
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 
 __all__ = ["linkage_of_rods"]
-
-_IN_LINE = 1e-6
-"""Rods whose angle has a sine of this or less are in line."""
 
 
 @dataclass
@@ -84,11 +85,12 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     rods = list(model.edges)
     ends = np.array([[model.coordinates[v] for v in rod] for rod in rods], dtype=float)
     directions = _directions(rods, ends)
+    tolerances = Tolerances.of(precision_of(list(model.coordinates.values())).size)
     hinges = _Hinges(list(range(len(rods))))
     meetings = _meetings(model, rods)
-    tree = _tree(meetings, directions)
+    tree = _tree(meetings, directions, tolerances.parallel)
     for first, second, vertex in tree:
-        across = _across(directions[first], directions[second])
+        across = _across(directions[first], directions[second], tolerances.parallel)
         hinges.join(first, second, _at(model, vertex), across[:1] if not hinges.joints else across)
     for first, second, vertex in _others(meetings, tree):
         hinges.join(first, second, _at(model, vertex), np.eye(3))
@@ -120,8 +122,7 @@ def _directions(rods: list[tuple[Any, Any]], ends: Floats) -> Floats:
     sizes = np.abs(along).max(axis=1)
     for rod in np.flatnonzero(sizes == 0.0):
         raise InvariantError("rod", f"the rod between vertices {shown(rods[rod])} has no length")
-    along /= sizes[:, None]
-    return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))
+    return unit(along / sizes[:, None])
 
 
 def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hashable, list[int]]:
@@ -133,14 +134,16 @@ def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hasha
     return meetings
 
 
-def _tree(meetings: dict[Hashable, list[int]], directions: Floats) -> list[tuple[int, int, Hashable]]:
+def _tree(
+    meetings: dict[Hashable, list[int]], directions: Floats, parallel: float
+) -> list[tuple[int, int, Hashable]]:
     """Return a tree of the rods, (rod, next rod, vertex) from the first; the first two are not in line."""
     touching = nx.Graph()
     touching.add_nodes_from(range(len(directions)))
     for vertex, here in meetings.items():
         for place, first in enumerate(here):
             touching.add_edges_from((first, second, {"vertex": vertex}) for second in here[place + 1 :])
-    root, turn = _beginning(touching, directions)
+    root, turn = _beginning(touching, directions, parallel)
     order = [(root, turn), *nx.bfs_edges(touching, root)] if turn is not None else []
     seen, tree = {root}, []
     for first, second in order:
@@ -150,14 +153,15 @@ def _tree(meetings: dict[Hashable, list[int]], directions: Floats) -> list[tuple
     return tree
 
 
-def _beginning(touching: nx.Graph, directions: Floats) -> tuple[int, int | None]:
+def _beginning(touching: nx.Graph, directions: Floats, parallel: float) -> tuple[int, int | None]:
     """Return two rods that meet, at the largest angle there is; None for the second if there is but one rod."""
     if len(directions) == 1:
         return 0, None
     pairs = list(touching.edges)
-    sines = [float(np.linalg.norm(np.cross(directions[a], directions[b]))) for a, b in pairs]
-    best = int(np.argmax(np.round(sines, 6)))
-    if sines[best] <= _IN_LINE:
+    ends = np.array(pairs).T
+    sines = np.linalg.norm(np.cross(directions[ends[0]], directions[ends[1]]), axis=1)
+    best = leading(sines)
+    if sines[best] <= parallel:
         raise UnsolvableError("all rods are in line: their plane is not known")
     first, second = pairs[best]
     return int(first), int(second)
@@ -176,13 +180,12 @@ def _others(
     return left
 
 
-def _across(first: Floats, second: Floats) -> Floats:
+def _across(first: Floats, second: Floats, parallel: float) -> Floats:
     """Return two directions across a rod: that across the rod before it too, if they are not in line, first."""
     normal = np.cross(first, second)
-    if np.linalg.norm(normal) <= _IN_LINE:
-        normal = np.cross(second, np.eye(3)[np.abs(second).argmin()])
-    normal /= np.linalg.norm(normal)
-    return np.stack([normal, np.cross(second, normal)])
+    if np.linalg.norm(normal) <= parallel:
+        return frame_about(second)[:2]
+    return np.stack([unit(normal), np.cross(second, unit(normal))])
 
 
 def _at(model: PolyhedronModel, vertex: Hashable) -> Floats:

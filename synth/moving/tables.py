@@ -18,12 +18,11 @@ from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from synth.moving.made import configuration_of, sheet_of
 
 __all__ = ["TABLES", "table_text"]
 
-_ROUNDING = 1e-12
-"""Of the extent: poses that differ by no more are one."""
 _Cell = int | float | str
 _AXES = ("frame", "joint", "first_link", "second_link", "x", "y", "z", "dx", "dy", "dz", "angle_deg")
 _VERTICES = ("frame", "vertex", "x", "y", "z")
@@ -92,7 +91,7 @@ def _poses(thing: Mechanism) -> tuple[list[Mechanism], int]:
 def _stand_alike(first: Sheet, second: Sheet) -> bool:
     """Tell whether two poses are one: the first frame of a motion is often the key frame again, to rounding."""
     one, other = (in_space(sheet.coordinates or ()) for sheet in (first, second))
-    return bool(np.abs(one - other).max(initial=0.0) <= _ROUNDING * np.ptp(one, axis=0).max(initial=0.0))
+    return bool(np.abs(one - other).max(initial=0.0) <= DOUBLE.same_point * np.ptp(one, axis=0).max(initial=0.0))
 
 
 def _axes(thing: Mechanism) -> Iterator[tuple[_Cell, ...]]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from graphs.convert.table import Mechanism
 from graphs.given import check_given
+from graphs.tolerances import Tolerances
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
 from synth.overconstraint.answer import Explanation, IdleSet
 from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets
 from synth.overconstraint.reasons import reasons_of
-from synth.overconstraint.tolerances import tolerances
+from synth.overconstraint.tolerances import axis_tolerances
 
 __all__ = ["explain"]
 
@@ -39,14 +40,15 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
     check_given("explain", thing, Movable)
     at = configuration_of(thing)
     linkage = at.linkage
-    order = first_order(linkage)
+    order = first_order(linkage, at.tolerances)
+    meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
     names = list(linkage.graph.joints)
     active = active_at_second_order(linkage, order)
     sets = tuple(
         IdleSet(
             tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
             number,
-            tuple(reasons_of(linkage, loops)),
+            tuple(reasons_of(linkage, loops, meant)),
         )
         for loops, number in smallest_sets(linkage, order)
     )
@@ -58,7 +60,7 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
         idle=idle,
         active=active,
         sets=sets,
-        tolerances=tuple(tolerances(linkage, order)) if idle and freedoms and not active else (),
+        tolerances=tuple(axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
         smallest=order.smallest,
         gap=order.gap,
     )

@@ -15,17 +15,14 @@ from graphs.canonical import canonical_basis
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre
 from graphs.rank.singular_values import spectrum
+from graphs.rank.spaces import row_space, singular_values, split
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 
 __all__ = ["FirstOrder", "active_at_second_order", "first_order", "loop_alone", "smallest_sets"]
 
-_ERROR = 1e-10
-"""Of derivatives at a pose that closes to 1e-12."""
-_ZERO = 1e-7
 _NUDGE = 1e-4
-_FORM = 1e-5
-"""Of quadratic forms by differences, which have an error of the square of the nudge."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +42,8 @@ class FirstOrder:
         The smallest singular value that counts.
     gap : float
         It over the largest that does not; infinite where there is none.
+    tolerances : Tolerances
+        By which the rank was told.
     """
 
     matrix: Floats
@@ -53,10 +52,17 @@ class FirstOrder:
     stresses: Floats
     smallest: float
     gap: float
+    tolerances: Tolerances
 
 
-def first_order(linkage: PosedLinkage) -> FirstOrder:
+def first_order(linkage: PosedLinkage, tolerances: Tolerances = DOUBLE) -> FirstOrder:
     """Return the closure equations at the pose of a linkage, with their rank.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    tolerances : Tolerances, optional
+        Of its coordinates.
 
     Raises
     ------
@@ -72,13 +78,13 @@ def first_order(linkage: PosedLinkage) -> FirstOrder:
     (1, 3)
     """
     matrix, loop_of = _by_loops(linkage, linkage.angles)
-    found = spectrum(matrix, _ERROR)
+    found = spectrum(matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / axis_lengths(linkage)))
     if found.rank is None:
         raise NumericalError("the rank of the closure equations at the pose cannot be told")
-    left, values, right = np.linalg.svd(matrix)
-    smallest = float(values[found.rank - 1]) if found.rank else 0.0
-    rates, stresses = canonical_basis(right[found.rank :].T), canonical_basis(left[:, found.rank :])
-    return FirstOrder(matrix, loop_of, rates, stresses, smallest, found.gap)
+    parts = split(matrix)
+    smallest = float(parts.values[found.rank - 1]) if found.rank else 0.0
+    rates, stresses = canonical_basis(parts.right[found.rank :].T), canonical_basis(parts.left[:, found.rank :])
+    return FirstOrder(matrix, loop_of, rates, stresses, smallest, found.gap, tolerances)
 
 
 def smallest_sets(linkage: PosedLinkage, order: FirstOrder) -> list[tuple[tuple[int, ...], int]]:
@@ -102,7 +108,7 @@ def smallest_sets(linkage: PosedLinkage, order: FirstOrder) -> list[tuple[tuple[
                     if fewer and (left := _new_stresses(order, fewer, known)).shape[1]:
                         chosen, new = fewer, left
                 sets.append((tuple(sorted(chosen)), new.shape[1]))
-                known = np.linalg.svd(np.hstack([known, new]), full_matrices=False)[0]
+                known = np.hstack([known, new])
                 chosen = nearest[seed][:size]
     return sets
 
@@ -121,8 +127,7 @@ def active_at_second_order(linkage: PosedLinkage, order: FirstOrder) -> int:
         return 0
     stacked = np.stack(forms, axis=1)  # [idle, f, f]
     symmetric = (stacked + stacked.transpose(0, 2, 1)).reshape(stresses.shape[1], -1)
-    values = np.linalg.svd(symmetric, compute_uv=False)
-    return int((values > _FORM).sum())
+    return int((singular_values(symmetric) > order.tolerances.clear).sum())  # of unit rates and stresses
 
 
 def loop_alone(linkage: PosedLinkage, loop: PosedLoop) -> PosedLinkage:
@@ -158,10 +163,7 @@ def _new_stresses(order: FirstOrder, loops: list[int], known: Floats) -> Floats:
     """Return self-stresses of some loops alone that are independent of known ones: float[rows, n]."""
     inside = np.isin(order.loop_of, loops)
     part = order.matrix[inside]
-    left, values, _ = np.linalg.svd(part)
-    rank = int((values > _ZERO * max(float(values[0]), 1.0)).sum()) if len(values) else 0
-    found = np.zeros((len(order.loop_of), part.shape[0] - rank))
-    found[inside] = left[:, rank:]
-    beside = found - known @ (known.T @ found)
-    basis, sizes, _ = np.linalg.svd(beside, full_matrices=False)
-    return np.asarray(basis[:, sizes > _ZERO**0.5])
+    alone = split(part, order.tolerances.zero).cokernel
+    found = np.zeros((len(order.loop_of), alone.shape[1]))
+    found[inside] = alone
+    return row_space((found - known @ (known.T @ found)).T, order.tolerances.zero**0.5, scale=1.0)

@@ -7,22 +7,29 @@ docs/theory/overconstraint.md.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import pi
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
+from graphs.arrays import Flags, Floats, Ints
+from graphs.geometry import lines_meet, rigid_motion, sectors
 from graphs.loops.loop import Centre
-from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.moving.made import off_one_point
+from graphs.rank.spaces import singular_values
+from graphs.tolerances import DOUBLE, Tolerances
+from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 
 __all__ = ["reasons_of"]
 
-_NEAR = 1e-6
-"""Of directions, and of lengths in units of the extent."""
 
-
-def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...]) -> list[str]:
+def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE) -> list[str]:
     """Say which special geometry a set of loops has; none where no reason that is known here fits.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    loops : tuple of int
+    tolerances : Tolerances, optional
+        Of its coordinates.
 
     Examples
     --------
@@ -32,30 +39,33 @@ def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...]) -> list[str]:
     ['plane symmetry: a mirror takes the axes to each other']
     """
     chosen = [linkage.loops[loop] for loop in loops]
+    turned = tolerances.parallel / axis_lengths(linkage)
+    near = [float(turned[list(loop.joints)].sum()) for loop in chosen]  # what rounding of all its axes comes to
     if len(chosen) == 1:
-        return list(_of_one_loop(linkage, chosen[0]))
-    return list(_of_vertices(linkage, chosen))
+        return list(_of_one_loop(linkage, chosen[0], near[0]))
+    return list(_of_vertices(linkage, chosen, near))
 
 
-def _of_one_loop(linkage: PosedLinkage, loop: PosedLoop) -> Iterator[str]:
+def _of_one_loop(linkage: PosedLinkage, loop: PosedLoop, near: float) -> Iterator[str]:
+    """Yield reasons that one loop shows where lengths, in units of the extent, and angles are wrong by so much."""
     points, axes = linkage.points[list(loop.joints)], linkage.directions[list(loop.joints)]
     if loop.centre is not Centre.NONE:
         spread = axes if loop.centre is Centre.FINITE else np.vstack([axes[:1], points - points[0]])
-        if np.linalg.svd(spread, compute_uv=False)[-1] <= _NEAR:
+        if singular_values(spread)[-1] <= near:
             yield "all axes in one plane, at this pose"
         return
-    if _are_parallel(axes):
+    if _parallel(axes, axes[0], near).all():
         yield "all axes parallel: a planar loop"
-    elif off_one_point(points, axes) <= _NEAR:
+    elif lines_meet(points, axes).off.max() <= near:
         yield "all axes through one point: a spherical loop"
     else:
-        yield from _of_two_directions(axes)
-        yield from _of_equal_links(points, axes)
-        yield from _of_symmetry(points, axes)
+        yield from _of_two_directions(axes, near)
+        yield from _of_equal_links(points, axes, near)
+        yield from _of_symmetry(points, axes, near)
 
 
-def _of_two_directions(axes: Floats) -> Iterator[str]:
-    parallel = np.linalg.norm(np.cross(axes[:, None], axes[None]), axis=2) <= _NEAR
+def _of_two_directions(axes: Floats, near: float) -> Iterator[str]:
+    parallel = _parallel(axes[:, None], axes[None], near)
     sizes = sorted(int(row.sum()) for row in np.unique(parallel, axis=0))
     if sizes == [3, 3]:
         yield "two triples of parallel axes (Sarrus)"
@@ -63,112 +73,95 @@ def _of_two_directions(axes: Floats) -> Iterator[str]:
         yield f"{sizes[-1]} parallel axes in a row of {len(axes)}"
 
 
-def _of_equal_links(points: Floats, axes: Floats) -> Iterator[str]:
-    lengths, twists = _links(points, axes)
+def _of_equal_links(points: Floats, axes: Floats, near: float) -> Iterator[str]:
+    lengths, twists = _links(points, axes, near)
     if len(axes) == 4:
-        alike = np.abs(lengths - np.roll(lengths, 2)).max() <= _NEAR
-        turned = np.abs(np.sin(twists) - np.sin(np.roll(twists, 2))).max() <= _NEAR
+        alike = np.abs(lengths - np.roll(lengths, 2)).max() <= near
+        turned = np.abs(np.sin(twists) - np.sin(np.roll(twists, 2))).max() <= near
         ratio = lengths[0] * np.sin(twists[1]) - lengths[1] * np.sin(twists[0])
-        if alike and turned and abs(ratio) <= _NEAR:
+        if alike and turned and abs(ratio) <= near:
             yield "opposite links alike, lengths as the sines of the twists (Bennett)"
-    elif np.abs(np.cos(twists)).max() <= _NEAR and np.ptp(lengths) <= _NEAR:
+    elif np.abs(np.cos(twists)).max() <= near and np.ptp(lengths) <= near:
         yield "right twists and equal lengths (kaleidocycle)"
-    elif len(axes) == 6 and np.abs(np.cos(twists)).max() <= _NEAR:
-        before, after = _feet(points, axes)
+    elif len(axes) == 6 and np.abs(np.cos(twists)).max() <= near:
+        before, after = _feet(points, axes, near)
         alternate = (lengths**2) @ np.array([1.0, -1.0] * 3)
-        if np.abs(after - before).max() <= _NEAR and abs(float(alternate)) <= _NEAR:
+        if np.abs(after - before).max() <= near and abs(float(alternate)) <= near:
             yield "right twists, no offsets, squares of alternate lengths alike in sum (Bricard's trihedral)"
 
 
-def _of_symmetry(points: Floats, axes: Floats) -> Iterator[str]:
+def _of_symmetry(points: Floats, axes: Floats, near: float) -> Iterator[str]:
     count = len(axes)
-    if count % 2 == 0 and _is_symmetry(points, axes, np.roll(np.arange(count), count // 2), half_turn=True):
+    if count % 2 == 0 and _is_symmetry(points, axes, np.roll(np.arange(count), count // 2), near, half_turn=True):
         yield "line symmetry: half a turn takes each axis to its opposite"
     for shift in range(count):
-        if _is_symmetry(points, axes, (shift - np.arange(count)) % count, half_turn=False):
+        if _is_symmetry(points, axes, (shift - np.arange(count)) % count, near, half_turn=False):
             yield "plane symmetry: a mirror takes the axes to each other"
             return
 
 
-def _is_symmetry(points: Floats, axes: Floats, image: Ints, *, half_turn: bool) -> bool:
+def _is_symmetry(points: Floats, axes: Floats, image: Ints, near: float, *, half_turn: bool) -> bool:
     """Tell whether half a turn about a line, or a mirror, takes each axis to its image.
 
     Points of lines: the two feet on the axes of the links beside, which a symmetry takes to each other.
     """
-    before, after = _feet(points, axes)
+    before, after = _feet(points, axes, near)
     if half_turn:
         there = np.concatenate([before[image], after[image]])
     else:
         there = np.concatenate([after[image], before[image]])
     here = np.concatenate([before, after])
-    middle = here.mean(axis=0)
-    if np.abs(there.mean(axis=0) - middle).max() > _NEAR:
+    turn, shift = rigid_motion(here, there, mirrored=not half_turn)
+    twice = np.abs(turn @ turn - np.eye(3)).max() <= near  # of order two; no identity, no inversion
+    if not twice or abs(float(np.trace(turn)) + (1.0 if half_turn else -1.0)) > near:
         return False
-    u, _, v = np.linalg.svd((here - middle).T @ (there - middle))
-    wanted = 1.0 if half_turn else -1.0
-    turn = v.T @ np.diag([1.0, 1.0, wanted * np.sign(np.linalg.det(v.T @ u.T))]) @ u.T
-    squares = np.abs(turn @ turn - np.eye(3)).max() <= _NEAR  # of order two, and no inversion
-    if not squares or abs(float(np.trace(turn)) + wanted) > _NEAR:
-        return False
-    moved = np.abs((here - middle) @ turn.T + middle - there).max()
-    directed = np.linalg.norm(np.cross(axes @ turn.T, axes[image]), axis=1).max()
-    return bool(max(moved, directed) <= _NEAR)
+    moved = np.abs(here @ turn.T + shift - there).max() <= near
+    return bool(moved and _parallel(axes @ turn.T, axes[image], near).all())
 
 
-def _of_vertices(linkage: PosedLinkage, loops: list[PosedLoop]) -> Iterator[str]:
+def _of_vertices(linkage: PosedLinkage, loops: list[PosedLoop], near: list[float]) -> Iterator[str]:
     """Vertices of four creases that fold flat keep the ratios of their half-angle tangents."""
     if all(loop.centre is Centre.FINITE and len(loop.joints) == 4 for loop in loops):
-        axes = [linkage.directions[list(loop.joints)] for loop in loops]
-        if all(_folds_flat(one, loop) for one, loop in zip(axes, loops, strict=True)):
+        round_each = [(*_sectors(linkage, loop), error) for loop, error in zip(loops, near, strict=True)]
+        if all(abs(a + c - pi) <= error and abs(b + d - pi) <= error for a, b, c, d, error in round_each):
             yield (
                 "vertices of four creases that fold flat: half-angle tangents keep their ratios there, and as "
                 "these agree round the vertices at this pose they agree at all"
             )
-        elif all(_opposite_sectors_alike(one, loop) for one, loop in zip(axes, loops, strict=True)):
+        elif all(abs(a - c) <= error and abs(b - d) <= error for a, b, c, d, error in round_each):
             yield "vertices of four creases with opposite sectors alike: opposite creases turn alike"
 
 
-def _folds_flat(axes: Floats, loop: PosedLoop) -> bool:
-    """Tell whether every other of four sectors add up to half a turn."""
-    first, second, third, fourth = _sectors(axes, loop)
-    return abs(first + third - np.pi) <= _NEAR and abs(second + fourth - np.pi) <= _NEAR
-
-
-def _opposite_sectors_alike(axes: Floats, loop: PosedLoop) -> bool:
-    first, second, third, fourth = _sectors(axes, loop)
-    return abs(first - third) <= _NEAR and abs(second - fourth) <= _NEAR
-
-
-def _sectors(axes: Floats, loop: PosedLoop) -> list[float]:
+def _sectors(linkage: PosedLinkage, loop: PosedLoop) -> list[float]:
     """Return the angles between creases, as they go out from the vertex."""
-    outwards = axes * np.array(loop.signs, dtype=float)[:, None]
-    cosines = np.clip((outwards * np.roll(outwards, -1, axis=0)).sum(axis=1), -1.0, 1.0)
-    return [float(one) for one in np.arccos(cosines)]
+    outwards = linkage.directions[list(loop.joints)] * np.array(loop.signs, dtype=float)[:, None]
+    return [float(one) for one in sectors(outwards)]
 
 
-def _links(points: Floats, axes: Floats) -> tuple[Floats, Floats]:
+def _links(points: Floats, axes: Floats, near: float) -> tuple[Floats, Floats]:
     """Return lengths of common normals and twists between successive axes."""
-    before, after = _feet(points, axes)
+    before, after = _feet(points, axes, near)
     lengths = np.linalg.norm(np.roll(before, -1, axis=0) - after, axis=1)
-    cosines = np.abs((axes * np.roll(axes, -1, axis=0)).sum(axis=1))
-    return lengths, np.arccos(np.clip(cosines, 0.0, 1.0))
+    twists = sectors(axes)
+    return lengths, np.minimum(twists, pi - twists)
 
 
-def _feet(points: Floats, axes: Floats) -> tuple[Floats, Floats]:
+def _feet(points: Floats, axes: Floats, near: float) -> tuple[Floats, Floats]:
     """Return, on each axis, the feet of the common normals with the axis before it and with that after it."""
-    after = _foot(points, axes, np.roll(points, -1, axis=0), np.roll(axes, -1, axis=0))
-    before = _foot(points, axes, np.roll(points, 1, axis=0), np.roll(axes, 1, axis=0))
+    after = _foot(points, axes, np.roll(points, -1, axis=0), np.roll(axes, -1, axis=0), near)
+    before = _foot(points, axes, np.roll(points, 1, axis=0), np.roll(axes, 1, axis=0), near)
     return before, after
 
 
-def _foot(points: Floats, axes: Floats, others: Floats, directions: Floats) -> Floats:
+def _foot(points: Floats, axes: Floats, others: Floats, directions: Floats, near: float) -> Floats:
     cosines = (axes * directions).sum(axis=1, keepdims=True)
     sines = 1.0 - cosines**2
     along = ((others - points) * (axes - cosines * directions)).sum(axis=1, keepdims=True)
-    parallel = sines <= _NEAR**2
+    parallel = _parallel(axes, directions, near)[:, None]
     level = ((others - points) * axes).sum(axis=1, keepdims=True) / 2.0  # parallel: half-way between the points
     return np.asarray(points + np.where(parallel, level, along / np.where(parallel, 1.0, sines)) * axes)
 
 
-def _are_parallel(axes: Floats) -> bool:
-    return bool(np.linalg.norm(np.cross(axes, axes[0]), axis=1).max() <= _NEAR)
+def _parallel(one: Floats, other: Floats, near: float) -> Flags:
+    """Tell which axes are parallel, whichever way they run."""
+    return np.asarray(np.linalg.norm(np.cross(one, other), axis=-1) <= near)

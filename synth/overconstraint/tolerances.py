@@ -15,15 +15,14 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.overconstraint.idle import FirstOrder, loop_alone
 
-__all__ = ["Tolerance", "tolerances"]
+__all__ = ["Tolerance", "axis_tolerances"]
 
 _NUDGE = 1e-4
-_NOTHING = 1e-8
-"""Growth that is rounding: the error does no harm to first order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +43,7 @@ class Tolerance:
     shift: float
 
 
-def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
+def axis_tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
     """Return how far each axis may err, least first; axes that may err alike in the order of the joints.
 
     Examples
@@ -53,7 +52,7 @@ def tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
     >>> from synth.overconstraint.idle import first_order
     >>> from synth.patterns import generate
     >>> linkage = configuration_of(generate("bennett").mechanism).linkage
-    >>> len(tolerances(linkage, first_order(linkage)))
+    >>> len(axis_tolerances(linkage, first_order(linkage)))
     4
     """
     growth = growths(linkage, order)
@@ -95,7 +94,7 @@ def growths(linkage: PosedLinkage, order: FirstOrder) -> Floats:
 def _allowed(smallest: float, growth: Floats) -> float:
     """Return the error that makes the singular value grow to the smallest that counts."""
     largest = float(np.linalg.norm(growth, 2)) if growth.size else 0.0
-    return smallest / largest if largest > _NOTHING else inf
+    return smallest / largest if largest > DOUBLE.zero_rate else inf  # else it does no harm to first order
 
 
 def _cross_with(point: Floats) -> Floats:

@@ -11,6 +11,7 @@ from graphs.errors import InvariantError, shown
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.tolerances import DOUBLE
 
 __all__ = ["FOLD", "Generator", "Parameter", "Unit", "Values", "angle", "count", "length"]
 
@@ -18,8 +19,6 @@ Unit = Literal["count", "length", "angle"]
 """Counts are whole; lengths have any unit, the same for all of a mechanism; angles are radians."""
 
 Values = Mapping[str, float]
-_ROUNDING = 1e-9
-"""By so much an angle may pass the end of its range: degrees are rounded."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,7 @@ class Parameter:
         graphs.errors.InvariantError: rows = 12; expected a whole number from 1 to 9 [parameter]
         """
         whole = self.unit != "count" or value == int(value) if isfinite(value) else False
-        if not whole or not self.least - _ROUNDING <= value <= self.most + _ROUNDING:
+        if not whole or not self.least - DOUBLE.same_point <= value <= self.most + DOUBLE.same_point:
             raise InvariantError("parameter", f"{self.name} = {self.told(value)}", self.range)
         return int(value) if self.unit == "count" else float(value)
 

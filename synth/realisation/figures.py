@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import angles_between
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 
 __all__ = ["ShapeFigures", "crossings", "figures_of"]
 
-_TOUCHING = 1e-9
 _SHARP, _RATIO = float(np.radians(15.0)), 0.15
 
 
@@ -75,7 +76,7 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
     points[:, : given.shape[1]] = given
     before, at, after = points[pattern.corners.T]
     back, on = before - at, after - at
-    angles = np.arctan2(np.linalg.norm(np.cross(on, back), axis=1), (on * back).sum(axis=1))
+    angles = angles_between(on, back)
     angles = np.where(bent > np.pi, 2 * np.pi - angles, angles)
     lengths = np.linalg.norm(points[pattern.edges[:, 1]] - points[pattern.edges[:, 0]], axis=1)
     one, other = np.triu_indices(len(points), 1)
@@ -100,8 +101,9 @@ def crossings(pattern: Pattern, places: Floats) -> int:
     one, other = np.triu_indices(len(pattern.edges), 1)
     a, b = (places[ends] for ends in pattern.edges[one].T)
     c, d = (places[ends] for ends in pattern.edges[other].T)
-    met = (_side(a, b, c) * _side(a, b, d) < -_TOUCHING) & (_side(c, d, a) * _side(c, d, b) < -_TOUCHING)
-    return int(met.sum()) + int((_from_edges(pattern, places) < _TOUCHING * extent_of(places)).sum())
+    same = DOUBLE.same_point
+    met = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
+    return int(met.sum()) + int((_from_edges(pattern, places) < same * extent_of(places)).sum())
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:

@@ -14,7 +14,10 @@ from functools import cached_property, partial
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import unit
 from graphs.mechanism.sheet import sides_of_face
+from graphs.rank.spaces import split
+from graphs.tolerances import DOUBLE
 from synth.motion.walk.stepping import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
@@ -34,7 +37,7 @@ _OFF = 30.0
 """What a crease off its centre costs."""
 _SEEN = np.radians(6.0)
 """Sides of bent panels that are seen from the hub under less than this cost more than they should."""
-_CLOSED = 1e-14
+_TIGHT = 1e-14
 _ENOUGH = 1e-3
 """A step that gains less than this part is the last, where creases are near to their centres."""
 _LEAST = 1e-9
@@ -80,9 +83,9 @@ class _Cost:
 
     @cached_property
     def _split(self) -> tuple[Floats, Floats]:
-        u, singular, vt = np.linalg.svd(self.off_by)
-        rank = int((singular > 1e-9 * singular[0]).sum())
-        return (vt[:rank].T / singular[:rank]) @ u[:, :rank].T, vt[rank:].T
+        parts = split(self.off_by)
+        rank, right = parts.rank, parts.right
+        return (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T, right[rank:].T
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,12 +156,12 @@ def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | 
     """Return the drawing with all creases on their centres and all conditions met, moved as little as possible."""
     for _ in range(12):
         off, by = exactly(unknowns)
-        if np.abs(off).max(initial=0.0) <= _CLOSED:
+        if np.abs(off).max(initial=0.0) <= _TIGHT:
             break
-        unknowns = unknowns - (np.linalg.pinv(by, rcond=1e-9) @ off).reshape(unknowns.shape)
+        unknowns = unknowns - (np.linalg.pinv(by, rcond=DOUBLE.zero) @ off).reshape(unknowns.shape)
     angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
     off, _ = exactly(unknowns)
-    if np.abs(off).max(initial=0.0) > 10 * _CLOSED or not is_drawn(pattern, angles):
+    if np.abs(off).max(initial=0.0) > DOUBLE.closed or not is_drawn(pattern, angles):
         return None
     return unknowns
 
@@ -193,8 +196,7 @@ def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floa
     motions = np.zeros((3, *unknowns.shape))
     motions[0, :, 0] = motions[1, :, 1] = points
     motions[2] = (unknowns - middle)[:, ::-1] * (-1.0, 1.0)
-    rows = motions.reshape(3, -1)
-    rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    rows = unit(motions.reshape(3, -1))
     idle = rows[np.abs(cost.off_by @ rows.T).max(axis=0, initial=0.0) < _IDLE]
     along = np.linalg.qr(idle.T)[0]
     return step - (along @ (along.T @ step.ravel())).reshape(step.shape)

@@ -8,11 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats, Ints
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 
 __all__ = ["corner_angles", "edge_lengths", "is_drawn", "opened_angles", "sums_at"]
-
-_TURN = 1e-6
 
 
 def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
@@ -94,7 +93,7 @@ def is_drawn(pattern: Pattern, angles: Floats) -> bool:
     sides = np.array([len(panel) for panel in pattern.panels])
     turns = np.bincount(pattern.panel_of_corner, angles, len(sides)) - np.pi * (sides - 2)
     inner = sums_at(pattern, pattern.inner) @ angles - 2 * np.pi
-    return bool(np.abs(turns).max() < _TURN and np.abs(inner).max(initial=0.0) < _TURN)
+    return bool(np.abs([*turns, *inner]).max() < DOUBLE.same_configuration)
 
 
 def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:

@@ -9,15 +9,14 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import common_direction, unit
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern, Pointing
 
 __all__ = ["first_unknowns", "off_centres"]
 
 _LEFT, _RIGHT = np.array([-1.0, 1.0]), np.array([1.0, -1.0])
 """Signs of (y, x), by which a vector (x, y) is turned to the left, to the right."""
-
-_MIDDLE = 1e-6
-"""A centre nearer to the middle of a crease than this has no direction from there."""
 
 
 def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels: Floats) -> Floats:
@@ -65,7 +64,8 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     along = unknowns[b] - unknowns[a]
     reach = (1 - infinite)[:, None] / 2
     to = unknowns[centre] - reach * (unknowns[a] + unknowns[b])
-    scale = np.maximum(np.sqrt((along**2).sum(axis=1) * (to**2).sum(axis=1)), _MIDDLE)
+    sizes = np.sqrt((along**2).sum(axis=1) * (to**2).sum(axis=1))
+    scale = np.maximum(sizes, DOUBLE.same_point)  # in the middle of a crease a centre has no direction from there
     by_along, by_to = to[:, ::-1] * _RIGHT / scale[:, None], along[:, ::-1] * _LEFT / scale[:, None]
     half = reach * by_to
     rows, directions = np.arange(len(pattern.aims)), pattern.directions
@@ -83,5 +83,4 @@ def _common_direction(pattern: Pattern, places: Floats, one: Pointing) -> Floats
     """Return the direction that creases have in the mean, whichever way they run."""
     ends = places[[pattern.creases[crease] for crease in one.creases]]
     along = ends[:, 1] - ends[:, 0]
-    direction: Floats = np.linalg.svd(along / np.linalg.norm(along, axis=1)[:, None])[2][0]
-    return direction
+    return common_direction(unit(along))

@@ -25,6 +25,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import first_branch, search_for
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.walk.stepping import Allowance
@@ -46,8 +47,6 @@ _TRIES = 12
 _HEIGHTS = (0.6, 0.3)
 """Parts of its heights to which a pose in space is flattened where its shape is not good. The map is affine, so
 panels stay planar, and axes that meet go on meeting."""
-_STILL = 1e-7
-"""Creases that begin to fold no faster than this, by the fastest, do not fold."""
 _WORK, _STEPS = 10_000_000_000, 3
 """Cubes of the number of coordinates that steps of improvement may go through: types of a hundred vertices never
 come to the end of them, one of a thousand does at once. Each realisation has some steps, whatever its size."""
@@ -398,7 +397,7 @@ def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
 
 
 def _turns_all(rates: Floats) -> bool:
-    return bool(np.abs(rates).min(initial=1.0) > _STILL)
+    return bool(np.abs(rates).min(initial=1.0) > DOUBLE.zero_rate)
 
 
 def _lettered(sheet: Sheet, turns: Floats) -> Sheet:

@@ -13,10 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE
 
 __all__ = ["HALF_TURN", "Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
 
-HALF_TURN = np.pi - 1e-9
+HALF_TURN = np.pi - DOUBLE.parallel
 """Steps between azimuths that are this wide (radians) are half a turn, and have no sign."""
 
 

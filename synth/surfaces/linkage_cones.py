@@ -19,6 +19,7 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.ids import JointId
 from graphs.mechanism.conical import Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import DOUBLE
 from synth.fourbar.rounding import ILL_CONDITIONED
 from synth.surfaces.circuit import HALF_TURN, circuits, wrapped
 from synth.surfaces.cone import cone_reach, is_flat
@@ -26,9 +27,6 @@ from synth.surfaces.loop_sums import LoopRoots, half_steps, loop_roots, put_toge
 from synth.surfaces.several_loops import link_pairs
 
 __all__ = ["CommonCone", "CommonFamily", "common_cones"]
-
-_SAME = 1e-12
-"""Sizes to try that differ by less, relatively, are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +203,7 @@ def _candidates(roots: Iterable[LoopRoots], end: float) -> list[float]:
     kept: list[float] = []
     longest = 2.0 * float(np.arctan2(1.0, np.sqrt(end)))
     for size in sorted(sizes.tolist()):
-        known = kept and size - kept[-1] <= _SAME * size
+        known = kept and size - kept[-1] <= DOUBLE.closed * size
         if not is_flat(np.arctan(np.sqrt(size)), longest) and size <= end * (1 + 1e-9) and not known:
             kept.append(min(size, end))
     return kept

@@ -15,6 +15,7 @@ import shapely
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.solids.mesh import Mesh
+from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import FLAT, Sheet
 from synth.templates.pieces.overlaps import GRID, united
 from synth.templates.pieces.planes import Plane
@@ -156,15 +157,10 @@ def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
 
 
 def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
-    """Return how the frame of a panel stands where its corners are now: the nearest rotation, and its origin.
-
-    After Kabsch, *Acta Crystallographica* A 32, 1976.
-    """
-    middle: Floats = corners.mean(axis=0)
+    """Return how the frame of a panel stands where its corners are now: its rotation, and its origin."""
     was = np.column_stack([plane.flat, np.zeros(len(plane.flat))])
-    left, _, right = np.linalg.svd((corners - middle).T @ was)
-    turn: Floats = left @ np.diag([1, 1, np.linalg.det(left @ right)]) @ right
-    apart = float(np.abs(was @ turn.T + middle - corners).max())
+    turn, shift = rigid_motion(was, corners)
+    apart = float(np.abs(was @ turn.T + shift - corners).max())
     if apart > _RIGID * float(np.abs(plane.flat).max()):
         raise UnsolvableError(f"panel {where} has another shape: it is {apart:.3g} mm off")
-    return turn, middle
+    return turn, shift

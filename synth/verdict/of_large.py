@@ -8,18 +8,17 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.motion.branches import Certainty
+from graphs.tolerances import DOUBLE
+from synth.motion.branches import Certainty, signs_of
 from synth.motion.configuration import Configuration
 from synth.motion.marked import Marked
 from synth.motion.singular.nearest import begun_near
-from synth.motion.singular.sampling import MOVED, walked
+from synth.motion.singular.sampling import walked
 from synth.motion.walk.freedoms import free_rates
 from synth.verdict.verdict import Verdict, Way, clusters_of
 from synth.verdict.words import Told, flaps_of, text_of_motion
 
 __all__ = ["verdict_of_large"]
-
-_STILL = 1e-9
 
 
 def verdict_of_large(configuration: Configuration, generic: int | None = None) -> Verdict:
@@ -42,14 +41,13 @@ def verdict_of_large(configuration: Configuration, generic: int | None = None) -
     rates = begun.rates
     end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
     far = float(np.abs(end - linkage.angles).max())
-    if rates is None or far <= MOVED:
+    if rates is None or far <= DOUBLE.moved:
         return _unmoved(configuration, begun.rigid, generic)
-    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
+    moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
     basis = free_rates(closure, end, moving)
     freedoms = None if basis is None else basis.shape[1]
     still = tuple(joint for place, joint in enumerate(joints) if place not in set(moving.tolist()))
-    signs = "".join("0" if abs(rate) <= _STILL else "+-"[int(rate < 0)] for rate in rates)
-    way = Way(signs, freedoms, "numerical", still, far)
+    way = Way(signs_of(rates), freedoms, "numerical", still, far)
     stiff = still if freedoms == 1 and not configuration.flat else ()
     told = Told(configuration, (way,), _as_marked(configuration.marks, rates), False, generic, stiff, way)
     text = text_of_motion(told, freedoms, "numerical")
@@ -73,4 +71,4 @@ def _as_marked(marks: Floats, rates: Floats) -> Marked | None:
     turned = (marks * rates)[marks != 0.0]
     if not len(turned):
         return None
-    return "has" if (turned > _STILL).all() or (turned < -_STILL).all() else "none found"
+    return "has" if (turned > DOUBLE.zero_rate).all() or (turned < -DOUBLE.zero_rate).all() else "none found"

@@ -12,10 +12,10 @@ import networkx as nx
 from graphs.errors import shown
 from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Certainty
 from synth.motion.configuration import Configuration
 from synth.motion.marked import Marked
-from synth.motion.newton import CLOSED
 from synth.verdict.verdict import Way
 
 __all__ = ["Told", "flaps_of", "listed", "text_of_motion"]
@@ -103,7 +103,7 @@ def _start(told: Told) -> str:
 
 
 def _followed(way: Way) -> str:
-    return f"followed to {degrees(way.followed):.3g} degrees, loops closed to {CLOSED:.0e}"
+    return f"followed to {degrees(way.followed):.3g} degrees, loops closed to {DOUBLE.closed:.0e}"
 
 
 def _freedom(number: int) -> str:

@@ -16,8 +16,10 @@ from scipy.spatial import ConvexHull
 
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
+from graphs.geometry import principal_axes
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage
 
 __all__ = ["Bodies", "bodies_of_linkage", "bodies_of_sheet", "hull_faces"]
@@ -26,7 +28,6 @@ _HALF = 0.2
 """Of the piece of an axis that is shown, in mean distances between the joints of a link."""
 _FROM_APEX = (0.35, 1.0)
 """Where all axes pass through one point: from where to where they are shown."""
-_THIN = 1e-9
 _AXIS, _BODY = "-", "|"
 """Letters of lines that are no edges of a crease pattern: pieces of axes, sides of bodies."""
 
@@ -159,14 +160,13 @@ def hull_faces(corners: Floats) -> list[list[int]]:
     """
     if len(corners) < 3:
         return []
-    about = corners - corners.mean(axis=0)
-    _, sizes, axes = np.linalg.svd(about, full_matrices=False)
-    spread = sizes > _THIN * max(float(sizes[0]), _THIN)
+    sizes, axes = principal_axes(corners)
+    spread = sizes > DOUBLE.same_point * max(float(sizes[0]), DOUBLE.same_point)
     if not spread[1]:
         return []
     if spread[2]:
         return [[int(corner) for corner in face] for face in ConvexHull(corners).simplices]
-    around = [int(corner) for corner in ConvexHull(about @ axes[:2].T).vertices]
+    around = [int(corner) for corner in ConvexHull(corners @ axes[:2].T).vertices]
     at = around.index(min(around))
     around = around[at:] + around[:at]
     return [around if around[1] < around[-1] else [around[0], *around[:0:-1]]]
@@ -175,10 +175,10 @@ def hull_faces(corners: Floats) -> list[list[int]]:
 def _pieces(linkage: PosedLinkage) -> Floats:
     """Return the ends of the pieces of the axes that are shown: float[J, 2, 3]."""
     points, directions = linkage.points, linkage.directions
-    if np.abs(points - points.mean(axis=0)).max(initial=0.0) <= _THIN:
+    if np.abs(points - points.mean(axis=0)).max(initial=0.0) <= DOUBLE.same_point:
         return points[:, None] + np.array(_FROM_APEX)[:, None] * directions[:, None]
     apart = np.array([np.linalg.norm(points[one] - points[other]) for one, other in _together(linkage)])
-    apart = apart[apart > _THIN]
+    apart = apart[apart > DOUBLE.same_point]
     half = _HALF * (float(apart.mean()) if len(apart) else 1.0)
     return points[:, None] + np.array([-half, half])[:, None] * directions[:, None]
 

@@ -11,9 +11,8 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any, Literal
 
-import numpy as np
-
 from graphs.arrays import Floats
+from graphs.geometry import lines_meet
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from synth.folding.configuration import SheetConfiguration
@@ -116,7 +115,8 @@ def _shown(linkage: PosedLinkage, one: CentreClass, column: dict[Any, int], fini
     if one.centre is Centre.INFINITE:
         place = linkage.points[list(joints)].mean(axis=0)
         return ShownCentre("infinite", place, linkage.directions[joints[0]], link, joints, len(one.loops))
-    return ShownCentre(finite, _meeting(linkage, joints), None, link, joints, len(one.loops))
+    place = lines_meet(linkage.points[list(joints)], linkage.directions[list(joints)]).point
+    return ShownCentre(finite, place, None, link, joints, len(one.loops))
 
 
 def _carrier(linkage: PosedLinkage, joints: tuple[int, ...]) -> int:
@@ -124,10 +124,3 @@ def _carrier(linkage: PosedLinkage, joints: tuple[int, ...]) -> int:
     pairs = list(linkage.graph.joints.values())
     most = Counter(link for joint in joints for link in pairs[joint]).most_common(1)[0][0]
     return list(linkage.graph.nodes).index(most)
-
-
-def _meeting(linkage: PosedLinkage, joints: tuple[int, ...]) -> Floats:
-    """Return the point nearest to axes in the sense of least squares: where they meet."""
-    directions, points = linkage.directions[list(joints)], linkage.points[list(joints)]
-    across = np.eye(3) - directions[:, :, None] * directions[:, None, :]
-    return np.asarray(np.linalg.lstsq(across.sum(axis=0), (across @ points[:, :, None]).sum(axis=0)[:, 0])[0])

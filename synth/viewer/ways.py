@@ -12,6 +12,7 @@ import numpy as np
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
+from graphs.tolerances import DOUBLE
 from synth.motion.beginning import Wanted, beginning
 from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
@@ -23,7 +24,6 @@ from synth.motion.walk.freedoms import free_rates, independent_joints
 __all__ = ["Ways", "ways_of"]
 
 _NEAREST = "near to the marks"
-_STILL = 1e-9
 _MOST_DRIVERS = 40
 """Joints with a slider of their own, at most; others can be dragged."""
 
@@ -125,7 +125,7 @@ def ways_of(configuration: Configuration) -> Ways:
 def _nearest(linkage: PosedLinkage, closure: ClosureEquations, rates: Floats) -> Beginning:
     """Return the one way of a linkage whose branches are not looked for."""
     first, end = leading(rates), walked(linkage.angles, closure, rates)[0]
-    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > _STILL)
+    moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - linkage.angles)) > DOUBLE.immobile)
     freedoms, drivers = _driven(closure, end, moving, first)
     return Beginning(_NEAREST, rates, drivers, freedoms=freedoms)
 

@@ -13,13 +13,13 @@ from enumerate.conical.query import Portion
 from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read, read_linkage
+from graphs.geometry import rotated
 from synth.candidates.job import CandidateJob
 from synth.conformed.four_bar_poses import poses_from_conformed
 from synth.conformed.pose import dihedral_angles, joint_axes
 from synth.conformed.rates import ConformedChain, first_order, pole_axes
 from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences
 from synth.fourbar.joint_lines import supplementary
-from synth.fourbar.position import rotated
 from synth.surfaces.circuit import azimuths, circuits, table1
 from synth.surfaces.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles
 from synth.surfaces.cyclic import circumradii, cone_angles

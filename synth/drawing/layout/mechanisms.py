@@ -10,6 +10,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import best_line
 from graphs.ids import JointId, Joints, LinkId
 from synth.drawing.layout.embedding import (
     Neighbours,
@@ -309,9 +310,8 @@ def _round(row: Sequence[Node], at: Mapping[Node, Floats]) -> tuple[Node, ...]:
 
 def _lying(places: Floats) -> Floats:
     """Return the turn after which places are widest from left to right."""
-    centred = places - places.mean(axis=0)
-    _, _, axes = np.linalg.svd(centred, full_matrices=False)
-    along = axes[0] * (1 if axes[0][0] >= 0 else -1)
+    along = best_line(places).direction
+    along = along * (1 if along[0] >= 0 else -1)
     return np.array([[along[0], -along[1]], [along[1], along[0]]])
 
 

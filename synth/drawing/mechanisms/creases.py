@@ -14,6 +14,7 @@ from statistics import median
 
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import InvariantError, numbered, shown
+from graphs.geometry import signed_area
 from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import flat_places
@@ -266,11 +267,7 @@ def _graph(drawn: _Drawn) -> list[Shape]:
 
 def _middle_of_link(drawn: _Drawn, faces: Sequence[int]) -> Point:
     rows = [[drawn.places[v] for v in drawn.sheet.faces[face]] for face in faces]
-    return inside(max(rows, key=_area))
-
-
-def _area(row: Sequence[Point]) -> float:
-    return abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(row, (*row[1:], row[0]), strict=True))) / 2
+    return inside(max(rows, key=lambda row: abs(float(signed_area(row)))))
 
 
 def inside(row: Sequence[Point]) -> Point:

@@ -11,6 +11,7 @@ import numpy as np
 from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.beginning import Wanted, beginning
 from synth.moving.made import configuration_of
@@ -20,8 +21,6 @@ __all__ = ["Doing", "Motions", "motions_by_verdict", "motions_on_branch"]
 
 Doing: TypeAlias = Literal["moves", "still", "unknown", "mountain", "valley", "later"]
 """Later: at rest as the motion begins, and not for good."""
-
-_STILL = 1e-7
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +127,7 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
     for_good = set(taken.still) if taken is not None else set()
     of: dict[JointId, Doing] = {}
     for place, (joint, rate) in enumerate(zip(joints, rates / np.abs(rates).max(), strict=True)):
-        if abs(rate) > _STILL:
+        if abs(rate) > DOUBLE.zero_rate:
             of[joint] = "valley" if rate > 0 else "mountain"
         else:
             of[joint] = "still" if place in for_good else "later"

@@ -12,7 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import frame_about, principal_axes
 from graphs.ids import LinkId
+from graphs.tolerances import DOUBLE
 from synth.drawing.space.panels import HINGE, Panels
 from synth.motion.linkage import PosedLinkage
 from synth.motion.placement import link_motions
@@ -23,8 +25,6 @@ _HALF = 0.5
 """Half the length of a hinge, in units of the median distance of neighbouring ones."""
 _APART, _HALF_APART = 1.0, 0.35
 """Where all axes pass through one point: how far from it hinges are; half their length."""
-_ALIKE = 1e-9
-"""Of sines and of lengths in units of the extent, below which they are none."""
 
 
 def bodies_of(linkage: PosedLinkage) -> tuple[Panels, Floats]:
@@ -101,7 +101,7 @@ def hinge_ends(linkage: PosedLinkage) -> Floats:
         if i < j
     ]
     half = _HALF * float(np.median(apart)) if apart else _HALF
-    if half < _ALIKE:
+    if half < DOUBLE.same_point:
         middles, half = middles + _APART * linkage.directions, _HALF_APART
     along = half * linkage.directions
     return np.stack([middles - along, middles + along], axis=1)
@@ -130,7 +130,7 @@ def _foot(linkage: PosedLinkage, hinge: int, other: int) -> Floats:
     q, e = linkage.points[other], linkage.directions[other]
     across = np.cross(d, e)
     square = float(across @ across)
-    if square < _ALIKE:
+    if square < DOUBLE.parallel:
         return np.asarray(p + ((q - p) @ d) * d)
     return np.asarray(p + float(np.cross(q - p, e) @ across) / square * d)
 
@@ -139,12 +139,11 @@ def _hull(corners: Floats) -> list[list[int]]:
     """Return the faces of the hull of points, counter-clockwise seen from outside; of a plate its two sides."""
     if len(corners) < 3:
         return []
-    middle = corners.mean(axis=0)
-    _, sizes, axes = np.linalg.svd(corners - middle, full_matrices=False)
-    if sizes[1] < _ALIKE * max(sizes[0], _ALIKE):
+    sizes, axes = principal_axes(corners)
+    if sizes[1] < DOUBLE.same_point * max(sizes[0], DOUBLE.same_point):
         return []
-    if sizes[2] < _ALIKE**0.5 * sizes[0]:
-        front = _around(corners, list(range(len(corners))), np.asarray(axes[2]))
+    if sizes[2] < DOUBLE.flat * sizes[0]:
+        front = _around(corners, list(range(len(corners))), axes[2])
         return [front, front[::-1]]
     from scipy.spatial import ConvexHull
 
@@ -159,8 +158,5 @@ def _around(corners: Floats, chosen: Sequence[int], normal: Floats) -> list[int]
     """Return the outer corners of points in a plane, counter-clockwise about its normal."""
     from scipy.spatial import ConvexHull
 
-    first = np.eye(3)[int(np.abs(normal).argmin())]
-    right = np.cross(first, normal)
-    right = right / np.linalg.norm(right)
-    flat = corners[list(chosen)] @ np.column_stack([right, np.cross(normal, right)])
+    flat = corners[list(chosen)] @ frame_about(normal)[:2].T
     return [chosen[corner] for corner in ConvexHull(flat).vertices.tolist()]

@@ -10,8 +10,10 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.geometry import area_vector, unit
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
+from graphs.tolerances import DOUBLE
 from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.shapes import Line, Point, Polygon, Shape
 from synth.drawing.space.view import View, drawn_order
@@ -21,9 +23,8 @@ __all__ = ["HINGE", "Panels", "front_up", "panel_shapes", "panels_made", "panels
 
 HINGE = "H"
 """The letter of an edge that is a hinge of solids."""
-_THIN = 1e-9
 _LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink", HINGE: "class1"}
-_LIGHT = np.array([0.35, -0.45, 0.82]) / np.linalg.norm([0.35, -0.45, 0.82])
+_LIGHT = unit([0.35, -0.45, 0.82])
 _DARKEST = 0.5
 """Of the shadow, on a panel that the light does not meet."""
 
@@ -121,7 +122,7 @@ def front_up(panels: Panels, points: Floats, view: View) -> Panels:
     >>> front_up(panels, corners, view_of_motion(corners)).faces
     [(1, 2, 0)]
     """
-    if sum(float(_across(points[list(face)]) @ view.towards) for face in panels.faces) >= 0:
+    if sum(float(area_vector(points[list(face)]) @ view.towards) for face in panels.faces) >= 0:
         return panels
     return replace(panels, faces=[tuple(face[::-1]) for face in panels.faces])
 
@@ -162,7 +163,7 @@ def _seen(panels: Panels, points: Floats, view: View) -> list[int]:
     every = range(len(panels.faces))
     if not panels.solid:
         return list(every)
-    return [face for face in every if float(_across(points[list(panels.faces[face])]) @ view.towards) > 0]
+    return [face for face in every if float(area_vector(points[list(panels.faces[face])]) @ view.towards) > 0]
 
 
 def _edge(panels: Panels, ends: tuple[int, int], row: list[Point]) -> Line:
@@ -177,11 +178,6 @@ def _edge(panels: Panels, ends: tuple[int, int], row: list[Point]) -> Line:
 
 def _normal(corners: Floats) -> Floats:
     """Return the unit normal of a panel; zeros if it has no area."""
-    normal = _across(corners)
-    size = float(np.linalg.norm(normal))
-    return np.asarray(normal / size if size > _THIN * float(np.ptp(corners) or 1.0) ** 2 else 0.0 * normal)
-
-
-def _across(corners: Floats) -> Floats:
-    """Return the vector across a panel, twice its area long (Newell)."""
-    return np.asarray(np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0))
+    area = area_vector(corners)
+    has_area = np.linalg.norm(area) > DOUBLE.same_point * float(np.ptp(corners)) ** 2
+    return unit(area) if has_area else np.zeros(3)

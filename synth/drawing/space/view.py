@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import trailing
+from graphs.geometry import across, principal_axes, unit
+from graphs.tolerances import DOUBLE
 
 __all__ = ["View", "drawn_order", "view_from", "view_from_above", "view_of_motion"]
 
@@ -15,7 +18,6 @@ _EYE = np.array([0.40, 0.62, 0.68])
 """Where the eye is, along the axes in which the thing is long, less long, and short."""
 _ASLANT = np.array([0.41, -0.71, 0.57])
 """Where it is when things move: 35 degrees above the ground."""
-_FLAT = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +56,7 @@ def view_from(towards: Floats, upright: Floats) -> View:
     >>> view_from(np.array([0, 0, 1.0]), np.array([0, 2.0, 0])).right.tolist()
     [1.0, 0.0, 0.0]
     """
-    towards = towards / np.linalg.norm(towards)
-    up = upright - (upright @ towards) * towards
-    up = up / np.linalg.norm(up)
+    towards, up = unit(towards), unit(across(upright, towards))
     return View(np.cross(up, towards), up, towards)
 
 
@@ -78,13 +78,12 @@ def view_from_above(points: Floats) -> View:
 
 def _axes(points: Floats) -> tuple[Floats, bool]:
     """Return the directions in which points are long, less long and short; and whether they lie in a plane."""
-    _, sizes, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-    if len(axes) < 3:
-        axes, sizes = np.eye(3), np.ones(3)
-    axes = axes * np.where(axes[np.arange(3), np.abs(axes).argmax(axis=1)] < 0, -1.0, 1.0)[:, None]
+    if len(points) < 3:
+        return np.eye(3), False
+    sizes, axes = principal_axes(points)
     if np.linalg.det(axes) < 0:
         axes[1] = -axes[1]
-    return axes, bool(sizes[2] < _FLAT * max(sizes[0], 1e-300))
+    return axes, bool(sizes[2] < DOUBLE.flat * sizes[0])
 
 
 def view_of_motion(points: Floats) -> View:
@@ -104,9 +103,7 @@ def view_of_motion(points: Floats) -> View:
     axes, flat = _axes(points)
     upright = axes[2] if flat else np.array([0.0, 0.0, 1.0])
     # on the ground the axis of the coordinates that lies flattest: those of a square would be any
-    ahead = np.eye(3)[int(np.abs(upright).argmin())]
-    ahead = ahead - (ahead @ upright) * upright
-    ahead = ahead / np.linalg.norm(ahead)
+    ahead = unit(across(np.eye(3)[trailing(np.abs(upright))], upright))
     return view_from(_ASLANT @ np.stack([ahead, np.cross(upright, ahead), upright]), upright)
 
 

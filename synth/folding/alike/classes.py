@@ -17,16 +17,15 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from graphs.arrays import Flags, Floats, Ints
+from graphs.geometry import lines_meet, principal_axes, unit
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from synth.motion.linkage import PosedLinkage
+from graphs.tolerances import DOUBLE, Tolerances
+from synth.motion.linkage import PosedLinkage, axis_lengths
 
 __all__ = ["alike_classes"]
 
-_SAME = 1e-6
-"""Middles and directions of creases this close are one, in units of the extent: generated patterns have twelve
-decimals or more, those drawn by hand six."""
 _LARGEST_GROUP = 24
 """Motions of a group whose pairs are tried as generators of subgroups: those of a polygon of twelve sides."""
 
@@ -42,12 +41,15 @@ class _Plane:
     marks : float[J]
     sides : float[n, 2, 2]
         Ends of the sides of the border.
+    same : float
+        Middles and directions of creases this close are one: both arms that a motion takes to each other may err.
     """
 
     middles: Floats
     directions: Floats
     marks: Floats
     sides: Floats
+    same: float
 
     def inside(self, places: Floats) -> Flags:
         """Tell which places float[n, 2] are within the border.
@@ -60,11 +62,11 @@ class _Plane:
         crossing = x1 + (y - y1) * (x2 - x1) / np.where(y2 == y1, 1.0, y2 - y1)
         odd = (spans & (crossing > x)).sum(axis=1) % 2 == 1
         along = np.stack([x2 - x1, y2 - y1], axis=-1)
-        lengths = np.maximum((along**2).sum(axis=-1), _SAME**2)
+        lengths = np.maximum((along**2).sum(axis=-1), self.same**2)
         part = ((x - x1) * along[:, 0] + (y - y1) * along[:, 1]) / lengths
         part = np.clip(part, 0.0, 1.0)
         off = np.hypot(x - x1 - part * along[:, 0], y - y1 - part * along[:, 1])
-        return np.asarray(odd & (off.min(axis=1, initial=np.inf) > _SAME))
+        return np.asarray(odd & (off.min(axis=1, initial=np.inf) > self.same))
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +78,9 @@ class _Vertex:
     outwards: Floats
 
 
-def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> list[Ints]:
+def alike_classes(
+    sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Tolerances = DOUBLE
+) -> list[Ints]:
     """Return classes of creases that look alike, those of the largest symmetry first.
 
     First those that are alike in the tessellation that the pattern is a piece of, then the orbits of all motions
@@ -91,6 +95,8 @@ def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> list[In
         Of the sheet.
     marks : float[J]
         1 for valleys, -1 for mountains, 0 for what is not marked: a motion keeps them.
+    tolerances : Tolerances, optional
+        Of its coordinates as they were given.
 
     Returns
     -------
@@ -108,7 +114,7 @@ def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> list[In
     >>> [classes.tolist() for classes in alike_classes(base, linkage, np.array([-1.0, 1, 1, -1, 1, 1]))]
     [[0, 1, 1, 0, 1, 1], [0, 1, 2, 0, 1, 2], [0, 1, 1, 0, 2, 2], [0, 1, 2, 3, 2, 1]]
     """
-    plane, count = _plane(sheet, linkage, marks), len(marks)
+    plane, count = _plane(sheet, linkage, marks, tolerances), len(marks)
     maps = list(_maps(plane, _vertices(plane, linkage)))
     whole = [one for one in maps if (one >= 0).all()]
     choices = [maps, whole]
@@ -121,18 +127,19 @@ def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> list[In
     return sorted(rest, key=lambda classes: classes.tobytes() != first)
 
 
-def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats) -> _Plane:
+def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Tolerances) -> _Plane:
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
     used = sorted({vertex for face in sheet.faces for vertex in face})
-    across = np.linalg.svd(local[used] - local[used].mean(axis=0), full_matrices=False)[2][:2]
+    across = principal_axes(local[used])[1][:2]
     count: dict[frozenset[int], int] = {}
     for face in sheet.faces:
         for side in sides_of_face(face):
             count[frozenset(side)] = count.get(frozenset(side), 0) + 1
     border = [sorted(side) for side, faces in count.items() if faces == 1 and len(side) == 2]
     sides = (local @ across.T)[np.array(border, dtype=np.int64).reshape(-1, 2)]
-    return _Plane(linkage.points @ across.T, linkage.directions @ across.T, marks, sides)
+    same = 2.0 * tolerances.parallel / float(axis_lengths(linkage).min(initial=1.0))
+    return _Plane(linkage.points @ across.T, linkage.directions @ across.T, marks, sides, same)
 
 
 def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
@@ -142,11 +149,8 @@ def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
         if loop.centre is not Centre.FINITE:
             continue
         joints = np.array(loop.joints, dtype=np.int64)
-        normals = plane.directions[joints][:, ::-1] * (1.0, -1.0)
-        heights = (normals * plane.middles[joints]).sum(axis=1)
-        place = np.linalg.lstsq(normals, heights, rcond=None)[0]
-        arms = plane.middles[joints] - place
-        found.append(_Vertex(place, joints, arms / np.linalg.norm(arms, axis=1, keepdims=True)))
+        place = lines_meet(plane.middles[joints], plane.directions[joints]).point
+        found.append(_Vertex(place, joints, unit(plane.middles[joints] - place)))
     return found
 
 
@@ -179,7 +183,7 @@ def _taken(plane: _Plane, tree: cKDTree, matrix: Floats, shift: Floats) -> Ints 
     middles, directions = plane.middles @ matrix.T + shift, plane.directions @ matrix.T
     off, there = tree.query(middles)
     across = directions[:, 0] * plane.directions[there, 1] - directions[:, 1] * plane.directions[there, 0]
-    same = (off <= _SAME) & (np.abs(across) <= _SAME) & (plane.marks == plane.marks[there])
+    same = (off <= plane.same) & (np.abs(across) <= plane.same) & (plane.marks == plane.marks[there])
     if plane.inside(middles[~same]).any():
         return None
     return np.where(same, there, -1)

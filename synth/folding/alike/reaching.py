@@ -18,6 +18,7 @@ from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import Tolerances
 from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
@@ -140,7 +141,8 @@ def _starts(sheet: Sheet) -> Iterator[_Start]:
     """Yield motions, the most symmetric one first; all ways to move are looked for only when these are used up."""
     pattern = configuration_of_sheet(sheet)
     if pattern.flat:
-        for classes in alike_classes(pattern.sheet, pattern.linkage, pattern.marks):
+        meant = Tolerances.of(pattern.precision.size)
+        for classes in alike_classes(pattern.sheet, pattern.linkage, pattern.marks, meant):
             closure = AlikeClosure(pattern.linkage, classes)
             rates = _as_marked(pattern, closure)
             if rates is not None:

@@ -16,10 +16,11 @@ import scipy.sparse
 
 from graphs.arrays import Floats
 from graphs.canonical import leading
+from graphs.tolerances import DOUBLE
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.places import VertexPlaces
 from synth.motion.closure import ClosureEquations
-from synth.motion.newton import CLOSED, TangentSpace, corrected
+from synth.motion.newton import TangentSpace, corrected
 
 __all__ = ["Fitting"]
 
@@ -134,7 +135,7 @@ class Fitting:
             regular = min(_MOST, max(_LEAST, _SHARE * error))
             state = state.onwards(TangentSpace(matrix, regular).step(residual), weights)
         error = float(np.abs(self._equations(best, weights, np.ones_like(sizes))[0]).max(initial=0.0))
-        return best if error <= CLOSED else None
+        return best if error <= DOUBLE.closed else None
 
     def _equations(self, state: _State, weights: Floats, sizes: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
         """Return what does not hold, and its derivatives by the unknowns."""

@@ -13,14 +13,15 @@ import scipy.sparse
 
 from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
+from graphs.geometry import principal_axes, unit
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.rank.spaces import row_space
+from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["VertexPlaces"]
-
-_FLAT = 1e-12
 
 
 class VertexPlaces:
@@ -76,7 +77,7 @@ class VertexPlaces:
         """Return the linkage with vertices at float[V, 3]; loops with parallel axes close with six equations."""
         ends = corners[self.ends]
         along = ends[:, 1] - ends[:, 0]
-        directions = along / np.linalg.norm(along, axis=1, keepdims=True) * self._ways[:, None]
+        directions = unit(along) * self._ways[:, None]
         return replace(self._linkage, points=ends.mean(axis=1), directions=directions)
 
     def motions_of_axes(self, corners: Floats) -> scipy.sparse.csr_matrix:
@@ -124,11 +125,12 @@ class VertexPlaces:
         for panel in self._panels:
             around = np.array(panel)
             middle = corners[around] - corners[around].mean(axis=0)
-            *inside, normal = np.linalg.svd(middle, full_matrices=False)[2]
+            *inside, normal = principal_axes(middle)[1]
             here = middle @ normal
             # to first order the best plane takes up what is linear along the panel
             linear = np.column_stack([np.ones(len(around)), middle @ np.transpose(inside)])
-            across = np.eye(len(around)) - _onto(linear)
+            basis = row_space(linear.T)
+            across = np.eye(len(around)) - basis @ basis.T
             off.append(across @ here)
             rows.append(np.einsum("ij,c->ijc", across, normal).reshape(len(around), -1))
             places.append((around, len(around)))
@@ -157,18 +159,10 @@ def _with_all_equations(loop: PosedLoop) -> PosedLoop:
 
 def _plane_of(points: Floats) -> Floats:
     """Return two directions of the plane of flat points, or three of space: float[d, 3]."""
-    sizes, directions = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[1:]
-    flat = len(sizes) < 3 or sizes[2] <= _FLAT * sizes[0]
-    return np.asarray(directions[:2]) if flat else np.eye(3)
+    sizes, directions = principal_axes(points)
+    return directions[:2] if sizes[2] <= DOUBLE.same_point * sizes[0] else np.eye(3)
 
 
 def _crossing(vectors: Floats) -> Floats:
     """Return the matrices of cross products with vectors: float[n, 3, 3]."""
     return np.asarray(np.cross(vectors[:, None, :], np.eye(3)).transpose(0, 2, 1))
-
-
-def _onto(columns: Floats) -> Floats:
-    """Return the projection onto columns."""
-    basis, sizes, _ = np.linalg.svd(columns, full_matrices=False)
-    kept = basis[:, sizes > 1e-9 * sizes.max()]
-    return np.asarray(kept @ kept.T)

@@ -15,8 +15,10 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import MARGIN
+from graphs.geometry import across, best_plane
 from graphs.mechanism.precision import Precision, off_plane, precision_of_sheet
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import Tolerances
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import Fitting
 from synth.folding.mending.places import VertexPlaces
@@ -30,7 +32,6 @@ __all__ = [
     "Mended",
     "flattened",
     "mended",
-    "nearly",
     "nearly_agreeing",
     "precision_of",
 ]
@@ -40,9 +41,6 @@ _FARTHEST = 4.0
 
 _TRIES = 4
 """So many motions are tried, those first that agree best with the marks."""
-
-_BLURRED, _COARSEST = 30.0, 3e-3
-"""Rates agree if they do to this times the precision; to no less than the second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +84,8 @@ def flattened(sheet: Sheet) -> Mended | None:
     off = off_plane(points)
     if not EXACT / 1e3 < off <= _FARTHEST * precision.size:
         return None
-    middle = points.mean(axis=0)
-    normal = np.linalg.svd(points - middle, full_matrices=False)[2][-1]
-    flat = points - ((points - middle) @ normal)[:, None] * normal
+    plane = best_plane(points)
+    flat = plane.middle + across(points - plane.middle, plane.direction)
     return Mended(_placed(sheet, flat), off, precision, "they lie in one plane")
 
 
@@ -98,11 +95,6 @@ def precision_of(places: VertexPlaces, sheet: Sheet) -> Precision:
     if precision.size <= EXACT < places.bent:
         return Precision(places.bent, "creases of several pieces")
     return precision
-
-
-def nearly(precision: Precision) -> float:
-    """Return what part of the largest a singular value or eigenvalue is zero below, by rounded coordinates."""
-    return min(_COARSEST, _BLURRED * precision.size)
 
 
 def mended(
@@ -162,12 +154,13 @@ def nearly_agreeing(
 ) -> Iterator[Floats]:
     """Yield rates that agree but for what the coordinates cannot tell, those nearest to wanted ones first."""
     closure, quadrics = ClosureEquations(linkage), quadrics_of(linkage)
+    zero = Tolerances.of(precision.size).zero
     if most is None:
-        near = rates_near(closure, linkage.angles, quadrics, wanted, nearly(precision))
+        near = rates_near(closure, linkage.angles, quadrics, wanted, zero)
         if near is not None:
             yield near
         return
-    spaces, _ = rate_spaces(closure, linkage.angles, quadrics, most, nearly(precision))
+    spaces, _ = rate_spaces(closure, linkage.angles, quadrics, most, zero)
     found = []
     for space in spaces:
         rates = space.basis @ (space.basis.T @ wanted)

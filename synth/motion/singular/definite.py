@@ -13,11 +13,9 @@ import numpy as np
 from scipy.optimize import nnls
 
 from graphs.arrays import Floats
+from graphs.rank.spaces import inertia
 
-__all__ = ["CLEAR", "definite_weights"]
-
-CLEAR = 1e-6
-"""A smallest eigenvalue that is this part of the largest is none that rounding made."""
+__all__ = ["definite_weights"]
 
 _MOST = 300
 """Eigenvectors looked at; beyond, what is left to gain is next to nothing."""
@@ -60,10 +58,10 @@ def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None
         if shares is None:
             return None
         weights = shares @ seen
-        values, vectors = np.linalg.eigh(np.tensordot(weights, forms, 1))
-        if values[0] > clear * values[-1]:
-            return weights, float(values[0] / values[-1])
-        new = np.einsum("i,nij,j->n", vectors[:, 0], forms, vectors[:, 0])
+        found = inertia(np.tensordot(weights, forms, 1), clear)
+        if (found.signs > 0).all():
+            return weights, float(found.values[0] / found.values[-1])
+        new = np.einsum("i,nij,j->n", found.vectors[:, 0], forms, found.vectors[:, 0])
         if np.linalg.norm(weights) <= _NEAR * size or weights @ (weights - new) <= _GAINS * (weights @ weights):
             return None
         seen = np.concatenate([seen[shares > 0.0], new[None]])

@@ -14,13 +14,12 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import MARGIN
+from graphs.geometry import lines_meet, sectors, unit
 from graphs.loops.loop import Centre
+from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["FlatVertices"]
-
-_AGREES = 1e-9
-_STILL = 1e-7
 
 
 class FlatVertices:
@@ -50,7 +49,7 @@ class FlatVertices:
     def __init__(self, linkage: PosedLinkage) -> None:
         self._loops = linkage.loops
         self._ways: list[Floats | None] = []
-        flat = [np.abs(linkage.angles).max(initial=0.0) <= _AGREES]
+        flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
         for loop in linkage.loops:
             outward = _outward(linkage, loop)
             flat.append(outward is not None and _opposite_make_a_half(outward))
@@ -81,7 +80,7 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
     alike = folds[:2] * folds[2:]
     same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
     first, second = sorted(loop.joints[same::2])
-    return (first, second) if alike[same] > _STILL**2 else None
+    return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
 
 
 def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
@@ -91,8 +90,8 @@ def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
 
 
 def _opposite_make_a_half(outward: Floats) -> bool:
-    sectors = _sectors(outward)
-    return bool(abs(sectors[0] + sectors[2] - pi) <= _AGREES)
+    first, _, third, _ = sectors(outward)
+    return bool(abs(first + third - pi) <= DOUBLE.parallel)
 
 
 def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
@@ -100,22 +99,9 @@ def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
     joints = list(loop.joints)
     if loop.centre is not Centre.FINITE or len(joints) != 4:
         return None
-    away = linkage.points[joints] - _meeting_point(linkage, joints)
-    lengths = np.linalg.norm(away, axis=1, keepdims=True)
-    if lengths.min() <= _AGREES:  # an axis is known by its meeting point alone: no crease
+    points = linkage.points[joints]
+    away = points - lines_meet(points, linkage.directions[joints]).point
+    if np.linalg.norm(away, axis=1).min() <= DOUBLE.same_point:  # no crease, but an axis through that point
         return None
-    outward = np.asarray(away / lengths)
-    return outward if abs(_sectors(outward).sum() - 2 * pi) <= _AGREES else None
-
-
-def _sectors(outward: Floats) -> Floats:
-    """Return the angles between directions that follow each other, radians."""
-    following = np.roll(outward, -1, axis=0)
-    return np.asarray(np.arccos(np.clip((outward * following).sum(axis=1), -1.0, 1.0)))
-
-
-def _meeting_point(linkage: PosedLinkage, joints: list[int]) -> Floats:
-    """Return the point nearest to some axes."""
-    axes, points = linkage.directions[joints], linkage.points[joints]
-    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    return np.asarray(np.linalg.lstsq(across.reshape(-1, 3), (across @ points[..., None]).ravel(), rcond=None)[0])
+    outward = unit(away)
+    return outward if abs(sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None

@@ -11,14 +11,15 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
-import scipy.linalg
 
 from graphs.arrays import Floats, Ints
 from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
+from graphs.rank.spaces import Inertia, inertia, split
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, rates_at, rates_near
-from synth.motion.singular.quadrics import ZERO, Quadric, quadrics_of
+from synth.motion.singular.quadrics import Quadric, quadrics_of
 from synth.motion.singular.sampling import rates_towards
 
 __all__ = ["MOST_RATES", "Begun", "begun_near", "spaces_near"]
@@ -27,7 +28,6 @@ MOST_RATES = 1500
 """Of more joints the rates that close to first order are not all looked for: their matrix is dense."""
 _DEAD_ENDS = 200
 """After so many choices that leave nothing the search ends."""
-_EVEN = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,9 @@ class Begun:
     rigid: bool
 
 
-def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
+def begun_near(
+    closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats, zero: float = DOUBLE.zero
+) -> Begun:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
     By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
@@ -58,15 +60,17 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
     linkage : PosedLinkage
     wanted : float[J]
         Rates, or signs of them.
+    zero : float, optional
+        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     """
-    quadrics = quadrics_of(linkage)
-    rates = rates_near(closure, linkage.angles, quadrics, wanted)
+    quadrics = quadrics_of(linkage, zero)
+    rates = rates_near(closure, linkage.angles, quadrics, wanted, zero)
     if rates is not None:
         return Begun(rates / np.abs(rates).max(), rigid=False)
     if closure.joints > MOST_RATES:
         return Begun(None, rigid=False)
-    tangent = rates_at(closure, linkage.angles)
-    spaces, nothing = spaces_near(tangent, quadrics, wanted), True
+    tangent = rates_at(closure, linkage.angles, zero)
+    spaces, nothing = spaces_near(tangent, quadrics, wanted, zero), True
     for space in islice(spaces, _DEAD_ENDS):
         if space is None:
             continue
@@ -80,7 +84,7 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
 
 
 def spaces_near(
-    tangent: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = ZERO
+    tangent: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = DOUBLE.zero
 ) -> Iterator[RateSpace | None]:
     """Yield spaces of rates that agree to second order, those near to wanted ones first; None for what is empty.
 
@@ -133,41 +137,43 @@ class _Stack:
     def split(self, basis: Floats, left: Ints, wanted: Floats) -> Iterator[tuple[Floats, Ints]]:
         """Yield bases of spaces within one and the numbers of the equations left there, depth first."""
         while basis.shape[1]:
-            values, axes = self._on(basis, left)
-            sizes = np.abs(values).max(axis=1, initial=0.0)
-            kept = sizes > self._zero
-            left, values, axes = left[kept], values[kept], axes[kept]
-            there = np.abs(values) > self._zero * sizes[kept, None]
-            positive, negative = (there & (values > 0.0)).sum(axis=1), (there & (values < 0.0)).sum(axis=1)
+            on = self._on(basis, left)
+            kept = np.abs(on.values).max(axis=1, initial=0.0) > self._zero
+            left, on = left[kept], Inertia(on.values[kept], on.vectors[kept], on.signs[kept])
+            positive, negative = on.positive, on.negative
             single = np.flatnonzero((positive == 0) | (negative == 0))
             if len(single):
-                basis = self._part(basis, np.concatenate([axes[n][:, there[n]] for n in single], axis=1))
+                normals = [on.vectors[one][:, on.signs[one] != 0] for one in single]
+                basis = self._part(basis, np.concatenate(normals, axis=1))
                 continue
             products = np.flatnonzero((positive == 1) & (negative == 1))
             if not len(products):
                 yield basis, left
                 return
-            for normal in _clearest(values[products], axes[products], basis.T @ wanted, basis):
+            for normal in _clearest(on.values[products], on.vectors[products], basis.T @ wanted, basis):
                 yield from self.split(self._part(basis, normal[:, None]), left, wanted)
             return
         yield basis, left
 
-    def _on(self, basis: Floats, left: Ints) -> tuple[Floats, Floats]:
-        """Return eigenvalues float[n, k] and vectors float[n, s, k] of equations on a space, 0 past their own."""
+    def _on(self, basis: Floats, left: Ints) -> Inertia:
+        """Return eigenvalues [n, k] and vectors [n, s, k] of equations on a space, 0 past their own."""
         size = basis.shape[1]
         most = min(self._most, size)
-        values, axes = np.zeros((len(left), most)), np.zeros((len(left), size, most))
+        values, signs = np.zeros((len(left), most)), np.zeros((len(left), most), dtype=np.int64)
+        axes = np.zeros((len(left), size, most))
         for numbers, joints, forms in self._groups:
             here = np.flatnonzero(np.isin(left, numbers))
             places = np.searchsorted(numbers, left[here])
             across, local = np.linalg.qr(basis[joints[places]].transpose(0, 2, 1))
-            found, vectors = np.linalg.eigh(local @ forms[places] @ local.transpose(0, 2, 1))
-            values[here, : found.shape[1]] = found
-            axes[here, :, : found.shape[1]] = across @ vectors
-        return values, axes
+            found = inertia(local @ forms[places] @ local.transpose(0, 2, 1), self._zero)
+            number = found.values.shape[1]
+            values[here, :number], signs[here, :number] = found.values, found.signs
+            axes[here, :, :number] = across @ found.vectors
+        return Inertia(values, axes, signs)
 
     def _part(self, basis: Floats, normals: Floats) -> Floats:
-        return np.asarray(basis @ scipy.linalg.null_space(normals.T, rcond=self._zero))
+        parts = split(normals.T, self._zero)
+        return np.asarray(basis @ parts.right[parts.rank :].T)
 
 
 def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tuple[Floats, Floats]:
@@ -188,7 +194,9 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tu
     factors = np.stack([up + down, up - down], axis=1)
     factors /= np.linalg.norm(factors, axis=2, keepdims=True)
     off = np.abs(factors @ wanted)
-    best = trailing(off.min(axis=1) / np.maximum(off.max(axis=1), _EVEN), scale=1.0)
+    least, most = off.min(axis=1), off.max(axis=1)
+    told = most > DOUBLE.zero_rate * np.linalg.norm(wanted)  # others are on both factors, but for rounding
+    best = trailing(np.where(told, least / np.where(told, most, 1.0), 1.0), scale=1.0)
     first, second = (
         factors[best][place] for place in canonical_order([signed(basis @ one) for one in factors[best]])
     )

@@ -13,16 +13,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from graphs.arrays import Floats
-from graphs.canonical import canonical_basis
 from graphs.loops.loop import Centre
+from graphs.rank.spaces import null_space, row_space
+from graphs.tolerances import DOUBLE
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = [
     "MOST_ROWS",
-    "ZERO",
     "Quadric",
     "all_quadrics",
     "local_forms",
@@ -30,9 +29,6 @@ __all__ = [
     "rows_of",
     "shared_quadrics",
 ]
-
-ZERO = 1e-9
-"""Singular values and eigenvalues below this part of the largest are zero."""
 
 MOST_ROWS = 600
 """Self-stresses of several loops together are looked for up to so many closure equations."""
@@ -54,8 +50,14 @@ class Quadric:
     form: Floats
 
 
-def quadrics_of(linkage: PosedLinkage) -> list[Quadric]:
+def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadric]:
     """Return what the self-stresses of each loop alone ask of the rates at the pose.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    zero : float, optional
+        Singular values below this part of the largest are zero, and forms whose entries are below it.
 
     Examples
     --------
@@ -73,17 +75,17 @@ def quadrics_of(linkage: PosedLinkage) -> list[Quadric]:
     quadrics = []
     for loop in linkage.loops:
         twists = _twists(linkage, loop)
-        stresses = canonical_basis(scipy.linalg.null_space(twists.T, rcond=ZERO))
+        stresses = null_space(twists.T, zero)
         if not stresses.shape[1]:
             continue
         for form in np.moveaxis(_second_order(twists) @ stresses, -1, 0):
-            if np.abs(form).max(initial=0.0) > ZERO:
+            if np.abs(form).max(initial=0.0) > zero:
                 quadrics.append(Quadric(loop.joints, form))
     return quadrics
 
 
 def shared_quadrics(
-    linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float = ZERO
+    linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float = DOUBLE.zero
 ) -> list[Quadric]:
     """Return what self-stresses of several loops ask for beyond those of the loops alone.
 
@@ -116,7 +118,7 @@ def shared_quadrics(
         matrix[start:end, joints] = block
         here = tangent[joints]
         seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
-    stresses = scipy.linalg.null_space(matrix.T, rcond=zero) if size and rows[-1] else np.zeros((rows[-1], 0))
+    stresses = null_space(matrix.T, zero) if size and rows[-1] else np.zeros((rows[-1], 0))
     if not stresses.shape[1]:
         return []
     forms = (seen @ stresses).reshape(size * size, -1).T
@@ -127,7 +129,7 @@ def shared_quadrics(
     ]
 
 
-def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = ZERO) -> list[Quadric]:
+def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
     """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, those they have together.
 
     Parameters
@@ -135,7 +137,7 @@ def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = ZERO) -> 
     linkage, tangent, zero
         As in `shared_quadrics`.
     """
-    alone = quadrics_of(linkage)
+    alone = quadrics_of(linkage, zero)
     if rows_of(linkage) > MOST_ROWS:
         return alone
     return alone + shared_quadrics(linkage, tangent, alone, zero)
@@ -158,13 +160,9 @@ def local_forms(basis: Floats, quadrics: Sequence[Quadric]) -> Floats:
 def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
     """Return orthonormal rows that span, together with known ones, what all rows span."""
     if len(known):
-        _, values, right = np.linalg.svd(known, full_matrices=False)
-        right = right[values > zero * values.max(initial=0.0)]
-        rows = rows - (rows @ right.T) @ right
-    _, values, right = np.linalg.svd(rows, full_matrices=False)
-    return canonical_basis(
-        right[values > zero].T
-    ).T  # stresses and rates are unit vectors, brackets of the size of one
+        spanned = row_space(known, zero)
+        rows = rows - (rows @ spanned) @ spanned.T
+    return row_space(rows, zero, scale=1.0).T  # stresses and rates are unit vectors, brackets of the size of one
 
 
 def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:

@@ -16,18 +16,16 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import rates_at, spaces_within
-from synth.motion.singular.definite import CLEAR, definite_weights
-from synth.motion.singular.quadrics import ZERO, Quadric, all_quadrics, local_forms
+from synth.motion.singular.definite import definite_weights
+from synth.motion.singular.quadrics import Quadric, all_quadrics, local_forms
 
 __all__ = ["Rigidity", "rigidity_of"]
 
 Proof = Literal["no rates", "definite stress", "cases"]
-
-_ERROR = 1e-10
-"""Of the derivatives at a pose that closes to 1e-12."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +60,9 @@ class Rigidity:
         return "proved" if self.proof else "not known"
 
 
-def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = ZERO) -> Rigidity:
+def rigidity_of(
+    linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero
+) -> Rigidity:
     """Look for a proof that a linkage cannot move from its pose.
 
     Parameters
@@ -90,11 +90,11 @@ def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
     tangent = rates_at(closure, linkage.angles, zero)
     flexes = tangent.shape[1]
     if not flexes:
-        values = spectrum(closure.at(linkage.angles)[1].toarray(), _ERROR)
+        values = spectrum(closure.at(linkage.angles)[1].toarray(), DOUBLE.derivative)
         proved = values.rank == closure.joints
         return Rigidity("no rates" if proved else None, 0, values.smallest if closure.joints else None, None, ())
     quadrics = tuple(all_quadrics(linkage, tangent, zero))
-    definite = definite_weights(local_forms(tangent, quadrics), max(zero, CLEAR))
+    definite = definite_weights(local_forms(tangent, quadrics), max(zero, DOUBLE.clear))
     if definite is not None:
         stress = definite[0] / [np.abs(quadric.form).max() for quadric in quadrics]
         return Rigidity("definite stress", flexes, definite[1], stress, quadrics)

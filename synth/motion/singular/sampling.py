@@ -16,6 +16,8 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import leading, signed, trailing
+from graphs.rank.spaces import inertia, singular_values
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import PathOptions, driven_path
@@ -26,7 +28,6 @@ from synth.motion.walk.stepping import Allowance
 
 __all__ = [
     "FOLLOWED",
-    "STILL",
     "Followed",
     "followed",
     "freedoms_at",
@@ -41,16 +42,11 @@ FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
-_AGREES = 1e-9
-STILL = 1e-7
-"""Rates below this part of the largest are none."""
 _NEWTON, _ROUNDED = 30, 1e-14
-_NO_SLOPE = 1e-4
-"""Of equations, as part of their size: where they have none Newton's method ends with the root of its error."""
 _BESIDE, _ASIDE = 8, 0.3
 """So many starts beside wanted rates, so far from them as part of their size."""
-MOVED, _SHORT_OF = 1e-3, 0.7
-"""A path that ended before, radians, shows no motion; of one that ended later, this part is taken again."""
+_SHORT_OF = 0.7
+"""This part of a path that ended early is taken again."""
 _SPACES = 64
 """At a pose of a branch, after so many spaces of rates second order is said not to tell."""
 
@@ -103,7 +99,7 @@ def followed(
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)
         far = float(np.abs(end - linkage.angles).max())
-        if far > MOVED:
+        if far > DOUBLE.moved:
             break
     else:
         return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
@@ -119,7 +115,7 @@ def walked(
     first = replace(options, allowance=allowance)  # the part that is taken again has no more steps
     path = driven_path(closure, start, [driver], start[driver] + goal, options=first)
     reached = float(path.angles[-1][driver] - start[driver])
-    if path.stopped and abs(reached) > MOVED:  # the end of a path may be no general pose
+    if path.stopped and abs(reached) > DOUBLE.moved:  # the end of a path may be no general pose
         path = driven_path(closure, start, [driver], start[driver] + _SHORT_OF * reached, options=options)
     return path.angles[-1], float(path.errors[-1])
 
@@ -153,7 +149,7 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     """
     start = np.asarray(space.basis.T @ wanted)
     size = float(np.linalg.norm(start))
-    if size <= _AGREES * np.linalg.norm(wanted):
+    if size <= DOUBLE.zero * np.linalg.norm(wanted):
         return np.zeros_like(wanted)
     forms = local_forms(space.basis, space.left)
     x = _on_equations(forms, start)
@@ -228,7 +224,7 @@ def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
 def _scaled(rates: Floats) -> Floats:
     """Return rates the largest of which is 1 or -1; those that are none but for rounding are zero."""
     scaled = rates / np.abs(rates).max()
-    return np.where(np.abs(scaled) > STILL, scaled, 0.0)
+    return np.where(np.abs(scaled) > DOUBLE.zero_rate, scaled, 0.0)
 
 
 def _on_equations(forms: Floats, x: Floats) -> Floats | None:
@@ -239,13 +235,14 @@ def _on_equations(forms: Floats, x: Floats) -> Floats | None:
         off = slopes @ x
         if np.abs(off).max(initial=0.0) <= _ROUNDED:
             return x
-        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=_AGREES)[0]
+        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=DOUBLE.zero)[0]
     return None
 
 
 def _slopes(forms: Floats, x: Floats) -> int:
     """Return how many independent slopes forms float[n, s, s] have at a unit vector at which they vanish."""
-    return int((np.linalg.svd(forms @ x, compute_uv=False) > _NO_SLOPE * np.abs(forms).max(initial=0.0)).sum())
+    least = DOUBLE.zero**0.5 * np.abs(forms).max(initial=0.0)  # Newton's method ends with the root there
+    return int((singular_values(forms @ x) > least).sum())
 
 
 def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
@@ -256,9 +253,7 @@ def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
 def _halves(space: RateSpace) -> list[Floats]:
     """Return, for each equation whose solutions are two cones tip to tip, what has one sign on one of them."""
     found = []
-    for form in local_forms(space.basis, space.left):
-        values, vectors = np.linalg.eigh(form)
-        there = np.abs(values) > _AGREES * np.abs(values).max()
-        singles = [np.flatnonzero(there & (np.sign(values) == sign)) for sign in (1.0, -1.0)]
-        found += [signed(space.basis @ vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
+    for one in map(inertia, local_forms(space.basis, space.left)):
+        singles = [np.flatnonzero(one.signs == sign) for sign in (1, -1)]
+        found += [signed(space.basis @ one.vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
     return found

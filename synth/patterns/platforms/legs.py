@@ -9,10 +9,12 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.geometry import unit
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
 from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import DOUBLE
 
 __all__ = ["platform"]
 
@@ -21,7 +23,6 @@ _UP = np.array([0.0, 0.0, 1.0])
 _THIRD = 2 * pi / 3
 _UPRIGHT = 3
 """So many legs have each head over its foot, and no level direction across them if the radii are one."""
-_SAME = 1e-9
 
 Joint = tuple[JointKind, JointPlace]
 LegOf = Callable[[Floats, Floats, float], tuple[Joint, ...]]
@@ -58,7 +59,7 @@ def platform(
     >>> stewart, stewart.mobility
     (<JointedLinkage: 14 links, 18 joints: 6P 6S 6U, placed>, 6)
     """
-    if number == _UPRIGHT and isclose(base, top, rel_tol=_SAME):
+    if number == _UPRIGHT and isclose(base, top, rel_tol=DOUBLE.same_point):
         told = f"feet and heads are both at {base:g}, so that legs stand upright"
         raise InvariantError("platform", told, "a base and a top that differ")
     leg_of = _LEGS[legs]
@@ -91,8 +92,8 @@ def _with_slide(first: JointKind, last: JointKind) -> LegOf:
     """Return legs of which the middle joint slides along them."""
 
     def made(foot: Floats, head: Floats, _: float) -> tuple[Joint, ...]:
-        along = _unit(head - foot)
-        level = _unit(np.cross(_UP, along))
+        along = unit(head - foot)
+        level = unit(np.cross(_UP, along))
         across = np.cross(along, level)
         return (
             (first, _place(foot, *_held(first, level, across))),
@@ -111,8 +112,8 @@ def _held(kind: JointKind, level: Floats, across: Floats) -> tuple[Floats, ...]:
 def _crank_and_rod(foot: Floats, head: Floats, out: float) -> tuple[Joint, ...]:
     """Return R at the base, U at the knee, S at the top."""
     level, knee = _knee(foot, head, out)
-    rod = _unit(head - knee)
-    turned = _unit(np.cross(level, rod))
+    rod = unit(head - knee)
+    turned = unit(np.cross(level, rod))
     return (
         (JointKind.REVOLUTE, _place(foot, level)),
         (JointKind.UNIVERSAL, _place(knee, level, turned)),
@@ -122,7 +123,7 @@ def _crank_and_rod(foot: Floats, head: Floats, out: float) -> tuple[Joint, ...]:
 
 def _three_universal(foot: Floats, head: Floats, out: float) -> tuple[Joint, ...]:
     level, knee = _knee(foot, head, out)
-    crank, rod = _unit(knee - foot), _unit(head - knee)
+    crank, rod = unit(knee - foot), unit(head - knee)
     return (
         (JointKind.UNIVERSAL, _place(foot, level, np.cross(crank, level))),
         (JointKind.UNIVERSAL, _place(knee, level, np.cross(rod, level))),
@@ -132,8 +133,8 @@ def _three_universal(foot: Floats, head: Floats, out: float) -> tuple[Joint, ...
 
 def _knee(foot: Floats, head: Floats, out: float) -> tuple[Floats, Floats]:
     """Return the level direction across a leg, and its knee, so far out from the middle of foot and head."""
-    level = _unit(np.cross(_UP, head - foot))
-    outwards = _unit(np.cross(head - foot, level))
+    level = unit(np.cross(_UP, head - foot))
+    outwards = unit(np.cross(head - foot, level))
     middle = (foot + head) / 2
     return level, middle + out * (outwards if outwards @ middle > 0.0 else -outwards)
 
@@ -159,7 +160,3 @@ def _place(point: Floats, *axes: Floats) -> JointPlace:
 def _rounded(one: Floats) -> Vector:
     x, y, z = (round(value, _DIGITS) + 0.0 for value in one.tolist())
     return (x, y, z)
-
-
-def _unit(vector: Floats) -> Floats:
-    return np.asarray(vector / np.linalg.norm(vector))

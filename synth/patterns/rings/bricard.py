@@ -11,6 +11,7 @@ from math import cos, hypot, sin
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import unit
 from graphs.mechanism.solids import HingedSolids
 from synth.patterns.rings.axes import Line, ring, ring_of_sides
 
@@ -88,8 +89,7 @@ def around(*corners: Floats) -> Floats:
     """Return directions round a spherical polygon: a corner, the pole of its side, the next corner, ..."""
     directions = []
     for here, there in zip(corners, (*corners[1:], corners[0]), strict=True):
-        pole = np.cross(here, there)
-        directions += [here, pole / np.linalg.norm(pole)]
+        directions += [here, unit(np.cross(here, there))]
     return np.array(directions)
 
 

@@ -15,11 +15,11 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
+from graphs.tolerances import DOUBLE
 from synth.patterns.rings.axes import chain_frames
 
 __all__ = ["closed_chain"]
 
-_CLOSED = 1e-12
 _STARTS, _TRIES = 3, 100
 """Rings that are compared, and starts at most: from most starts, often from all, the same ring is found."""
 _STEPS = 8
@@ -52,7 +52,7 @@ def closed_chain(solids: int) -> Floats:
     rings: list[Floats] = []
     for start in range(_TRIES):
         angles = _flattest(np.random.default_rng((solids, start)).uniform(-pi, pi, solids))
-        if np.abs(_off_closing(angles)).max() < _CLOSED:
+        if np.abs(_off_closing(angles)).max() < DOUBLE.closed:
             rings += _numbered(angles)
         if len(rings) >= _STARTS * 4 * solids:
             break

@@ -22,6 +22,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.plain_text import plain
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.generic import exact_mobility
+from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.linkages import by_angles, map_linkage
@@ -37,8 +38,6 @@ _CLEAR = radians(15.0)
 """A step within a link is aimed to be so far at least from nothing and from half a turn, which has no sign."""
 _MAPPED = 8
 """Links of a loop whose cones are looked for at most: sign patterns double with each."""
-_SAME = 1e-6
-"""Cones, in radians, that are one: a cone that two roots nearly share is found to the root of rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -259,9 +258,10 @@ def _cones(linkage: ConicalLinkage) -> int | None:
         return None
     found = map_linkage(by_angles(linkage)).cones
     angle = linkage.cone_angle or 0.0
-    if not any(abs(cone.cone_angle - angle) < _SAME for cone in found):
+    if not any(abs(cone.cone_angle - angle) < DOUBLE.same_configuration for cone in found):
         raise UnsolvableError(f"the link arcs do not lead back to lambda {degrees(angle):.6g} degrees")
-    return len({round(cone.cone_angle / _SAME) for cone in found})
+    angles = np.sort([cone.cone_angle for cone in found])
+    return 1 + int((np.diff(angles) > DOUBLE.same_configuration).sum())  # two roots near each other: one cone
 
 
 def _names(pair: Pair) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from enumerate.strings.graphs import chain_scd
 from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
+from graphs.geometry import rotated, unit
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
 from synth.realisation.drawing import Drawn
@@ -133,17 +134,14 @@ def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) 
     angles : float[J]
         By which creases are folded, radians; above 0 at valleys, seen from above.
     """
-    from scipy.spatial.transform import Rotation
-
     points = np.column_stack([places, np.zeros(len(places))])
     least, most = _FOLDED
     angles = random.uniform(least, most, len(pattern.creases)) * (-1.0) ** np.arange(len(pattern.creases))
     for number in reversed(range(len(pattern.creases))):
         a, b = _directed(pattern, number + 1, pattern.creases[number])
         after = sorted({vertex for panel in pattern.panels[number + 1 :] for vertex in panel} - {a, b})
-        axis = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
-        turn = Rotation.from_rotvec(angles[number] * axis)
-        points[after] = points[a] + turn.apply(points[after] - points[a])
+        axis = unit(points[b] - points[a])
+        points[after] = points[a] + rotated(points[after] - points[a], axis, angles[number])
     return points, angles
 
 

@@ -12,14 +12,15 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.canonical import MARGIN, canonical_basis
+from graphs.canonical import MARGIN
 from graphs.errors import UnsolvableError, shown
+from graphs.geometry import unit
+from graphs.rank.spaces import null_space
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 
 __all__ = ["evenly_folded", "folds_of", "lifted", "planes_over"]
 
-_ZERO = 1e-9
-_STILL = 1e-6
 _STEEPEST = 0.8
 """Difference in slope of the two panels at the crease that is folded most: 39 degrees if one is level."""
 _STARTS, _ROUNDS = 12, 12
@@ -48,12 +49,12 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> tup
     middle = places.mean(axis=0)
     planes = planes_over(pattern, places - middle)
     folds = folds_of(pattern, places, planes)
-    still = np.abs(folds).max(axis=1, initial=0.0) <= _STILL
+    still = np.abs(folds).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     if still.any():
         names = ", ".join(shown(pattern.joints[place]) for place in np.flatnonzero(still))
         raise UnsolvableError(f"in every pose above this drawing the panels at joint(s) {names} are one plane")
     weights = evenly_folded(folds, random)
-    weights *= _STEEPEST / np.abs(folds @ weights).max(initial=_STILL)
+    weights *= _STEEPEST / np.abs(folds @ weights).max(initial=DOUBLE.zero_rate)
     chosen = (planes @ weights).reshape(-1, 3)
     return _above(pattern, places, places - middle, chosen), folds @ weights
 
@@ -69,9 +70,7 @@ def planes_over(pattern: Pattern, places: Floats) -> Floats:
             matrix[2 * row + end, 3 * one : 3 * one + 3] = point
             matrix[2 * row + end, 3 * other : 3 * other + 3] = [-value for value in point]
     level = np.eye(3, matrix.shape[1])
-    _, singular, vt = np.linalg.svd(np.vstack([matrix, level]))
-    rank = int((singular > _ZERO * singular[0]).sum())
-    return canonical_basis(vt[rank:].T)
+    return null_space(np.vstack([matrix, level]))
 
 
 def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
@@ -81,7 +80,7 @@ def folds_of(pattern: Pattern, places: Floats, planes: Floats) -> Floats:
     rows = []
     for a, b in pattern.creases:
         along = places[b] - places[a]
-        across = np.array([-along[1], along[0]]) / np.linalg.norm(along)
+        across = unit([-along[1], along[0]])
         rows.append(across @ (slopes[panel_at[a, b]] - slopes[panel_at[b, a]]))
     return np.array(rows).reshape(len(pattern.creases), -1)
 
@@ -94,7 +93,7 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
     """
     best: Floats = np.zeros(folds.shape[1])
     weights: Floats
-    most, inverse = -1.0, np.linalg.pinv(folds)
+    most, inverse = -1.0, np.linalg.pinv(folds, rcond=DOUBLE.zero)
     for _ in range(_STARTS):
         weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
         for _ in range(_ROUNDS):
@@ -109,7 +108,7 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
 
 def _evenness(turns: Floats) -> float:
     """Return the least turn by the largest."""
-    return float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=_STILL))
+    return float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=DOUBLE.zero_rate))
 
 
 def _above(pattern: Pattern, places: Floats, centred: Floats, planes: Floats) -> Floats:

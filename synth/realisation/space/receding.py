@@ -18,7 +18,7 @@ import scipy.optimize
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
-from graphs.geometry import area_vector
+from graphs.geometry import area_vector, lines_meet
 from synth.realisation.pattern import Pattern, Pointing
 from synth.realisation.space.lifting import evenly_folded, folds_of, planes_over
 
@@ -166,9 +166,7 @@ def _panel_of_crease(pattern: Pattern, crease: int) -> int:
 def _meeting(pattern: Pattern, one: Pointing, places: Floats) -> Floats:
     """Return the point in which creases meet."""
     ends = places[[pattern.creases[crease] for crease in one.creases]]
-    along = ends[:, 1] - ends[:, 0]
-    across = np.column_stack([-along[:, 1], along[:, 0]]) / np.linalg.norm(along, axis=1)[:, None]
-    return np.asarray(np.linalg.lstsq(across, (across * ends[:, 0]).sum(axis=1), rcond=None)[0])
+    return lines_meet(ends[:, 0], ends[:, 1] - ends[:, 0]).point
 
 
 def _mapped(heights: _Heights, below: Floats) -> Floats:

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
+from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import Edge
+from graphs.tolerances import DOUBLE
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.walking import Sides, sides_of
 
 __all__ = ["Symmetry", "off_symmetry", "symmetries"]
-
-_LEVEL = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,9 +100,8 @@ def off_symmetry(symmetry: Symmetry, places: Floats) -> float:
     worst = 0.0
     for one in symmetry._maps:
         image = centred[one.rows[:count]]
-        u, _, vt = np.linalg.svd(centred.T @ image)
-        turned = np.diag([1.0, np.sign(np.linalg.det(one.matrix)) * np.sign(np.linalg.det(u @ vt))])
-        worst = max(worst, float(np.linalg.norm(centred @ u @ turned @ vt - image, axis=1).max()))
+        rotation, shift = rigid_motion(centred, image, mirrored=np.linalg.det(one.matrix) < 0.0)
+        worst = max(worst, float(np.linalg.norm(centred @ rotation.T + shift - image, axis=1).max()))
     return worst / float(np.ptp(places, axis=0).max())
 
 
@@ -204,7 +203,7 @@ def _map_of(pattern: Pattern, image: Ints, matrix: Floats) -> _Map | None:
         goes = place_of.get((creases, one.infinite))
         if goes is None:
             return None
-        turned = np.linalg.det(matrix) > 0.0 and abs(matrix[1, 0]) > _LEVEL
+        turned = np.linalg.det(matrix) > 0.0 and abs(matrix[1, 0]) > DOUBLE.parallel
         if one.infinite and goes == place and turned:
             return None
         if one.vertex is None:

@@ -14,6 +14,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.plain_text import plain
+from graphs.tolerances import DOUBLE
 from synth.conformed.layers import links_in_layers
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
@@ -32,7 +33,6 @@ _SLOT_LONGER = 0.02
 """By so much of the length of links a slot is longer than its tab, at each end."""
 _SLOT_WIDTH = 3.0
 """Millimetres, at the inner edge of links."""
-_LEAST_STEP = 1e-6
 _LONGEST_NAME = 16
 
 
@@ -116,7 +116,8 @@ class LayeredLink:
     def at_end(self, joint: str) -> int:
         """Return -1 for a joint at which it begins, 1 where it ends, 0 between."""
         along = dict(self.joints)[joint]
-        return -1 if along <= _LEAST_STEP else 1 if along >= self.width - _LEAST_STEP else 0
+        least = DOUBLE.same_configuration
+        return -1 if along <= least else 1 if along >= self.width - least else 0
 
     def reaches(self, joint: str, side: int) -> bool:
         """Tell whether it goes on from a joint to a side: -1 or 1."""
@@ -231,7 +232,7 @@ def _least_step(places: Floats, chain: ConformedChain) -> float:
     order = np.argsort(places)
     steps = np.diff(places[order], append=places[order[0]] + 2 * pi)
     least = int(steps.argmin())
-    if steps[least] < _LEAST_STEP:
+    if steps[least] < DOUBLE.same_configuration:
         pair = shown([str(chain.joints[order[least]]), str(chain.joints[order[(least + 1) % len(order)]])])
         raise UnsolvableError(f"joints {pair} are on one ruling line: pieces have no room for both")
     return float(steps[least])
@@ -240,7 +241,7 @@ def _least_step(places: Floats, chain: ConformedChain) -> float:
 def _from(start: float, place: float) -> float:
     """Return how far a place is from a start, once round at most; rounding before the start is the start."""
     along = float(np.remainder(place - start, 2 * pi))
-    return 0.0 if along > 2 * pi - _LEAST_STEP else along
+    return 0.0 if along > 2 * pi - DOUBLE.same_configuration else along
 
 
 def _joining(joint: str, links: Sequence[LayeredLink]) -> Joining:
@@ -264,7 +265,7 @@ def _slotted(link: LayeredLink, links: Sequence[LayeredLink], places: dict[str, 
     for joint, place in places.items():
         layers = sorted(other.layer for other in links if joint in dict(other.joints))
         along = _from(link.start, place)
-        within = _LEAST_STEP < along < link.width - _LEAST_STEP
+        within = DOUBLE.same_configuration < along < link.width - DOUBLE.same_configuration
         if within and layers[0] < link.layer < layers[-1]:
             slots.append((joint, along))
     return LayeredLink(link.name, link.layer, link.start, link.width, link.joints, tuple(slots))

@@ -13,7 +13,9 @@ import numpy as np
 import shapely
 
 from graphs.arrays import Floats
+from graphs.geometry import unit
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
+from graphs.tolerances import DOUBLE
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
 from synth.templates.pieces.cuts import cut_once
 from synth.templates.pieces.flat import FOLDS, put_together
@@ -24,8 +26,6 @@ __all__ = ["CutNets", "pieces_of_panels"]
 
 _SAME = 1e-6
 """Two laid edges are one if their ends are this close, in millimetres."""
-_FLAT_ANGLE = 1e-6
-"""Radians below which panels are not folded."""
 _OFF_SLOT = 0.5
 """Millimetres round a slot in which no other tab lies."""
 _IN = 3.0
@@ -78,7 +78,7 @@ class _Side:
 
     def inside(self, depth: float) -> Point:
         """Return a place on the panel, so deep from the middle of the side."""
-        along = (self.end - self.start) / np.linalg.norm(self.end - self.start)
+        along = unit(self.end - self.start)
         place = (self.start + self.end) / 2 + depth * np.array([-along[1], along[0]])
         return _point(place)
 
@@ -153,7 +153,7 @@ def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:
         angle = panels.fold_angle(edge)
         if panels.joins[edge][0] != side.face and _differ(panels, edge):
             angle = -angle
-        letter = "U" if abs(angle) < _FLAT_ANGLE else "V" if angle > 0 else "M"
+        letter = "U" if abs(angle) < DOUBLE.same_configuration else "V" if angle > 0 else "M"
     if side.work.net.turned[side.face] and letter in "MV":
         letter = "M" if letter == "V" else "V"
     return FOLDS[letter]

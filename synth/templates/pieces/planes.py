@@ -8,15 +8,13 @@ import numpy as np
 import shapely
 
 from graphs.arrays import Floats
+from graphs.canonical import trailing
 from graphs.errors import UnsolvableError
+from graphs.geometry import across, area_vector, unit
 from graphs.mechanism.sheet import COLLINEAR
+from graphs.tolerances import DOUBLE
 
 __all__ = ["Plane", "plane_of_panel"]
-
-_PLANE = 1e-5
-"""Corners of a panel lie in a plane if they are this close to it, in units of its extent."""
-_SIDE = 1e-9
-"""Corners that are this close to each other, in the same units, are in one place."""
 
 
 @dataclass(frozen=True)
@@ -65,19 +63,17 @@ def plane_of_panel(corners: Floats, face: int) -> Plane:
     """
     origin: Floats = corners.mean(axis=0)
     arms = corners - origin
-    normal: Floats = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
+    area = 2 * area_vector(corners)
     size = float(np.abs(arms).max())
-    if np.linalg.norm(normal) <= COLLINEAR * size**2:
+    if np.linalg.norm(area) <= COLLINEAR * size**2:
         raise UnsolvableError(f"panel {face} has no area")
-    normal = normal / np.linalg.norm(normal)
-    if float(np.abs(arms @ normal).max()) > _PLANE * size:
+    normal = unit(area)
+    if float(np.abs(arms @ normal).max()) > DOUBLE.flat * size:
         raise UnsolvableError(f"panel {face} is not plane, and cannot be cut of a sheet")
-    along = np.eye(3)[int(np.abs(normal).argmin())]
-    along = along - (along @ normal) * normal
-    along /= np.linalg.norm(along)
+    along = unit(across(np.eye(3)[trailing(np.abs(normal))], normal))
     axes = np.column_stack([along, np.cross(normal, along), normal])
     flat = arms @ axes[:, :2]
-    if np.linalg.norm(flat - np.roll(flat, -1, axis=0), axis=1).min() <= _SIDE * size:
+    if np.linalg.norm(flat - np.roll(flat, -1, axis=0), axis=1).min() <= DOUBLE.same_point * size:
         raise UnsolvableError(f"panel {face} has a side without length")
     if not shapely.Polygon(flat).is_valid:
         raise UnsolvableError(f"the border of panel {face} crosses or touches itself, so it cannot be cut out")

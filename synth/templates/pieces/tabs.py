@@ -16,6 +16,7 @@ import shapely
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.geometry import unit
 from synth.templates.pieces.overlaps import lies_over, lies_within
 
 __all__ = ["Joins", "slot_of", "tab_at", "tab_shapes"]
@@ -103,7 +104,7 @@ def slot_of(shape: Floats) -> Floats:
     """
     start, end, after, before = shape
     first, last = (end + after) / 2, (start + before) / 2
-    along = (first - last) / np.linalg.norm(first - last)
+    along = unit(first - last)
     return np.array([first + _PLAY * along, last - _PLAY * along])
 
 

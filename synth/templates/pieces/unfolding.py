@@ -18,6 +18,7 @@ import shapely
 from graphs.arrays import Floats
 from graphs.canonical import leading
 from graphs.errors import UnsolvableError
+from graphs.geometry import unit
 from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
 from synth.templates.pieces.overlaps import lies_over
 from synth.templates.pieces.planes import Plane, plane_of_panel
@@ -60,8 +61,7 @@ class Panels:
         """Return how far two panels are folded, radians, valleys positive."""
         first, second = self.joins[edge]
         a, b = (self.sheet.faces[first][corner] for corner in self.ends(first, edge))
-        along = self.places[b] - self.places[a]
-        along = along / np.linalg.norm(along)
+        along = unit(self.places[b] - self.places[a])
         c, _ = (self.sheet.faces[second][corner] for corner in self.ends(second, edge))
         normal = self.planes[first].normal
         other = self.planes[second].normal * (1 if c == b else -1)

@@ -22,11 +22,12 @@ from enumerate.runner.sinks import RowSink
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.geometry import angles_between
 from graphs.mechanism.sc import SCGraph
 from synth.candidates.job import CandidateJob, Filter
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.cycles import loops_of_chain
-from synth.conformed.pose import angles_between, joint_axes
+from synth.conformed.pose import joint_axes
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.cone import link_angles
 from synth.surfaces.linkage_cones import common_cones

@@ -7,8 +7,9 @@ import pytest
 from conical import random_lengths, random_link_angles, random_linkages
 
 from graphs.errors import InvariantError
+from graphs.geometry import angles_between
 from synth.conformed.four_bar_poses import poses_from_conformed
-from synth.conformed.pose import angles_between, dihedral_angles, joint_axes, measured_dihedral_angles
+from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.fourbar.closing import kind_of_planar, kind_of_spherical, planar_differences, spherical_differences
 from synth.fourbar.joint_lines import in_a_hemisphere, minimal_supplementary, supplementary
 from synth.fourbar.position import (

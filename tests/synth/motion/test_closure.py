@@ -7,6 +7,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import Tolerances
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.newton import TangentSpace, corrected
@@ -83,6 +84,15 @@ def test_panels_on_each_other_fold_as_the_file_says(letter, angle):
     corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 2, 0), (1, 2, 0))
     closed = Sheet(6, ((0, 1),), letter, ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
     assert np.degrees(linkage_of_sheet(closed).angles) == pytest.approx([angle])
+
+
+@pytest.mark.parametrize(("letter", "angle"), [("V", 180.0), ("M", -180.0)])
+def test_rounded_panels_on_each_other_fold_as_the_file_says(letter, angle):
+    """A narrow panel whose far corners were moved, by rounding, through the panel it lies on."""
+    corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0.2, 5e-5), (1, 0.2, 5e-5))
+    closed = Sheet(6, ((0, 1),), letter, ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
+    assert np.degrees(linkage_of_sheet(closed).angles) == pytest.approx([180.0 - np.degrees(5e-5 / 0.2)])
+    assert np.degrees(linkage_of_sheet(closed, None, Tolerances.of(5e-5)).angles) == pytest.approx([angle])
 
 
 def test_what_has_no_axis_is_refused():

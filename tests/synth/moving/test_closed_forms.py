@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from graphs.files.formats import read
+from graphs.geometry import rotations
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
-from synth.motion.closure import ClosureEquations, turns
+from synth.motion.closure import ClosureEquations
 from synth.motion.placement import link_motions
 from synth.motion.second_order import rates_at
 from synth.moving.made import configuration_of
@@ -34,7 +35,7 @@ def moved(data, name, goal, frames=3):
 def screw(point, direction, angle):
     """The motion of space that a joint makes, float[4, 4]."""
     made = np.eye(4)
-    made[:3, :3] = turns(direction, np.array(angle))
+    made[:3, :3] = rotations(direction, np.array(angle))
     made[:3, 3] = point - made[:3, :3] @ point
     return made
 

@@ -51,6 +51,17 @@ def test_a_miura_sheet_has_an_idle_equation_round_every_inner_panel(rows, column
         assert "fold flat" in one.reasons[0]
 
 
+@pytest.mark.parametrize("decimals", [6, 4, 3])
+@pytest.mark.parametrize("size", [3, 4])
+def test_a_rounded_sheet_moves_for_the_reasons_of_the_exact_one(size, decimals):
+    sheet = generate("miura", rows=size, columns=size, fold=radians(60)).mechanism
+    places = tuple(tuple(round(one, decimals) for one in place) for place in sheet.coordinates)
+    exact, rounded = explain(sheet), explain(replace(sheet, coordinates=places))
+    assert (rounded.freedoms, rounded.idle, rounded.active) == (exact.freedoms, exact.idle, exact.active)
+    assert rounded.sets == exact.sets
+    assert all("fold flat" in one.reasons[0] for one in rounded.sets)
+
+
 def test_equations_of_a_flat_sheet_are_active_at_second_order():
     found = explain(generate("miura", rows=3, columns=3).mechanism)
     assert (found.freedoms, found.idle, found.active) == (4, 4, 4)

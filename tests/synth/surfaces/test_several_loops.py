@@ -13,10 +13,11 @@ from memberships import memberships
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read_linkage, write
+from graphs.geometry import angles_between
 from graphs.loops.loop import Loop
 from graphs.mechanism.conical import ConicalLinkage, places_of_steps
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.pose import angles_between, joint_axes
+from synth.conformed.pose import joint_axes
 from synth.surfaces.cone import link_angles, map_to_cones
 from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.several_loops import link_pairs, loop_steps

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from graphs.tolerances import Tolerances
 from synth.motion import configuration as configurations
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
@@ -26,9 +27,9 @@ def projectors(spaces):
     return [space.basis @ space.basis.T for space in spaces]
 
 
-def bent(sheet):
+def bent(sheet, by=0.05):
     """A sheet whose vertices are somewhere near, written in full: no geometry of it is special."""
-    places = np.array(sheet.coordinates) + np.random.default_rng(1).uniform(-0.05, 0.05, (sheet.vertices, 2))
+    places = np.array(sheet.coordinates) + np.random.default_rng(1).uniform(-by, by, (sheet.vertices, 2))
     return replace(sheet, coordinates=tuple(map(tuple, places.tolist())))
 
 
@@ -87,6 +88,25 @@ def test_large_sheets_are_judged_so(monkeypatch):
     assert (rigid.freedoms, rigid.certainty, rigid.text) == (0, "proved", "Rigid: nothing moves.")
     monkeypatch.undo()
     assert mobility(bent(map_sheet(5, 5)), exact=False).verdict.text == rigid.text
+
+
+def test_a_large_sheet_begins_as_it_is_assigned(monkeypatch):
+    sheet = miura(4, 4, 1.0)
+    asked = "".join({"V": "+", "M": "-"}.get(letter, "") for letter in sheet.assignments)
+    monkeypatch.setattr(configurations, "MOST_JOINTS", 20)
+    [way] = mobility(sheet, exact=False).verdict.ways
+    assert way.signs == asked
+
+
+def test_rates_of_rounded_coordinates_are_found_with_their_tolerance():
+    """All creases of a disturbed sheet fold together only to what its coordinates can tell."""
+    sheet = bent(miura(4, 4, 1.0), 5e-5)
+    linkage, closure, _ = posed(sheet)
+    marks = np.array([{"V": 1.0, "M": -1.0}[letter] for letter in sheet.assignments if letter in "VM"])
+    exactly = begun_near(closure, linkage, marks).rates
+    assert exactly is None or np.abs(exactly).min() < 1e-3
+    found = begun_near(closure, linkage, marks, Tolerances.of(5e-5).zero)
+    assert (found.rates * marks > 0.1).all()
 
 
 @pytest.mark.slow
