@@ -65,7 +65,15 @@ def comparisons(
                 outcomes = {
                     (verb.name, door): asked(verb, door, subject, seconds) for verb in verbs for door in doors
                 }
+                if variant.startswith("frame"):
+                    outcomes |= _by_frame(specimen, subject, int(variant.split()[1]), seconds)
                 yield Comparison(specimen.name, variant, outcomes, disagreements(outcomes))
+
+
+def _by_frame(specimen: Specimen, subject: Subject, frame: int, seconds: float | None) -> dict[Who, Outcome]:
+    """Ask for the mobility of a frame by its number, in the file that has them all."""
+    whole = Subject(specimen.load(), subject.file, subject.folder, frame)
+    return {("mobility", "by frame"): asked(VERBS[0], "python", whole, seconds)}
 
 
 def _subject(thing: Placed, folder: Path, file: Path | None) -> Subject:

@@ -164,7 +164,7 @@ VERBS = (
     Verb(
         "mobility",
         lambda s: synth.mobility(s.thing, exact=False, pose=s.frame),
-        lambda s: ["mobility", str(s.file), "--no-exact", "--json", *_frame_words(s)],
+        lambda s: ["mobility", str(s.file), "--no-exact", "--json"],
         takes_any=True,
     ),
     Verb(
@@ -227,10 +227,6 @@ VERBS = (
         says=lambda _: {"other_question": "realise gives the type of a mechanism other coordinates"},
     ),
 )  # fmt: skip
-
-
-def _frame_words(subject: Subject) -> list[str]:
-    return [] if subject.frame is None else ["--pose", str(subject.frame)]
 
 
 def asked(verb: Verb, door: str, subject: Subject, seconds: float | None = None) -> Outcome:
