@@ -13,6 +13,7 @@ from math import degrees
 
 import numpy as np
 
+from graphs.answer.mechanisms import lying
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
@@ -164,13 +165,17 @@ def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
     return np.where(np.abs(linkage.angles) > DOUBLE.parallel, np.sign(linkage.angles), 0.0)
 
 
-def configuration_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, mend: bool = True) -> SheetConfiguration:
+def configuration_of_sheet(
+    sheet: Sheet, *, frame: int | None = None, hinge_flat: bool = False, mend: bool = True
+) -> SheetConfiguration:
     """Return a crease pattern at the configuration of its coordinates, opened along cuts and mended.
 
     Parameters
     ----------
     sheet : Sheet
         With coordinates.
+    frame : int, optional
+        Of a sheet that has several; by default as it was read, or if that has no coordinates the first that has.
     hinge_flat : bool, optional
         Make hinges of flat (F) edges too.
     mend : bool, optional
@@ -181,7 +186,7 @@ def configuration_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, mend: bool
     UnsolvableError
         If the sheet has no coordinates, or panels do not fit.
     InvariantError
-        If a crease has no length.
+        If a crease has no length, or there is no such frame.
 
     Examples
     --------
@@ -190,6 +195,7 @@ def configuration_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, mend: bool
     >>> at, at.branches.regular
     (<SheetConfiguration: <PosedLinkage: 2 links, 1 joints, 0 loops>>, True)
     """
+    sheet = lying(sheet, frame)
     if sheet.coordinates is None:
         raise UnsolvableError(f"to move needs coordinates, and {sheet!r} has none")
     precision = precision_of_sheet(sheet)

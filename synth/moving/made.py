@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphs.answer.mechanisms import lying, precision_of_steps
+from graphs.answer.mechanisms import precision_of_steps
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
@@ -94,7 +94,7 @@ def configuration_of(
     if isinstance(thing, Sheet) or (frame is None and isinstance(thing, PolyhedronModel)):
         sheet = sheet_of(thing)
         if sheet is not None:
-            return configuration_of_sheet(lying(sheet, frame), hinge_flat=hinge_flat, mend=mend)
+            return configuration_of_sheet(sheet, frame=frame, hinge_flat=hinge_flat, mend=mend)
     if frame:
         raise InvariantError("frames", f"{thing!r} has no frames", "a .fold file")
     linkage, precision = _made(thing, orientations)

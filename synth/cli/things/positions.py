@@ -41,8 +41,8 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
     thing = read(file)
     with about(file):
-        linkage = configuration_of(thing).linkage
-        found = found_at(linkage, driven_angles(linkage.graph, drive), circuits=circuits, seed=seed)
+        at = configuration_of(thing)
+        found = found_at(at, driven_angles(at.linkage.graph, drive), circuits=circuits, seed=seed)
     if as_json:
         print_json({"file": file, **found.to_json()})
     else:

@@ -55,6 +55,26 @@ def test_a_miura_sheet_folds_by_its_formula(rows, columns, sector):
     assert np.abs(folded.path.angles - expected).max() < 1e-11
 
 
+def test_a_file_without_coordinates_in_its_first_frame_folds_from_the_next(tmp_path):
+    """As `move` and the command do."""
+    file = tmp_path / "series.fold"
+    places = [[*map(float, place)] for place in VERTEX.coordinates]
+    document = {
+        "vertices_edges": [[] for _ in places],
+        "edges_vertices": VERTEX.edges,
+        "edges_assignment": list(VERTEX.assignments),
+        "faces_vertices": VERTEX.faces,
+        "file_frames": [{"frame_parent": 0, "frame_inherit": True, "vertices_coords": places}],
+    }
+    file.write_text(json.dumps(document))
+    sheet = read(file)
+    assert sheet.coordinates is None
+    driven = {0: np.radians(-30.0)}
+    expected = fold(VERTEX, drive=driven, frames=2).path.angles
+    np.testing.assert_array_equal(fold(sheet, drive=driven, frames=2).path.angles, expected)
+    np.testing.assert_array_equal(synth.move(sheet, drive=driven, frames=2).path.angles, expected)
+
+
 def test_panels_stay_rigid(data):
     sheet = read(data / "patterns" / "bird-base.fold")
     folded = fold(sheet, frames=6)
