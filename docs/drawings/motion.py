@@ -27,9 +27,9 @@ from synth.drawing.space.poses import pose_scenes
 from synth.folding.motion import Folding
 from synth.folding.prepared import prepared
 from synth.motion.branches import branches_of
+from synth.motion.circuits import circuit_through
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.moving.circuits import circuit_through
 from synth.moving.linkages import linkage_of
 
 __all__ = ["DRAWINGS"]

@@ -28,7 +28,7 @@ from synth.advice.general_pose import GeneralPose, general_pose_of_linkage, gene
 from synth.advice.locks import Cost, cheapest_sets, held
 from synth.advice.search import Bounds, Candidates, freedoms_when_left_out, smallest_sets
 from synth.motion.closure import ClosureEquations
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 from synth.moving.linkages import linkage_of, sheet_of
 
 __all__ = ["advise"]

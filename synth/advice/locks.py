@@ -15,7 +15,7 @@ from heapq import heappop, heappush
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = ["HOLDS", "Cost", "cheapest_sets", "held"]
 

@@ -18,7 +18,7 @@ from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
 from synth.advice.diagonals import Diagonal
 from synth.folding.prepared import prepared
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
 

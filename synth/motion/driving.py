@@ -24,7 +24,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.newton import CLOSED
 from synth.motion.path import DrivenPath, PathOptions, driven_path
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
 

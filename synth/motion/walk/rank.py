@@ -16,7 +16,7 @@ from scipy.optimize import minimize_scalar
 
 from graphs.arrays import Floats
 from synth.motion.closure import ClosureEquations
-from synth.motion.walk.between import Step
+from synth.motion.walk.step import Step
 
 __all__ = ["WATCHED", "RankWatch"]
 
