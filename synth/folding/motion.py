@@ -13,23 +13,19 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError, shown
 from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
-from synth.folding.collisions import Panels, Poses, first_collision
+from synth.folding.collisions import Collision, Panels
 from synth.folding.mending.repair import Mended
 from synth.folding.prepared import Prepared, prepared
 from synth.folding.vertices import vertex_places
 from synth.motion.branches import Branches
-from synth.motion.closure import ClosureEquations
 from synth.motion.driving import Asked, Driven, driven_from
 from synth.motion.linkage import PosedLinkage
-from synth.motion.newton import corrected
 from synth.motion.path import DrivenPath
-from synth.motion.walk.event import PathEvent
 
 __all__ = ["Folding", "fold", "folding_along"]
 
@@ -231,11 +227,9 @@ def fold(
         doubt=pattern.doubt,
         report=report,
         along=along or {},
+        events=[_collision(pattern)] if collisions else (),
     )
     driven = driven_from(linkage, pattern.closure, pattern.branches, asked)
-    if collisions:
-        path = _unobstructed(driven.path, driven.places[0], pattern.sheet, pattern.mechanism, linkage)
-        driven = replace(driven, path=path)
     return folding_along(pattern, driven)
 
 
@@ -280,31 +274,13 @@ def _together(path: DrivenPath, apart: Floats, doubt: str) -> DrivenPath:
     return replace(path, angles=path.angles[:kept], errors=path.errors[:kept], stopped=told + doubt, events=events)
 
 
-def _unobstructed(
-    path: DrivenPath, driver: int, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage
-) -> DrivenPath:
-    """Return a path as far as no panels pass through each other."""
-    closure = ClosureEquations(linkage)
-
-    def closed(angles: Floats) -> Floats | None:
-        found = corrected(closure, angles)
-        return found.angles if found.closed else None
+def _collision(pattern: Prepared) -> Collision:
+    """Return what ends a walk before panels of a pattern pass through each other."""
+    sheet, mechanism = pattern.sheet, pattern.mechanism
 
     def places(angles: Floats) -> Floats:
-        return vertex_places(sheet, mechanism, linkage, angles)[0]
+        return vertex_places(sheet, mechanism, pattern.linkage, angles)[0]
 
     panel_of = {face: panel for panel, faces in enumerate(mechanism.panels) for face in faces}
-    panels = Panels(sheet.faces, [panel_of[face] for face in range(len(sheet.faces))], places(path.angles[:1])[0])
-    met = first_collision(panels, path.angles, Poses(places, closed))
-    if met is None:
-        return path
-    event = PathEvent("collision", max(met.frame, 0), driver, (driver,), met.angles, panels=met.panels)
-    told = event.told(tuple(linkage.graph.joints))
-    kept = max(met.frame, 0) + 1
-    return replace(
-        path,
-        angles=path.angles[:kept],
-        errors=path.errors[:kept],
-        stopped=told if met.frame >= 0 else f"panels pass through each other where it begins: {told}",
-        events=(*(one for one in path.events if one.frame < kept - 1), event),
-    )
+    of_faces = [panel_of[face] for face in range(len(sheet.faces))]
+    return Collision(Panels(sheet.faces, of_faces, places(pattern.linkage.angles[None])[0]), places)

@@ -5,7 +5,7 @@ Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from sys import float_info
@@ -25,6 +25,7 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.newton import CLOSED
 from synth.motion.path import DrivenPath, PathOptions, driven_path
 from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.walking import Event
 
 __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
 
@@ -58,6 +59,8 @@ class Asked:
         Called with the number of frames after each.
     along : mapping of joint id to float, optional
         In place of driven joints: rates to begin with. The path goes straight on.
+    events : sequence of Event
+        What else is looked for on the way.
     """
 
     drive: Mapping[JointId, float]
@@ -69,6 +72,7 @@ class Asked:
     doubt: str = ""
     report: Callable[[int], None] | None = None
     along: Mapping[JointId, float] = field(default_factory=dict)
+    events: Sequence[Event] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,10 +163,11 @@ def driven_from(linkage: PosedLinkage, closure: ClosureEquations, found: Branche
     by_least_rates = found is not None and found.regular and len(asked.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
-    options = PathOptions(direction, limited, bool(asked.along), asked.report, joints, allowance)
-    values = start + steps * (goals - start)
     still = () if number is None or found is None else found.branches[number].still
-    path = _path(closure, linkage.angles, places, values, replace(options, locked=still))
+    options = PathOptions(
+        direction, limited, bool(asked.along), asked.report, joints, allowance, still, asked.events
+    )
+    path = _path(closure, linkage.angles, places, start + steps * (goals - start), options)
     told = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, told, path)
 
@@ -174,7 +179,7 @@ def _path(
     if not options.locked or set(options.locked) & set(places):
         return driven_path(closure, start, places, values, options=replace(options, locked=()))
     path = driven_path(closure, start, places, values, options=options)
-    if not path.stopped:
+    if not path.stopped or (path.events and path.events[-1].kind == "collision"):
         return path
     free = driven_path(closure, start, places, values, options=replace(options, locked=()))
     lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]

@@ -36,8 +36,8 @@ _SLOW = 0.1
 _STILL = 1e-9
 """Squares of lengths of projected unit vectors below this are of joints that cannot move."""
 _MISSED = 1e-4
-_FREE = 1e-3
-"""Part of a vector across the freedoms that is left where it has become one of them."""
+_FREE = 0.5
+"""Part of a vector across the freedoms that is left, at most, where it has become one of them after a step."""
 
 
 class TangentSpace:
@@ -83,12 +83,13 @@ class TangentSpace:
     def sharpened(self, across: Floats) -> Floats:
         """Return what is nearer to the least singular vector across the freedoms: a unit vector float[J].
 
-        One step of inverse iteration. A vector that has become a freedom is given back as it is.
+        One step of inverse iteration. Of a vector that has become a freedom, its part along the freedoms.
         """
-        kept = across - self.projected(across)
+        free = self.projected(across)
+        kept = across - free
         size = float(np.linalg.norm(kept))
         if size <= _FREE * float(np.linalg.norm(across)):
-            return across
+            return np.asarray(free / np.linalg.norm(free))
         found = self._solve(kept / size)
         found = found - self.projected(found)
         return np.asarray(found / np.linalg.norm(found))

@@ -169,7 +169,7 @@ class Drive:
         self._watched = watch is not None or not closure.rows
 
     def to(self, value: Floats) -> str:
-        """Go on until the driven joints have given angles float[D], radians; return why they do not come to them."""
+        """Go on until the driven joints have given angles float[D], radians; return why they come no nearer."""
         walk, first, met = self._walk, len(self._frames), len(self._walk.met)
         goal = Goal(self._drivers, value, walk.here, self._names)
         turning = TurningPoint(goal.joint, goal.way)
@@ -182,9 +182,9 @@ class Drive:
                     walk.events.append(home)
         if walk.ended and walk.met[met:] and walk.met[-1].kind == "collision":
             return walk.ended
-        if walk.here is not self._frames[-1]:
-            if not (walk.ended and np.array_equal(walk.here.angles, self._frames[-1].angles)):
-                self._frames.append(walk.here)
+        stuck = walk.ended and np.array_equal(walk.here.angles, self._frames[-1].angles)
+        if not stuck and walk.here is not turning.last:
+            self._frames.append(walk.here)
         if walk.ended and goal.turned:
             return self._nearest(goal, first, met)
         if not walk.ended and self._report is not None:

@@ -49,7 +49,7 @@ class Limit(Event):
             return None if exact is step else (exact, "")
         self._over = tuple(np.flatnonzero(self._beyond(exact.after.angles)).tolist())
         self._reason = f"panels lie on each other at joint(s) {named(self._over, self._names)}"
-        free = exact.last(lambda angles: not self._beyond(angles).any())
+        free, _ = exact.last(lambda angles: not self._beyond(angles).any())
         exact = self._flattened(exact.up_to(free))
         if np.abs(exact.chord).max() <= _FLAT:
             exact = step.up_to(step.before)  # they lie on each other here, but for what loops tell of it

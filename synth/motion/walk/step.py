@@ -18,7 +18,7 @@ from synth.motion.newton import Corrected, corrected, exactly_held
 
 __all__ = ["STRAY", "Step"]
 
-STRAY = 0.5
+STRAY = 0.25
 """A corrected configuration is at most this part of its step from where it was expected."""
 _NEAR = 1e-9
 """Parts of a step that are told apart."""
@@ -108,17 +108,19 @@ class Step:
                 high, ends[1] = part, middle
         return None
 
-    def last(self, holds: Callable[[Floats], bool]) -> Corrected:
-        """Return the last closed configuration whose angles are as they should, the first one being so."""
-        low, high, kept = 0.0, 1.0, self.before
+    def last(self, holds: Callable[[Floats], bool]) -> tuple[Corrected, Corrected]:
+        """Return the last closed configuration of which something holds, as of the first one, and the next."""
+        low, high, kept, beyond = 0.0, 1.0, self.before, self.after
         while high - low > _NEAR:
             middle = (low + high) / 2.0
             between = self.at(middle)
-            if between.closed and holds(between.angles):
+            if not between.closed:
+                high = middle
+            elif holds(between.angles):
                 low, kept = middle, between
             else:
-                high = middle
-        return kept
+                high, beyond = middle, between
+        return kept, beyond
 
     def passing(self, angles: Floats, near: float) -> Corrected | None:
         """Return a given closed configuration, whole turns on, if the step passes it to so many radians.
