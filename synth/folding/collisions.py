@@ -9,8 +9,6 @@ sorted out by bounding boxes first. Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
 from math import ceil, radians
 
 import numpy as np
@@ -19,33 +17,15 @@ from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import area_vector, frame_about, unit
 from graphs.mechanism.precision import extent_of
 from graphs.tolerances import DOUBLE, Tolerances
+from synth.motion.walk.step import Step
+from synth.motion.walk.walking import Event, Walk
 
-__all__ = ["Collision", "Panels", "Poses", "first_collision"]
+__all__ = ["Collision", "Panels"]
 
 _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
-_HALVINGS = 30
 _BLOCK = 256
 """Pieces whose boxes are compared with all others at a time."""
-
-
-@dataclass(frozen=True, slots=True)
-class Collision:
-    """The first collision on a path.
-
-    Attributes
-    ----------
-    panels : (int, int)
-        Numbers of the two, the first of all that cross.
-    frame : int
-        The last frame before it; -1 if they cross in the first.
-    angles : float[J]
-        Joint angles where they meet, radians, bracketed to 1e-9 of the way between two poses.
-    """
-
-    panels: tuple[int, int]
-    frame: int
-    angles: Floats
 
 
 class Panels:
@@ -145,64 +125,58 @@ class Panels:
         return np.where(both, low, np.inf), np.where(both, high, -np.inf)
 
 
-@dataclass(frozen=True, slots=True)
-class Poses:
-    """How poses between frames are made.
+class Collision(Event):
+    """Panels begin to pass through each other: a walk ends before, at its last frame.
 
-    Attributes
-    ----------
-    places : callable
-        Gives the places of the vertices, float[F, vertices, 3], at joint angles float[F, J].
-    closed : callable
-        Gives the closed pose near joint angles float[J], or None.
-    """
-
-    places: Callable[[Floats], Floats]
-    closed: Callable[[Floats], Floats | None]
-
-
-def first_collision(panels: Panels, angles: Floats, poses: Poses) -> Collision | None:
-    """Return where panels first cross on a path, None if they do not.
-
-    Poses are looked at so that no joint turns by more than three degrees between two of them: panels that pass
-    through each other altogether in less are not seen.
+    Configurations are looked at so that no joint turns by more than three degrees between two of them: panels that
+    pass through each other altogether in less are not seen.
 
     Parameters
     ----------
     panels : Panels
-    angles : float[F, J]
-        Joint angles of the frames, radians.
-    poses : Poses
+    places : callable
+        Gives the places of the vertices, float[F, vertices, 3], at joint angles float[F, J].
     """
-    frames, on_the_way = [-1], [angles[0]]
-    for frame, (before, after) in enumerate(pairwise(angles)):
-        count = max(ceil(float(np.abs(after - before).max(initial=0.0)) / _APART), 1)
-        between = (poses.closed(before + step / count * (after - before)) for step in range(1, count))
-        found = [*(pose for pose in between if pose is not None), after]
-        on_the_way += found
-        frames += [frame] * len(found)
-    for number, places in enumerate(poses.places(np.array(on_the_way))):
-        crossing = panels.crossing(places)
-        if crossing is not None:
-            free = on_the_way[max(number - 1, 0)]
-            return _bracketed(Collision(crossing, frames[number], on_the_way[number]), free, panels, poses)
-    return None
 
+    def __init__(self, panels: Panels, places: Callable[[Floats], Floats]) -> None:
+        self._panels, self._places = panels, places
+        self._met: Floats | None = None
 
-def _bracketed(collision: Collision, free: Floats, panels: Panels, poses: Poses) -> Collision:
-    """Return a collision with the pose at which panels meet, after one at which none do."""
-    if collision.frame < 0:
-        return collision
-    for _ in range(_HALVINGS):
-        middle = poses.closed((free + collision.angles) / 2.0)
-        if middle is None:
-            break
-        found = panels.crossing(poses.places(middle[None])[0])
-        if found is None:
-            free = middle
-        else:
-            collision = Collision(found, collision.frame, middle)
-    return collision
+    def before(self, walk: Walk, rates: Floats) -> str:
+        """Return which panels cross where the walk begins."""
+        start = walk.here.angles
+        if walk.here is not walk.frames[0] or self._crossing(start) is None:
+            return ""
+        return f"panels pass through each other where it begins: {self._record(walk, start)}"
+
+    def within(self, walk: Walk, step: Step) -> tuple[Step, str] | None:
+        """End at the last place of a step at which no panels cross."""
+        self._met = None
+        count = max(ceil(float(np.abs(step.chord).max(initial=0.0)) / _APART), 1)
+        ends = [(part, step.at(part)) for part in (number / count for number in range(1, count + 1))]
+        ends = [(part, place) for part, place in ends if place.closed]
+        free = 0.0
+        for (part, _), places in zip(
+            ends, self._places(np.array([place.angles for _, place in ends])), strict=True
+        ):
+            if self._panels.crossing(places) is not None:
+                kept, beyond = step.piece(free, part).last(lambda angles: self._crossing(angles) is None)
+                self._met = beyond.angles
+                return step.up_to(kept), "panels pass through each other"
+            free = part
+        return None
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Record which panels cross."""
+        if self._met is not None:
+            walk.ended = self._record(walk, self._met)
+
+    def _record(self, walk: Walk, angles: Floats) -> str:
+        walk.record("collision", angles, panels=self._crossing(angles) or ())
+        return walk.met[-1].told(range(walk.closure.joints) if walk.goal is None else walk.goal.names)
+
+    def _crossing(self, angles: Floats) -> tuple[int, int] | None:
+        return self._panels.crossing(self._places(angles[None])[0])
 
 
 def _convex(face: Sequence[int], flat: Floats) -> list[list[int]]:

@@ -21,7 +21,7 @@ from graphs.ids import JointId
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE, Tolerances
-from synth.folding.collisions import Panels, Poses, first_collision
+from synth.folding.collisions import Collision, Panels
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import Mended, flattened, mended, nearly_agreeing, precision_of
 from synth.folding.opened import opened
@@ -32,11 +32,8 @@ from synth.motion.configuration import Configuration, Placed
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.misfit import EXACT, doubt_of, least_misfit
-from synth.motion.newton import corrected
-from synth.motion.path import DrivenPath
 from synth.motion.second_order import rate_spaces, rates_near
 from synth.motion.singular.quadrics import quadrics_of
-from synth.motion.walk.event import PathEvent
 
 __all__ = ["SheetConfiguration", "configuration_of_sheet"]
 
@@ -135,25 +132,16 @@ class SheetConfiguration(Configuration):
         )
         return replace(self.sheet, coordinates=tuple(map(tuple, there.tolist())), fold_angles=turned, frames=None)
 
-    def unobstructed(self, path: DrivenPath, driver: int) -> DrivenPath:
-        """Return a path as far as no panels pass through each other."""
-
-        def closed(angles: Floats) -> Floats | None:
-            found = corrected(self.closure, angles)
-            return found.angles if found.closed else None
-
+    def collision(self) -> Collision:
+        """Return what ends a walk before panels pass through each other."""
         panel_of = {face: panel for panel, faces in enumerate(self.mechanism.panels) for face in faces}
         numbers = [panel_of[face] for face in range(len(self.sheet.faces))]
-        panels = Panels(self.sheet.faces, numbers, self.placed(path.angles[:1]).points[0])
-        met = first_collision(panels, path.angles, Poses(lambda angles: self.placed(angles).points, closed))
-        if met is None:
-            return path
-        event = PathEvent("collision", max(met.frame, 0), driver, (driver,), met.angles, panels=met.panels)
-        reason = event.told(self.joints)
-        if met.frame < 0:
-            reason = f"panels pass through each other where it begins: {reason}"
-        short = path.up_to(max(met.frame, 0) + 1)
-        return replace(short, stopped=reason, events=(*short.events, event))
+
+        def places(angles: Floats) -> Floats:
+            return self.placed(angles).points
+
+        here = places(self.linkage.angles[None])[0]
+        return Collision(Panels(self.sheet.faces, numbers, here, self.tolerances), places)
 
 
 def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:

@@ -36,7 +36,7 @@ from synth.motion.singular.sampling import (
     rates_towards,
     same_part,
 )
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = [
     "MOST_BRANCHES",

@@ -25,9 +25,9 @@ from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, se
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.marked import MarkedWay, agreeing_best, marked_way
-from synth.motion.path import DrivenPath
 from synth.motion.placement import moved
 from synth.motion.second_order import rates_at
+from synth.motion.walk.walking import Event
 
 __all__ = ["Configuration", "Placed"]
 
@@ -192,8 +192,8 @@ class Configuration:
         """Return the mechanism at joint angles float[J], radians: a linkage, or where it is one a sheet."""
         return moved(self.linkage, angles)
 
-    def unobstructed(self, path: DrivenPath, driver: int) -> DrivenPath:
-        """Return a path as far as no panels pass through each other.
+    def collision(self) -> Event:
+        """Return what ends a walk before panels pass through each other.
 
         Raises
         ------

@@ -5,7 +5,7 @@ Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import degrees, pi
 
@@ -23,7 +23,8 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import DrivenPath, PathOptions, driven_path
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.walking import Event
 
 __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
 
@@ -49,6 +50,8 @@ class Asked:
         How many after the first.
     report : callable or None
         Called with the number of frames after each.
+    events : sequence of Event
+        What else is looked for on the way.
     """
 
     drive: Mapping[JointId, float] = field(default_factory=dict)
@@ -56,6 +59,7 @@ class Asked:
     branch: int | str | None = None
     frames: int = 20
     report: Callable[[int], None] | None = None
+    events: Sequence[Event] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,10 +148,11 @@ def driven_from(configuration: Configuration, asked: Asked) -> Driven:
     by_least_rates = found is not None and found.regular and len(asked.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
-    options = PathOptions(direction, limited, bool(asked.along), asked.report, joints, allowance)
-    values = start + steps * (goals - start)
     still = () if number is None or found is None else found.branches[number].still
-    path = _path(closure, linkage.angles, places, values, replace(options, locked=still))
+    options = PathOptions(
+        direction, limited, bool(asked.along), asked.report, joints, allowance, still, asked.events
+    )
+    path = _path(closure, linkage.angles, places, start + steps * (goals - start), options)
     ends = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, ends, path)
 
@@ -159,7 +164,7 @@ def _path(
     if not options.locked or set(options.locked) & set(places):
         return driven_path(closure, start, places, values, options=replace(options, locked=()))
     path = driven_path(closure, start, places, values, options=options)
-    if not path.stopped:
+    if not path.stopped or (path.events and path.events[-1].kind == "collision"):
         return path
     free = driven_path(closure, start, places, values, options=replace(options, locked=()))
     lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]

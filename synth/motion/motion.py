@@ -190,10 +190,9 @@ def motion_of(configuration: Configuration, asked: Asked, *, collisions: bool = 
             if configuration.limited
             else "nothing moves: there are no joints"
         )
-    driven = driven_from(configuration, asked)
     if collisions:
-        driven = replace(driven, path=configuration.unobstructed(driven.path, driven.places[0]))
-    return motion_along(configuration, driven)
+        asked = replace(asked, events=(*asked.events, configuration.collision()))
+    return motion_along(configuration, driven_from(configuration, asked))
 
 
 def motion_along(configuration: Configuration, driven: Driven) -> Motion:

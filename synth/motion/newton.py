@@ -33,8 +33,8 @@ _HOLDS = 2
 """Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
-_FREE = 1e-3
-"""Part of a vector across the freedoms that is left where it has become one of them."""
+_FREE = 0.5
+"""Part of a vector across the freedoms that is left, at most, where it has become one of them after a step."""
 _SWEEPS = 24
 _SETTLED, _UNSETTLED = 1e-14, 1e-9
 """Refinement ends where a sweep changes less than the first; where the last one changed more than the second, a
@@ -85,12 +85,13 @@ class TangentSpace:
     def sharpened(self, across: Floats) -> Floats:
         """Return what is nearer to the least singular vector across the freedoms: a unit vector float[J].
 
-        One step of inverse iteration. A vector that has become a freedom is given back as it is.
+        One step of inverse iteration. Of a vector that has become a freedom, its part along the freedoms.
         """
-        kept = across - self.projected(across)
+        free = self.projected(across)
+        kept = across - free
         size = float(np.linalg.norm(kept))
         if size <= _FREE * float(np.linalg.norm(across)):
-            return across
+            return np.asarray(free / np.linalg.norm(free))
         found = self._solve(kept / size)
         found = found - self.projected(found)
         return np.asarray(found / np.linalg.norm(found))

@@ -7,20 +7,63 @@ docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.arrays import Flags, Floats
+from graphs.canonical import trailing
+from graphs.ids import JointId
 from synth.motion.closure import ClosureEquations
-from synth.motion.newton import corrected
+from synth.motion.walk.allowance import Allowance
 from synth.motion.walk.event import PathEvent
-from synth.motion.walk.leg import Legs
-from synth.motion.walk.stepping import PathOptions
+from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint
+from synth.motion.walk.rank import WATCHED, RankWatch
+from synth.motion.walk.walking import Event, Goal, Walk
 
-__all__ = ["DrivenPath", "PathOptions", "driven_path"]
+__all__ = ["Drive", "DrivenPath", "PathOptions", "driven_path"]
+
+_MOST_PAST = 1_000
+"""Steps past a turning point."""
+
+
+@dataclass(frozen=True, slots=True)
+class PathOptions:
+    """How a path is followed.
+
+    Attributes
+    ----------
+    direction : float[J], optional
+        Rates to begin with, where the configuration is singular: a flat sheet has several ways to fold. By default
+        the least ones that move the driven joints.
+    limited : bool[J] or False, optional
+        Joints that do not turn beyond 180 degrees: panels lie on each other there.
+    straight : bool, optional
+        With several freedoms, go on in the direction it began as far as that is possible; by default by the
+        least rates that move the driven joints.
+    report : callable, optional
+        Called with the number of frames after each.
+    names : sequence of J joint ids, optional
+        How messages call the joints; by default by their places.
+    allowance : Allowance, optional
+        Steps that may be taken, by this path and others that share it.
+    locked : sequence of int, optional
+        Places of joints that keep their angles: those that do not move on the branch. Their closure equations may
+        be squares there, which tell angles to the root of their error only.
+    events : sequence of Event, optional
+        What else is looked for on the way.
+    """
+
+    direction: Floats | None = None
+    limited: Flags | bool = False
+    straight: bool = False
+    report: Callable[[int], None] | None = None
+    names: Sequence[JointId] | None = None
+    allowance: Allowance | None = None
+    locked: Sequence[int] = ()
+    events: Sequence[Event] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,19 +131,85 @@ def driven_path(
     >>> np.degrees(path.angles[-1]).round(3).tolist(), path.stopped
     ([89.943, -89.943, 89.943, -89.943], '')
     """
-    options = options or PathOptions()
-    legs = Legs(closure, list(drivers), options)
-    frames, events, stopped = [corrected(legs.moving, start)], list[PathEvent](), ""
+    drive = Drive(closure, start, drivers, options or PathOptions())
+    stopped = ""
     for value in np.asarray(values, dtype=float).reshape(-1, len(drivers)):
-        leg = legs.to(frames[-1], value)
-        events += [replace(event, frame=event.frame + len(frames) - 1) for event in leg.events]
-        stopped = leg.stopped
-        if stopped and np.array_equal(leg.poses[-1].angles, frames[-1].angles):
-            break
-        frames += leg.poses
+        stopped = drive.to(value)
         if stopped:
             break
-        if options.report is not None:
-            options.report(len(frames))
-    angles, errors = np.array([f.angles for f in frames]), np.array([f.error for f in frames])
-    return DrivenPath(angles, errors, stopped, tuple(events), legs.watch is not None or not closure.rows)
+    return drive.path(stopped)
+
+
+class Drive:
+    """Joints driven from one goal to the next: frames of a walk.
+
+    With one freedom the walk goes on past the points at which the driven joint turns back, until that has its
+    angle, the walk comes round, or ends.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    start : float[J]
+        A closed configuration, radians.
+    drivers : sequence of int
+        Places of the driven joints.
+    options : PathOptions
+    """
+
+    def __init__(
+        self, closure: ClosureEquations, start: Floats, drivers: Sequence[int], options: PathOptions
+    ) -> None:
+        moving = closure.locked(options.locked) if options.locked else closure
+        watch = RankWatch(closure) if 0 < closure.joints <= WATCHED and closure.rows else None
+        self._walk = Walk(
+            moving, start, options.direction, straight=options.straight, allowance=options.allowance, watch=watch
+        )
+        self._frames = self._walk.frames
+        self._drivers, self._report = list(drivers), options.report
+        self._names: Sequence[JointId] = range(closure.joints) if options.names is None else options.names
+        self._events: list[Event] = [RankDeficiency(closure)] if watch is not None else []
+        if np.any(options.limited):
+            self._events.append(Limit(np.broadcast_to(options.limited, closure.joints), self._names))
+        self._others = options.events
+        self._watched = watch is not None or not closure.rows
+
+    def to(self, value: Floats) -> str:
+        """Go on until the driven joints have given angles float[D], radians; return why they come no nearer."""
+        walk, first, met = self._walk, len(self._frames), len(self._walk.met)
+        goal = Goal(self._drivers, value, walk.here, self._names)
+        turning = TurningPoint(goal.joint, goal.way)
+        walk.towards(goal, [*self._events, *([] if goal.several else [turning]), goal, *self._others])
+        while goal.ahead(walk.here) and (step := next(walk, None)) is not None:
+            if step.after is turning.last:
+                self._frames.append(step.after)
+                if len(self._frames) == first + 1:
+                    home = Return(step.after.angles, step.arriving, "the path comes round to there", _MOST_PAST)
+                    walk.events.append(home)
+        if walk.ended and walk.met[met:] and walk.met[-1].kind == "collision":
+            return walk.ended
+        stuck = walk.ended and np.array_equal(walk.here.angles, self._frames[-1].angles)
+        if not stuck and walk.here is not turning.last:
+            self._frames.append(walk.here)
+        if walk.ended and goal.turned:
+            return self._nearest(goal, first, met)
+        if not walk.ended and self._report is not None:
+            self._report(len(self._frames))
+        return walk.ended
+
+    def path(self, stopped: str) -> DrivenPath:
+        """Return the frames, with why there are no more."""
+        angles = np.array([frame.angles for frame in self._frames])
+        errors = np.array([frame.error for frame in self._frames])
+        return DrivenPath(angles, errors, stopped, tuple(self._walk.met), self._watched)
+
+    def _nearest(self, goal: Goal, first: int, met: int) -> str:
+        """Take back the frames beyond the turning point at which the driver came nearest to its goal."""
+        walk, frames = self._walk, self._frames
+        best = first + trailing(np.array([goal.ahead(frame) for frame in frames[first:]]), scale=1.0)
+        turns = [at for at in range(met, len(walk.met)) if walk.met[at].kind == "turning point"]
+        if best == len(frames) - 1:
+            return walk.ended
+        del walk.met[turns[best - first] + 1 :]
+        stopped = f"{goal.turns_back(frames[best])}; past that, {walk.ended}"
+        del frames[best + 1 :]
+        return stopped

@@ -26,7 +26,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 from synth.motion.singular.definite import definite_weights
 from synth.motion.singular.quadrics import Quadric, local_forms
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = ["RateSpace", "largest_only", "rate_spaces", "rates_at", "rates_near", "spaces_within"]
 

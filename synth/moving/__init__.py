@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
-    from synth.moving.circuits import Circuit as Circuit
-    from synth.moving.circuits import circuit_through as circuit_through
+    from synth.motion.circuits import Circuit as Circuit
+    from synth.motion.circuits import circuit_through as circuit_through
     from synth.moving.conical import ConicalMotion as ConicalMotion
     from synth.moving.conical import move_on_cone as move_on_cone
     from synth.moving.made import configuration_of as configuration_of
@@ -25,7 +25,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "circuits": "Circuit circuit_through",
+            "synth.motion.circuits": "Circuit circuit_through",
             "conical": "ConicalMotion move_on_cone",
             "made": "configuration_of linkage_on_cone",
             "motion": "move",

@@ -7,7 +7,7 @@ Theory: docs/theory/moving.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import degrees, isfinite, tau
 from typing import Any
@@ -20,11 +20,19 @@ from graphs.ids import JointId, LinkId
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
+from synth.motion.circuits import Circuit
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import rates_at
-from synth.moving.circuits import Circuit, circuit_through
-from synth.moving.conical_walk import ROUND, ConicalWalk, Position, Sense, Stretch
+from synth.moving.conical_walk import (
+    ROUND,
+    ConicalLinks,
+    Course,
+    Position,
+    Sense,
+    Stretch,
+    positions_of,
+)
 from synth.moving.made import linkage_on_cone
 
 __all__ = ["ConicalMotion", "move_on_cone"]
@@ -170,15 +178,15 @@ def move_on_cone(
     for turn in at:
         if not isfinite(turn):
             raise InvariantError("turn", f"a position is asked for at {turn}", "a finite angle")
-    walk = ConicalWalk(on_cone, chain, linkage, closure, place)
+    links = ConicalLinks(on_cone, chain, linkage)
     towards = np.eye(1, closure.joints, place)[0]
-    ahead = walk.with_turning_points(circuit_through(closure, linkage.angles, towards))
-    back = _reversed(ahead) if ahead.closed else circuit_through(closure, linkage.angles, -towards)
-    behind = back if ahead.closed else walk.with_turning_points(back)
-    senses = (walk.sense(behind, -1.0), walk.sense(ahead, 1.0))
-    positions = [each for turn in at for each in walk.positions(behind, ahead, turn)]
+    ahead = Course.along(closure, links, towards, at, place)
+    closed = ahead.circuit.closed
+    behind = ahead.reversed(place) if closed else Course.along(closure, links, -towards, at, place)
+    senses = behind.sense(links, place), ahead.sense(links, place)
+    positions = positions_of(behind, ahead, links, at)
     name = list(linkage.graph.joints)[place]
-    return ConicalMotion(on_cone, linkage, chain, name, ahead, *senses, tuple(positions))
+    return ConicalMotion(on_cone, linkage, chain, name, ahead.circuit, *senses, tuple(positions))
 
 
 def _driver(
@@ -195,12 +203,6 @@ def _driver(
         names = ", ".join(shown(joints[joint]) for joint in asked)
         raise InvariantError("driver", f"joint {names} does not move at the conformed position", "one that does")
     return found[0]
-
-
-def _reversed(circuit: Circuit) -> Circuit:
-    """Return a closed circuit passed the other way, from the same pose."""
-    back = circuit.angles[::-1] - (circuit.angles[-1] - circuit.angles[0])
-    return replace(circuit, angles=back, rates=-circuit.rates[::-1])
 
 
 def _sense_json(sense: Sense) -> dict[str, Any]:

@@ -5,28 +5,32 @@ A link lies over the shortest arc of the cone that has its joints. Theory: docs/
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import cos, sin, tau
+from math import ceil, cos, inf, sin, tau
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
+from graphs.arrays import Flags, Floats, Ints
 from graphs.ids import LinkId
 from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
+from synth.motion.circuits import Circuit, circuit_through
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
-from synth.motion.newton import Corrected, corrected
+from synth.motion.newton import Corrected
 from synth.motion.placement import link_motions
-from synth.moving.circuits import Circuit, place_between
+from synth.motion.walk.events import TurningPoint
+from synth.motion.walk.step import Step
+from synth.motion.walk.walking import Event, Walk
 
-__all__ = ["BACK", "ROUND", "ConicalWalk", "Position", "Sense", "Stretch"]
+__all__ = ["ROUND", "ConicalLinks", "Course", "Position", "Sense", "Stretch", "positions_of"]
 
 _OFF = 1e-9
 """Points of links that are this near to the cone, in units of their distance from the apex, lie in it."""
-_SAME, _EXACT = 1e-7, 1e-13
+_SAME = 1e-7
 _SHORT = 1e-6
 """A link that passes through the cone lies in it for less than this turn of the driving joint."""
 BACK, ROUND = "turns back", "turns all round"
@@ -92,101 +96,43 @@ class Position:
     ways: dict[LinkId, Way]
 
 
-class ConicalWalk:
-    """What is looked at along the circuit of one linkage."""
+@dataclass(frozen=True, slots=True)
+class Crossing:
+    """Where a link comes to lie inside (side 0) or outside (1) of the cone, or ceases to.
 
-    def __init__(
-        self, on_cone: OnCone, chain: ConformedChain, linkage: PosedLinkage, closure: ClosureEquations, driver: int
-    ) -> None:
+    The frame is that of the circuit before it, the turn that of the driving joint, radians.
+    """
+
+    frame: int
+    turn: float
+    link: int
+    side: int
+
+
+class ConicalLinks:
+    """The links of a linkage as arcs on its cone."""
+
+    def __init__(self, on_cone: OnCone, chain: ConformedChain, linkage: PosedLinkage) -> None:
         assert on_cone.cone_angle is not None
-        self._chain, self._linkage, self._closure, self._driver = chain, linkage, closure, driver
-        self._tilt = on_cone.cone_angle
+        self.names, self.linkage, self._tilt = chain.links, linkage, on_cone.cone_angle
         self._arcs = link_arcs(chain, np.asarray(on_cone.places, dtype=float))
 
-    def with_turning_points(self, circuit: Circuit) -> Circuit:
-        """Return a circuit with the poses where the driving joint turns back among its own."""
-        angles, rates = list(circuit.angles), list(circuit.rates)
-        onwards = circuit.rates[:, self._driver] > 0.0
-        for number in np.flatnonzero(onwards[:-1] != onwards[1:])[::-1].tolist():
-            there = place_between(self._closure, circuit, number, partial(self._speed, circuit.rates[number]))
-            angles.insert(number + 1, there)
-            rates.insert(number + 1, (rates[number] + rates[number + 1]) / 2.0)
-        return replace(circuit, angles=np.array(angles), rates=np.array(rates))
+    def ways(self, angles: Floats) -> dict[LinkId, Way]:
+        """Return where each link lies at joint angles float[J]."""
+        return dict(zip(self.names, map(_way, self.beyond(angles[None])[0]), strict=True))
 
-    def sense(self, circuit: Circuit, sign: float) -> Sense:
-        """Return what happens until the driving joint turns back, or comes round."""
-        last = self._last(circuit, sign)
-        whole = last == len(circuit.angles) - 1
-        ends = (circuit.stopped or ROUND) if whole else BACK
-        seen = circuit.angles[1 : last + (0 if whole and circuit.closed else 1)]
-        limit = float(circuit.angles[last, self._driver])
-        spans = self._spans(seen)
-        ways = {
-            link: self._stretches(circuit, number, spans[:, number], limit)
-            for number, link in enumerate(self._chain.links)
-        }
-        return Sense(limit, ends, ways)
+    def beyond(self, angles: Floats) -> Flags:
+        """Return whether links have points inside and outside of the cone at float[F, J]: bool[F, N, 2]."""
+        return np.asarray(self.spans(angles) * [-1.0, 1.0] > 0.0)
 
-    def positions(self, behind: Circuit, ahead: Circuit, turn: float) -> list[Position]:
-        """Return the positions at a turn of the driving joint, whole turns aside."""
-        found = self._crossings(ahead, turn, self._last(ahead, 1.0))
-        if ahead.closed:
-            back = len(ahead.angles) - 1 - self._last(behind, -1.0)
-            found = [(number, pose, direct or number >= back) for number, pose, direct in found]
-        else:
-            found = [*self._crossings(behind, turn, self._last(behind, -1.0)), *found]
-        kept: list[Position] = []
-        for _, pose, direct in found:
-            if not any(_same(pose, other.angles) for other in kept):
-                ways = dict(zip(self._chain.links, map(_way, self._spans(pose[None])[0]), strict=True))
-                kept.append(Position(turn, pose, direct, ways))
-        return kept
-
-    def _last(self, circuit: Circuit, sign: float) -> int:
-        """Return the number of the pose at which the driving joint first turns back, or the last."""
-        onwards = sign * np.diff(circuit.angles[:, self._driver]) > 0.0
-        return len(onwards) if onwards.all() else int(onwards.argmin())
-
-    def _crossings(self, circuit: Circuit, turn: float, last: int) -> list[tuple[int, Floats, bool]]:
-        """Return where the driving joint has a turn: number of the pose before, pose, whether before the last."""
-        turns = circuit.angles[:, self._driver]
-        low, high = np.minimum(turns[:-1], turns[1:]), np.maximum(turns[:-1], turns[1:])
-        wanted = turn + tau * np.ceil((low - turn) / tau)
-        found = []
-        for number in np.flatnonzero(wanted <= high).tolist():
-            goal = float(wanted[number])
-            near = place_between(self._closure, circuit, number, partial(self._beyond, goal))
-            there = self._held(near, goal)
-            found.append((number, there, number < last))
-        return found
-
-    def _held(self, near: Floats, turn: float) -> Floats:
-        """Return the pose at which the driving joint has just a turn; beside a dead point the one that is near."""
-        start = near.copy()
-        start[self._driver] = turn
-        pose = corrected(self._closure, start, [self._driver])
-        if not pose.closed or abs(pose.angles[self._driver] - turn) > _EXACT:
-            return near
-        pose.angles[self._driver] = turn
-        return pose.angles
-
-    def _speed(self, onwards: Floats, pose: Corrected) -> float:
-        return float(pose.space.projected(onwards)[self._driver])
-
-    def _beyond(self, turn: float, pose: Corrected) -> float:
-        return float(pose.angles[self._driver] - turn)
-
-    def _span(self, link: int, side: int, pose: Corrected) -> float:
-        return float(self._spans(pose.angles[None])[0, link, side])
-
-    def _spans(self, angles: Floats) -> Floats:
+    def spans(self, angles: Floats) -> Floats:
         """Return how far links lie outside the cone, at least and at most: float[F, N, 2], less what is rounding.
 
         A point of a link at azimuth t lies at y = p cos t + q sin t + c, the cone itself at y = -sin(lambda).
         """
-        motions = link_motions(self._linkage, angles, self._chain.links[0])
-        spans = np.empty((len(angles), len(self._chain.links), 2))
-        for number, (link, (begin, length)) in enumerate(zip(self._chain.links, self._arcs, strict=True)):
+        motions = link_motions(self.linkage, angles, self.names[0])
+        spans = np.empty((len(angles), len(self.names), 2))
+        for number, (link, (begin, length)) in enumerate(zip(self.names, self._arcs, strict=True)):
             row = motions[link][0][:, 1]
             p, q = cos(self._tilt) * row[:, 2], cos(self._tilt) * row[:, 0]
             off = sin(self._tilt) * (1.0 - row[:, 1])
@@ -194,36 +140,147 @@ class ConicalWalk:
             spans[:, number] = np.stack([low + off + _OFF, high + off - _OFF], axis=1)
         return spans
 
-    def _stretches(self, circuit: Circuit, link: int, spans: Floats, limit: float) -> tuple[Stretch, ...]:
-        """Return the ways of a link one after the other, each with the turn at which it ends.
 
-        Its spans float[F, 2] are those from the second pose of the circuit on.
-        """
-        beyond = spans * [-1.0, 1.0] > 0.0
-        stretches = []
-        for number in np.flatnonzero((beyond[1:] != beyond[:-1]).any(axis=1)).tolist():
-            here = beyond[number].copy()
-            for turn, side in self._leaves(circuit, number + 1, link, beyond[number + 1] != here):
-                stretches.append(Stretch(_way_of(here), turn))
-                here[side] = not here[side]
-        every = [*stretches, Stretch(_way_of(beyond[-1]), limit)]
+class SidesOfCone(Event):
+    """Links leave a side of the cone, or come to lie on it.
+
+    Attributes
+    ----------
+    begun, now : bool[N, 2]
+        Whether links are inside and outside soon after the start, and in the end.
+    crossings : list of Crossing
+    """
+
+    def __init__(self, links: ConicalLinks, driver: int) -> None:
+        self._links, self._driver = links, driver
+        self.begun = self.now = np.zeros((len(links.names), 2), dtype=bool)
+        self.crossings: list[Crossing] = []
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Look at both halves of a step. Where the circuit is closed all links lie in the cone again."""
+        parts = (0.5,) if walk.ended else (0.5, 1.0)
+        beyond = self._links.beyond(np.array([step.at(part).angles for part in parts]))
+        if len(walk.frames) == 1:
+            self.begun = self.now = beyond[0]
+        for part, now in zip(parts, beyond, strict=True):
+            if (now != self.now).any():
+                self._cross(len(walk.frames) - 1, step.piece(part - 0.5, part), np.argwhere(now != self.now))
+            self.now = now
+
+    def _cross(self, frame: int, step: Step, changed: Ints) -> None:
+        crossings = []
+        for link, side in changed.tolist():
+            part = step.zero(partial(self._span, link, side))
+            assert part is not None, "a side that changes has a zero"
+            crossings.append((part, Crossing(frame, float(step.at(part).angles[self._driver]), link, side)))
+        self.crossings += [crossing for _, crossing in sorted(crossings, key=lambda each: each[0])]
+
+    def _span(self, link: int, side: int, place: Corrected) -> float:
+        return float(self._links.spans(place.angles[None])[0, link, side])
+
+
+class Turns(Event):
+    """The driving joint has given turns, whole ones aside.
+
+    Attributes
+    ----------
+    places : list of (int, float, float[J])
+        Number of the circuit's configuration before, the turn, joint angles.
+    """
+
+    def __init__(self, driver: int, turns: Sequence[float]) -> None:
+        self._driver, self._turns = driver, turns
+        self.places: list[tuple[int, float, Floats]] = []
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Land on them, and go on from the end of the step; beside a dead point on what is near."""
+        low, high = sorted(float(end.angles[self._driver]) for end in (step.before, step.after))
+        for turn in self._turns:
+            value = turn + tau * ceil((low - turn) / tau)
+            if value <= high:
+                place = step.landing(self._driver, value)
+                if place is None:
+                    place = step.at(step.zero(partial(self._beyond, value)) or 0.0)
+                self.places.append((len(walk.frames) - 1, turn, place.angles))
+
+    def _beyond(self, value: float, place: Corrected) -> float:
+        return float(place.angles[self._driver] - value)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """One way along the circuit from the conformed position, with what is met: see the events above."""
+
+    circuit: Circuit
+    begun: Flags
+    now: Flags
+    crossings: list[Crossing]
+    places: list[tuple[int, float, Floats]]
+
+    @classmethod
+    def along(
+        cls, closure: ClosureEquations, links: ConicalLinks, towards: Floats, turns: Sequence[float], driver: int
+    ) -> Course:
+        """Return the course that begins towards some rates."""
+        sides, at = SidesOfCone(links, driver), Turns(driver, turns)
+        circuit = circuit_through(closure, links.linkage.angles, towards, [TurningPoint(driver), sides, at])
+        return cls(circuit, sides.begun, sides.now, sides.crossings, at.places)
+
+    @property
+    def last(self) -> int:
+        """Number of the configuration at which the driving joint first turns back, or of the last one."""
+        return next(iter(self.circuit.turning), len(self.circuit.angles) - 1)
+
+    def reversed(self, driver: int) -> Course:
+        """Return a closed circuit passed the other way, from the same configuration."""
+        circuit, count = self.circuit, len(self.circuit.angles)
+        whole = circuit.angles[-1] - circuit.angles[0]
+        events = tuple(
+            replace(event, frame=count - 1 - event.frame)
+            for event in circuit.events
+            if event.kind == "turning point"
+        )[::-1]
+        back = replace(circuit, angles=circuit.angles[::-1] - whole, events=events)
+        crossings = [
+            replace(each, frame=count - 2 - each.frame, turn=each.turn - float(whole[driver]))
+            for each in reversed(self.crossings)
+        ]
+        return Course(back, self.now, self.begun, crossings, [])
+
+    def sense(self, links: ConicalLinks, driver: int) -> Sense:
+        """Return what happens until the driving joint turns back, or comes round."""
+        ends = BACK if self.circuit.turning else self.circuit.stopped or ROUND
+        limit = float(self.circuit.angles[self.last, driver])
+        ways = {link: self._stretches(number, limit) for number, link in enumerate(links.names)}
+        return Sense(limit, ends, ways)
+
+    def _stretches(self, link: int, limit: float) -> tuple[Stretch, ...]:
+        """Return the ways of a link one after the other, each with the turn at which it ends."""
+        here, stretches = self.begun[link].copy(), []
+        for each in self.crossings:
+            if each.link == link and each.frame < self.last:
+                stretches.append(Stretch(_way(here), each.turn))
+                here[each.side] = not here[each.side]
+        every = [*stretches, Stretch(_way(here), limit)]
         starts = [0.0, *(each.end for each in every)]
         return tuple(each for each, start in zip(every, starts, strict=False) if abs(each.end - start) > _SHORT)
 
-    def _leaves(self, circuit: Circuit, number: int, link: int, sides: Flags) -> list[tuple[float, int]]:
-        """Return where, after a pose, a link begins or ceases to be inside (0) or outside (1) of the cone."""
-        found = []
-        for side in np.flatnonzero(sides).tolist():
-            there = place_between(self._closure, circuit, number, partial(self._span, link, side))
-            found.append((float(there[self._driver]), side))
-        return sorted(found, key=lambda each: abs(each[0]))
+
+def positions_of(behind: Course, ahead: Course, links: ConicalLinks, turns: Sequence[float]) -> list[Position]:
+    """Return the positions at some turns of the driving joint, whole turns aside."""
+    back = len(ahead.circuit.angles) - 1 - behind.last if ahead.circuit.closed else inf
+    places = [(turn, angles, frame < behind.last) for frame, turn, angles in behind.places]
+    places += [(turn, angles, frame < ahead.last or frame >= back) for frame, turn, angles in ahead.places]
+    kept: list[Position] = []
+    for turn in turns:
+        begun = len(kept)
+        for at, angles, direct in places:
+            if at == turn and not any(_same(angles, other.angles) for other in kept[begun:]):
+                kept.append(Position(turn, angles, direct, links.ways(angles)))
+    return kept
 
 
-def _way(span: Floats) -> Way:
-    return _way_of(span * [-1.0, 1.0] > 0.0)
-
-
-def _way_of(beyond: Flags) -> Way:
+def _way(beyond: Flags) -> Way:
     """Return the way of a link that is inside the cone, outside, both or neither: bool[2]."""
     inside, outside = beyond.tolist()
     return Way.BOTH if inside and outside else Way(int(outside) - int(inside))

@@ -32,7 +32,7 @@ from synth.motion.second_order import rates_at
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.quadrics import quadrics_of
 from synth.motion.singular.sampling import rates_towards
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = ["Reached", "fold_to"]
 

@@ -24,7 +24,7 @@ from synth.motion.path import PathOptions, driven_path
 from synth.motion.placement import moved
 from synth.motion.second_order import RateSpace, largest_only, rates_at, spaces_within
 from synth.motion.singular.quadrics import all_quadrics, local_forms
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 
 __all__ = [
     "FOLLOWED",

@@ -1,8 +1,9 @@
-"""One path of closed poses, step by step: how far a step can be trusted, and what happens on the way.
+"""One walk along a curve of closed configurations, for all that moves.
 
-`stepping` takes the steps, `leg` goes from one frame to the next, `between` finds a pose within a step, `rank`
-watches for singular poses, `parting` says how many ways there are, `event` names what was met. `freedoms`: which
-joints drive a pose. Theory: docs/theory/folding.md.
+`walking` takes the steps, `step` finds configurations within one; `events` are objects that are given to a walk:
+turning points, panels on each other, rank deficiencies (`rank` watches, `parting` counts the branches), the return
+to where it began; others bring their own. `event` is the record of what was met, `allowance` counts the work.
+`freedoms`: which joints drive a configuration. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -12,8 +13,12 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
+    from synth.motion.walk.allowance import Allowance as Allowance
     from synth.motion.walk.event import PathEvent as PathEvent
-    from synth.motion.walk.stepping import Allowance as Allowance
-    from synth.motion.walk.stepping import PathOptions as PathOptions
+    from synth.motion.walk.walking import Event as Event
+    from synth.motion.walk.walking import Goal as Goal
+    from synth.motion.walk.walking import Walk as Walk
 else:
-    __getattr__, __dir__, __all__ = offered(__name__, {"event": "PathEvent", "stepping": "Allowance PathOptions"})
+    __getattr__, __dir__, __all__ = offered(
+        __name__, {"allowance": "Allowance", "event": "PathEvent", "walking": "Event Goal Walk"}
+    )

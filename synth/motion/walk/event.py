@@ -11,7 +11,7 @@ from graphs.arrays import Floats
 from graphs.errors import shown
 from graphs.ids import JointId
 
-__all__ = ["EventKind", "PathEvent", "angle_told", "joints_told"]
+__all__ = ["EventKind", "PathEvent", "in_degrees", "named"]
 
 EventKind = Literal["turning point", "limit", "rank drop", "collision"]
 
@@ -81,7 +81,7 @@ class PathEvent:
         if self.kind == "turning point":
             return f"turning point: {at}"
         if self.kind == "limit":
-            return f"limit: panels lie on each other at joint(s) {joints_told(self.joints, names)}, {at}"
+            return f"limit: panels lie on each other at joint(s) {named(self.joints, names)}, {at}"
         if self.kind == "collision":
             return f"collision: panels {self.panels[0]} and {self.panels[1]}, {at}"
         others = self.other_ways
@@ -89,23 +89,23 @@ class PathEvent:
         return f"rank drop: {self.drop} less with {at}; {ways}"
 
 
-def angle_told(angle: float, decimals: int = 6) -> str:
-    """Return an angle, radians, as it is told.
+def in_degrees(angle: float, decimals: int = 6) -> str:
+    """Return an angle, radians, in words.
 
     Examples
     --------
-    >>> angle_told(1.0471975511966), angle_told(-1e-12), angle_told(1.0458, decimals=1)
+    >>> in_degrees(1.0471975511966), in_degrees(-1e-12), in_degrees(1.0458, decimals=1)
     ('60 degrees', '0 degrees', '59.9 degrees')
     """
     return f"{round(degrees(angle), decimals) + 0.0:.6g} degrees"
 
 
-def joints_told(joints: Sequence[int], names: Sequence[JointId]) -> str:
+def named(joints: Sequence[int], names: Sequence[JointId]) -> str:
     """Return some joints by their names.
 
     Examples
     --------
-    >>> joints_told([0, 2], ["a", "b", "c"])
+    >>> named([0, 2], ["a", "b", "c"])
     "'a', 'c'"
     """
     return ", ".join(shown(names[joint]) for joint in joints)

@@ -16,7 +16,7 @@ from scipy.optimize import minimize_scalar
 
 from graphs.arrays import Floats
 from synth.motion.closure import ClosureEquations
-from synth.motion.walk.between import Step
+from synth.motion.walk.step import Step
 
 __all__ = ["WATCHED", "RankWatch"]
 
@@ -29,7 +29,9 @@ _DIP = 0.1
 """Part of a squared singular value that is left at the bottom of a dip worth looking into."""
 _AROUND = 0.05
 """Half of the part of a step that is looked into a second time."""
-_EXACT = 1e-7
+_ROUGH, _EXACT = 1e-3, 1e-7
+_FAR = 0.05
+"""A singular value that stays above this on the cubic of a step is not zero beside it."""
 _MOST_LOOKS = 12
 """Steps of one path that are looked into at most."""
 
@@ -68,11 +70,11 @@ class RankWatch:
             return None
         found = None
         if flat or abs(value) <= _ZERO:
-            found = self._told(step.after.angles, step)
+            found = self._deficient(step.after.angles, step)
         elif len(self._values) > 1 and self._values[-2] * value < 0.0:
-            found = self._looked(step)
+            found = self._examined(step)
         elif self._dips():
-            found = self._looked(self._steps[0]) or self._looked(step)
+            found = self._examined(self._steps[0]) or self._examined(step)
         else:
             return None
         self.singular |= found is not None and found[0] is step.after.angles
@@ -106,23 +108,26 @@ class RankWatch:
         bottom = -slope / (2.0 * bend)
         return bool(-first < bottom < second and squares[1] - bend * bottom**2 <= _DIP * squares[1])
 
-    def _looked(self, step: Step) -> tuple[Floats, int] | None:
-        """Look for a pose on a step at which singular values are zero."""
+    def _examined(self, step: Step) -> tuple[Floats, int] | None:
+        """Look for a configuration on a step at which singular values are zero."""
         self._looks += 1
         freedoms = self._zeros(step.before.angles)
-        part = self._least(step, freedoms)
+        part, square = self._least(step, freedoms, _ROUGH)
+        if square > _FAR**2:
+            return None
         narrow = step.piece(max(part - _AROUND, 0.0), min(part + _AROUND, 1.0))
-        return self._told(narrow.expected(self._least(narrow, freedoms)), step)
+        return self._deficient(narrow.expected(self._least(narrow, freedoms, _EXACT)[0]), step)
 
-    def _least(self, step: Step, freedoms: int) -> float:
-        """Return the part of a step at which the least singular value across the freedoms is least."""
+    def _least(self, step: Step, freedoms: int, exact: float) -> tuple[float, float]:
+        """Return the part of a step at which the least singular value across the freedoms is least; its square."""
 
         def square(part: float) -> float:
             return float(self._squares(step.expected(part))[freedoms])
 
-        return float(minimize_scalar(square, bounds=(0.0, 1.0), method="bounded", options={"xatol": _EXACT}).x)
+        least = minimize_scalar(square, bounds=(0.0, 1.0), method="bounded", options={"xatol": exact})
+        return float(least.x), float(least.fun)
 
-    def _told(self, angles: Floats, step: Step) -> tuple[Floats, int] | None:
+    def _deficient(self, angles: Floats, step: Step) -> tuple[Floats, int] | None:
         drop = self._zeros(angles) - self._zeros(step.before.angles)
         return (angles, drop) if drop > 0 else None
 

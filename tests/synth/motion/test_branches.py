@@ -14,7 +14,7 @@ from synth.motion.linkage import linkage_of_sheet
 from synth.motion.newton import corrected
 from synth.motion.second_order import rates_near
 from synth.motion.singular.quadrics import quadrics_of
-from synth.motion.walk.stepping import Allowance
+from synth.motion.walk.allowance import Allowance
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 

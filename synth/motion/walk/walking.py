@@ -1,0 +1,368 @@
+"""Walks: closed configurations one after the other along a curve, and what is met on the way.
+
+A step goes along rates at which loops stay closed, bent as the last step was, and is corrected by Newton's
+method; where driven joints land on angles that are asked for they are held there. A step is halved if its end does
+not close, lies far from where it was expected, or goes on in another direction: curves that come near each other
+are not confused. Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import inf, sqrt
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.canonical import leading
+from graphs.errors import shown
+from graphs.ids import JointId
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import Corrected, corrected, exactly_held
+from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.event import EventKind, PathEvent, in_degrees
+from synth.motion.walk.rank import RankWatch
+from synth.motion.walk.step import STRAY, Step
+
+__all__ = ["Event", "Goal", "Walk", "only_rates"]
+
+_FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
+"""Steps, radians of the joint that moves most."""
+_ALIKE = 0.6
+"""Cosine of the angle between directions before and after a step, at least."""
+_HARDLY = 0.05
+"""A driven joint that has less than this part of the largest rate may be about to turn back."""
+_EASY = 5
+"""Steps of Newton's method after which a step of the walk may be longer."""
+_ALONG = 1e-6
+"""Part of rates that is left across the curve where there is one freedom."""
+_MOST = 20_000
+_STILL = 1e-7
+"""Rates below this part of the largest are none."""
+
+
+class Event:
+    """Something that a walk may meet: each kind says what it looks at, and when."""
+
+    def before(self, walk: Walk, rates: Floats) -> str:
+        """Return why a walk cannot go on at such rates, if so."""
+        return ""
+
+    def within(self, walk: Walk, step: Step) -> tuple[Step, str] | None:
+        """Return a step as far as the event, and why the walk ends there; None where it is not on the step.
+
+        Where that is empty the walk goes on from there.
+        """
+        return None
+
+    def singular(self, step: Step) -> bool:
+        """Tell whether the rank may be less at the end of a step."""
+        return False
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Record what was met on a step, the walk being at its end."""
+
+
+class Goal(Event):
+    """Driven joints have given angles. Of several the one that has farthest to go leads.
+
+    Parameters
+    ----------
+    drivers : list of int
+        Places of the driven joints.
+    values : float[D]
+        Their angles, radians.
+    start : Corrected
+        Where the walk to it begins.
+    names : sequence of J joint ids
+        How messages call the joints.
+
+    Attributes
+    ----------
+    lead, joint : int
+        The joint that leads: its place among the driven ones, and among all.
+    way : float
+        1.0 or -1.0 as its angle is to grow or to fall, 0.0 at the goal.
+    turned : bool
+        Whether turning points of this joint were passed.
+    """
+
+    def __init__(self, drivers: list[int], values: Floats, start: Corrected, names: Sequence[JointId]) -> None:
+        self.drivers, self.names, self.turned = drivers, names, False
+        self._values = values
+        left = self.left(start)
+        self.lead = leading(left)
+        self.joint, self.way = drivers[self.lead], float(np.sign(left[self.lead]))
+
+    @property
+    def several(self) -> bool:
+        """Whether joints are driven together."""
+        return len(self.drivers) > 1
+
+    def left(self, place: Corrected) -> Floats:
+        """Return how far the driven joints are to turn: float[D], radians."""
+        return np.asarray(self._values - place.angles[self.drivers])
+
+    def ahead(self, place: Corrected) -> float:
+        """Return how far the goal is ahead, negative past it, 0.0 where the walk has come to it: radians."""
+        return self.way * float(self.left(place)[self.lead])
+
+    def before(self, walk: Walk, rates: Floats) -> str:
+        """Return why the driven joint does not come nearer."""
+        speed = self.way * float(rates[self.joint])
+        if self.turned or speed > _STILL:
+            return ""
+        if speed < 0.0:
+            return self.turns_back(walk.here)
+        return f"{self.driver} cannot move from {self.angle(walk.here)}"
+
+    def within(self, walk: Walk, step: Step) -> tuple[Step, str] | None:
+        """Land on the goal."""
+        if self.several or self.ahead(step.after) >= 0.0:
+            return None
+        landed = step.landing(self.joint, float(self._values[0]))
+        return (step.up_to(step.before), self.lost(step.before)) if landed is None else (step.up_to(landed), "")
+
+    @property
+    def driver(self) -> str:
+        """What messages call the joint that leads."""
+        return f"the driven joint {shown(self.names[self.joint])}"
+
+    def angle(self, place: Corrected, decimals: int = 6) -> str:
+        """Return its angle in words."""
+        return in_degrees(float(place.angles[self.joint]), decimals)
+
+    def lost(self, place: Corrected) -> str:
+        """Say that there is no step from here: how near it comes to where that is so, rounding decides."""
+        return f"no closed pose is found beyond {self.angle(place, 1)} of {self.driver}"
+
+    def turns_back(self, place: Corrected) -> str:
+        """Say that the driven joint turns back before it has its angle."""
+        goal = in_degrees(float(self._values[self.lead]))
+        return f"{self.driver} turns back at {self.angle(place)}, before {goal}"
+
+
+class Walk(Iterator[Step]):
+    """A walk along a curve of closed configurations, one step for each `next`, until an event ends it.
+
+    It goes straight on, or where it has a goal along the least rates that move the driven joints. Each event may
+    cut a step short, record what was met, and end the walk; they are asked in their order, and what is met first
+    on a step counts. A walk that ended goes on when it has another goal.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    start : float[J]
+        A closed configuration, radians.
+    tangent : float[J], optional
+        Rates to begin with; by default the least ones that move the driven joints of the first goal.
+    straight : bool, optional
+        Go straight on where there are several freedoms.
+    allowance : Allowance, optional
+    watch : RankWatch, optional
+        Of the rank on the way; by default it is not watched.
+
+    Attributes
+    ----------
+    here : Corrected
+        Where it is.
+    tangent : float[J] or None
+        The way on, of any size; None where the goal decides.
+    length : float
+        Of the next step, radians of the joint that moves most.
+    straight : bool
+    events : list of Event
+    goal : Goal or None
+    frames : list of Corrected
+        What is kept of the walk: the start, and what its caller adds.
+    met : list of PathEvent
+        What events recorded.
+    drop : (float[J], int) or None
+        Joint angles on the last step where the rank is less, and by how much.
+    ended : str
+        Why it went no farther; empty while it goes on.
+
+    Examples
+    --------
+    A parallelogram in the plane, all the way round:
+
+    >>> from graphs.loops.loop import Loop
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> from synth.motion.walk.events import Return
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+    >>> linkage = linkage_of_axes(ring, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
+    >>> walk = Walk(ClosureEquations(linkage), linkage.angles, np.array([1.0, -1.0, 1.0, -1.0]))
+    >>> walk.events.append(Return(linkage.angles, walk.tangent))
+    >>> largest = max(float(np.abs(step.chord).max()) for step in walk)
+    >>> walk.ended, np.degrees(walk.here.angles).round(6).tolist(), largest <= 0.21
+    ('it comes round', [360.0, -360.0, 360.0, -360.0], True)
+    """
+
+    def __init__(
+        self,
+        closure: ClosureEquations,
+        start: Floats,
+        tangent: Floats | None = None,
+        *,
+        straight: bool = False,
+        allowance: Allowance | None = None,
+        watch: RankWatch | None = None,
+    ) -> None:
+        self.closure, self.watch = closure, watch
+        self.here = corrected(closure, start)
+        self.tangent, self.length = tangent, _FIRST
+        self.events: list[Event] = []
+        self.goal: Goal | None = None
+        self.frames, self.met = [self.here], list[PathEvent]()
+        self.drop: tuple[Floats, int] | None = None
+        self.ended = ""
+        self.straight, self._allowance = straight, allowance
+        self._bend = np.zeros(closure.joints)
+        self._begun, self._steps = False, 0
+
+    def towards(self, goal: Goal, events: Sequence[Event]) -> None:
+        """Go on to a goal: back along the curve, if the driven joint does not go the way it is to go."""
+        self.goal, self.events, self.ended, self._steps = goal, [*events, goal], "", 0
+        if self._begun and self.tangent is not None and goal.way * self.tangent[goal.joint] < 0.0:
+            self.tangent = -self.tangent
+
+    def record(
+        self,
+        kind: EventKind,
+        angles: Floats,
+        *,
+        joints: tuple[int, ...] = (),
+        frame: int | None = None,
+        drop: int = 0,
+        other_ways: int | None = None,
+        panels: tuple[int, ...] = (),
+    ) -> None:
+        """Record an event at joint angles; by default of the driver, and after the last frame."""
+        driver = joints[0] if self.goal is None and joints else 0 if self.goal is None else self.goal.joint
+        frame = len(self.frames) - 1 if frame is None else frame
+        self.met.append(PathEvent(kind, frame, driver, joints or (driver,), angles, drop, other_ways, panels))
+
+    @property
+    def singular(self) -> bool:
+        """Whether rates are more than those of the curve, where it is, or hardly fewer."""
+        return self.watch is not None and self.watch.singular
+
+    def __next__(self) -> Step:
+        """Take a step."""
+        if self.ended:
+            raise StopIteration
+        rates = self._onwards()
+        self.ended = self._exhausted() or next(
+            filter(None, (each.before(self, rates) for each in self.events)), ""
+        )
+        step = None if self.ended else self._stepped(rates)
+        if step is None:
+            self.ended = self.ended or self._lost()
+            raise StopIteration
+        for event in self.events:
+            cut = event.within(self, step)
+            if cut is not None:
+                step, self.ended = cut
+        self._arrive(step)
+        for event in self.events:
+            event.after(self, step)
+        return step
+
+    def _exhausted(self) -> str:
+        self._steps += 1
+        if self._steps > _MOST:
+            return f"{_MOST} steps were not enough"
+        allowed = self._allowance is None or self._allowance.take()
+        return "" if allowed else "the allowance of steps was used up"
+
+    def _lost(self) -> str:
+        return "no one way leads on" if self.goal is None else self.goal.lost(self.here)
+
+    def _onwards(self) -> Floats:
+        """Return the rates to go on with, the largest 1 or -1: the least ones that move the driven joints.
+
+        Where these hardly can, or branches meet, those nearest to the rates before. Zeros if nothing moves.
+        """
+        rates = self._chosen()
+        size = float(np.abs(rates).max(initial=0.0))
+        return rates / size if size else rates
+
+    def _chosen(self) -> Floats:
+        before, goal = self.tangent, self.goal
+        if before is not None and not self._begun:
+            return before  # at a singular configuration: it was chosen
+        if before is not None and (goal is None or self.straight or (self.singular and not goal.several)):
+            return self.here.space.projected(before)
+        assert goal is not None, "a walk without a goal needs rates to begin with"
+        least = self.here.space.least_rates(goal.drivers, goal.left(self.here))
+        if before is None or goal.several:
+            return least
+        least = least * np.sign(least @ before)
+        hardly = np.abs(least[goal.drivers]).max() <= _HARDLY * np.abs(least).max(initial=0.0)
+        return self.here.space.projected(before) if hardly or not _alike(least, before) else least
+
+    def _stepped(self, rates: Floats) -> Step | None:
+        """Return a step of the length that can be trusted, at most to what is left of the driven joints' way."""
+        here, drivers, left, most = self.here, list[int](), np.zeros(0), inf
+        several = self.goal is not None and self.goal.several
+        bend = np.zeros_like(rates) if several else self._bend
+        if self.goal is not None:
+            drivers, left = self.goal.drivers, self.goal.left(here)
+            joint = self.goal.joint
+            most = _reach(float(rates[joint]), float(bend[joint]), float(left[self.goal.lead]))
+        while self.length >= _LEAST:
+            lands = self.length >= most
+            length = most if lands else self.length
+            expected = here.angles + length * rates + length**2 / 2.0 * bend
+            held = drivers if lands or several else []
+            expected[held] = here.angles[held] + (left if lands else length / most * left)[: len(held)]
+            end = corrected(self.closure, expected, held)
+            if end.closed and np.abs(end.angles - expected).max() <= STRAY * length:
+                arriving = end.space.projected(rates)
+                easy = end.steps <= _EASY and not lands
+                end = exactly_held(self.closure, end, held, expected[held])
+                if end.closed and (several or _alike(arriving, rates)):
+                    if easy:
+                        self.length = min(1.5 * self.length, _LARGEST)
+                    return Step(self.closure, here, end, rates, arriving)
+            self.length = length / 2.0
+        self.length = _FIRST
+        return None
+
+    def _arrive(self, step: Step) -> None:
+        """Go to the end of a step; where it is singular, rates are more than the curve's."""
+        self.here, self._begun = step.after, True
+        if self.watch is not None:
+            self.drop = self.watch.dropped(step, flat=any(each.singular(step) for each in self.events))
+        length = float(np.abs(step.chord).max(initial=0.0))
+        if not length:
+            return
+        self.tangent = 2.0 * step.chord / length - step.leaving if self.singular else step.arriving
+        bend = (step.arriving / max(float(np.abs(step.arriving).max()), _LEAST) - step.leaving) / length
+        straight = self.singular or np.abs(bend).max() * self.length > STRAY
+        self._bend = np.zeros_like(bend) if straight else bend
+
+
+def only_rates(place: Corrected, rates: Floats) -> bool:
+    """Tell whether all rates at a configuration are those of a curve through it: one freedom, to first order."""
+    along = place.space.projected(rates)
+    along = along / np.linalg.norm(along)
+    any_rates = place.space.projected(np.random.default_rng(len(rates)).normal(size=len(rates)))
+    across = any_rates - (any_rates @ along) * along
+    return bool(np.linalg.norm(across) <= _ALONG * np.linalg.norm(any_rates))
+
+
+def _reach(speed: float, bend: float, left: float) -> float:
+    """Return after which length a joint has gone as far as it is to go; infinite if it turns back before."""
+    if left < 0.0:
+        speed, bend, left = -speed, -bend, -left
+    square = speed * speed + 2.0 * bend * left
+    if square <= 0.0 or speed + sqrt(square) <= 0.0:
+        return inf
+    return 2.0 * left / (speed + sqrt(square))
+
+
+def _alike(one: Floats, other: Floats) -> bool:
+    return bool(one @ other > _ALIKE * np.linalg.norm(one) * np.linalg.norm(other))

@@ -1,0 +1,58 @@
+"""Curves that come near each other are not confused: ovals of Cassini, whose two halves all but meet."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+from synth.motion.newton import corrected
+from synth.motion.walk import Walk
+from synth.motion.walk.events import Return
+
+
+class Cassini:
+    """Points whose distances from (a, 0) and (-a, 0) have the product b^2: two ovals if b < a, one if b > a."""
+
+    joints, rows = 2, 1
+
+    def __init__(self, a, b):
+        self.a, self.b = a, b
+
+    def at(self, place):
+        x, y = place
+        a, scale = self.a, 4 * self.a**3
+        square = x * x + y * y
+        value = square**2 - 2 * a * a * (x * x - y * y) + a**4 - self.b**4
+        slopes = np.array([[4 * x * (square - a * a), 4 * y * (square + a * a)]])
+        return np.array([value]) / scale, scipy.sparse.csr_matrix(slopes / scale)
+
+
+def walked(a, apart, side):
+    """The places of a walk from beside the right end, all the way round; the curves are `apart` in the middle."""
+    curve = Cassini(a, a * np.sqrt(1 - side * apart**2))
+    start = corrected(curve, np.array([np.hypot(a, curve.b), 0.02 * a])).angles
+    tangent = corrected(curve, start).space.projected(np.array([0.0, 1.0]))
+    walk = Walk(curve, start, tangent)
+    walk.events = [Return(start, tangent)]
+    places = np.array([step.after.angles for step in islice(walk, 300)])
+    return walk.ended, places
+
+
+SIZES = np.linspace(0.3, 1.5, 9)
+
+
+@pytest.mark.parametrize("apart", [0.3, 0.1])
+def test_a_walk_stays_on_its_oval(apart):
+    for a in SIZES:
+        ended, places = walked(a, apart, 1)
+        assert ended == "it comes round"
+        assert places[:, 0].min() > 0.0, a
+
+
+@pytest.mark.parametrize("apart", [0.3, 0.1])
+def test_a_walk_goes_all_round_where_the_ovals_are_one(apart):
+    for a in SIZES:
+        ended, places = walked(a, apart, -1)
+        assert ended == "it comes round"
+        assert places[:, 0].min() < -a, a
