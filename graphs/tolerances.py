@@ -41,6 +41,9 @@ class Tolerances:
         Error of an entry of the closure equations' derivatives at a configuration whose loops are closed.
     zero : float
         A singular value or eigenvalue below this part of the largest is zero.
+    singular : float
+        A singular value below this is zero at a configuration that was located along a path, to some 1e-7, since
+        Newton's method does not lead to singular ones.
     clear : float
         One above this part of the largest is certainly not zero: what proofs rest on.
     zero_rate : float
@@ -72,6 +75,7 @@ class Tolerances:
     closed: float
     derivative: float
     zero: float
+    singular: float
     clear: float
     zero_rate: float
     immobile: float
@@ -103,6 +107,7 @@ class Tolerances:
             closed=closed,
             derivative=100.0 * closed,
             zero=zero,
+            singular=max(1e-5, zero),
             clear=max(1e-6, zero),
             zero_rate=1e-7,
             immobile=1e-9 * grown,

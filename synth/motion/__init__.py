@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from synth.motion.linkage import PosedLinkage as PosedLinkage
     from synth.motion.linkage import linkage_of_axes as linkage_of_axes
     from synth.motion.linkage import linkage_of_sheet as linkage_of_sheet
-    from synth.motion.path import DrivenPath as DrivenPath
+    from synth.motion.path import Path as Path
     from synth.motion.path import PathOptions as PathOptions
     from synth.motion.path import driven_path as driven_path
     from synth.motion.placement import link_motions as link_motions
@@ -50,7 +50,7 @@ else:
                 "spatial"
             ),
             "linkage": "PosedLinkage linkage_of_axes linkage_of_sheet",
-            "path": "DrivenPath PathOptions driven_path",
+            "path": "Path PathOptions driven_path",
             "placement": "link_motions",
             "synth.motion.singular.rigidity": "Rigidity rigidity_of",
         },

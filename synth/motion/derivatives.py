@@ -36,13 +36,8 @@ __all__ = [
     "spatial",
 ]
 
-_HELD = 1e-9
-"""Squares of lengths of projected unit vectors, and eigenvalues of their products, below this are of driven joints
-that cannot be held apart from others: as in `newton`."""
 _NUDGE = 1e-4
 """Radians, of the differences that say whether ranks change: their error is 1e-8."""
-_BENT = 1e-5
-"""Second derivatives of unit rates, below which redundant equations stay redundant."""
 _COMPLEX = 1e-40
 _STEPS = (1.0 / 64, 1.0 / 128, 1.0 / 256)
 _ALIKE = 1e-5
@@ -152,7 +147,7 @@ class Sensitivity:
 
     @staticmethod
     def _inverted(products: Floats) -> Floats:
-        if len(products) and float(np.linalg.eigvalsh(products)[0]) < _HELD:
+        if len(products) and float(np.linalg.eigvalsh(products)[0]) < DOUBLE.zero:
             raise UnsolvableError(
                 "the driven joints cannot be held here: one is immobile or at a turning point, or they depend on "
                 "each other"
@@ -174,7 +169,7 @@ class Sensitivity:
         first, second = self._flexes
         if not first.any():
             return False
-        return self._bent(self._along(first) @ second) > _BENT
+        return self._bent(self._along(first) @ second) > DOUBLE.singular
 
     @cached_property
     def _flexes(self) -> tuple[Floats, Floats]:
@@ -186,7 +181,7 @@ class Sensitivity:
     @staticmethod
     def _unit(flex: Floats, size: float) -> Floats:
         largest = float(np.abs(flex).max(initial=0.0))
-        return flex / largest if largest > _BENT * size else np.zeros_like(flex)
+        return flex / largest if largest > DOUBLE.singular * size else np.zeros_like(flex)
 
     def _along(self, rates: Floats) -> scipy.sparse.csr_matrix:
         """Return how the derivatives of the closure equations change along rates: sparse float[rows, J]."""
@@ -278,7 +273,7 @@ def sensitivities(closure: ClosureEquations, frames: Floats, driven: Sequence[in
     ----------
     closure : ClosureEquations
     frames : float[F, J]
-        Closed configurations, radians: `DrivenPath.angles`.
+        Closed configurations, radians: `Path.angles`.
     driven : sequence of int, optional
         Places of the driven joints.
 

@@ -22,14 +22,12 @@ from synth.motion.beginning import Wanted, beginning
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
-from synth.motion.path import DrivenPath, PathOptions, driven_path
+from synth.motion.path import Path, PathOptions, driven_path
 from synth.motion.walk.allowance import Allowance
 from synth.motion.walk.walking import Event
 
 __all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
 
-_FARTHER = 1e-3
-"""Radians: a path that leads on by less is not longer."""
 _STEPS, _STEPS_OF_FRAME = 1_000, 20
 """Steps that a motion may take, and as many more for each of its frames: ten times what real patterns need."""
 
@@ -74,13 +72,13 @@ class Driven:
         Of the driven joints.
     goals : mapping of joint id to float
         Their angles at the end, as they were asked for, radians.
-    path : DrivenPath
+    path : Path
     """
 
     branch: int | None
     places: list[int]
     goals: Mapping[JointId, float]
-    path: DrivenPath
+    path: Path
 
 
 def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
@@ -159,7 +157,7 @@ def driven_from(configuration: Configuration, asked: Asked) -> Driven:
 
 def _path(
     closure: ClosureEquations, start: Floats, places: list[int], values: Floats, options: PathOptions
-) -> DrivenPath:
+) -> Path:
     """Return the path on which joints that do not begin to move are locked, or if it ends before, a longer one."""
     if not options.locked or set(options.locked) & set(places):
         return driven_path(closure, start, places, values, options=replace(options, locked=()))
@@ -168,7 +166,7 @@ def _path(
         return path
     free = driven_path(closure, start, places, values, options=replace(options, locked=()))
     lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]
-    return free if lead[1] > lead[0] + _FARTHER or not free.stopped else path
+    return free if lead[1] > lead[0] + DOUBLE.moved or not free.stopped else path
 
 
 def _along(configuration: Configuration, asked: Asked) -> Wanted:

@@ -16,18 +16,17 @@ from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches
 from synth.motion.configuration import Configuration
 from synth.motion.driving import Asked, Driven, driven_from
 from synth.motion.linkage import PosedLinkage
-from synth.motion.path import DrivenPath
+from synth.motion.path import Path
 
 __all__ = ["FRAMES", "Motion", "motion_along", "motion_of"]
 
 FRAMES = 20
 """Frames after the first, where nothing else is asked for."""
-_TOGETHER = 1e-10
-"""Bodies that disagree by more on the place of a point, in units of the extent, do not hold together."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,7 +41,7 @@ class Motion(Printed):
         Where it began; of a sheet with what was done to its coordinates.
     branch : int or None
         Number of the branch that was taken; None at a regular configuration, or where they were not looked for.
-    path : DrivenPath
+    path : Path
         Joint angles, radians, of each frame; columns are the joints of the configuration.
     driven : mapping of joint id to float
         The angles that were asked for, radians.
@@ -61,7 +60,7 @@ class Motion(Printed):
 
     configuration: Configuration
     branch: int | None
-    path: DrivenPath
+    path: Path
     driven: Mapping[JointId, float]
     places: Floats
     apart: float
@@ -209,8 +208,8 @@ def motion_along(configuration: Configuration, driven: Driven) -> Motion:
     """
     path = driven.path
     points, apart = configuration.placed(path.angles)
-    if (apart > _TOGETHER).any():
-        kept = int(np.argmax(apart > _TOGETHER))
+    if (apart > DOUBLE.same_point).any():
+        kept = int(np.argmax(apart > DOUBLE.same_point))
         reason = (
             f"panels come apart by {apart[kept]:.1e} of the extent in frame {kept}: creases between them are bent"
         )

@@ -23,7 +23,7 @@ from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint
 from synth.motion.walk.rank import WATCHED, RankWatch
 from synth.motion.walk.walking import Event, Goal, Walk
 
-__all__ = ["Drive", "DrivenPath", "PathOptions", "driven_path"]
+__all__ = ["Drive", "Path", "PathOptions", "driven_path"]
 
 _MOST_PAST = 1_000
 """Steps past a turning point."""
@@ -67,8 +67,8 @@ class PathOptions:
 
 
 @dataclass(frozen=True, slots=True)
-class DrivenPath:
-    """Poses that a linkage passes through while one joint is driven.
+class Path:
+    """Configurations that a linkage passes through: while joints are driven, or round a circuit.
 
     Attributes
     ----------
@@ -90,7 +90,22 @@ class DrivenPath:
     events: tuple[PathEvent, ...] = ()
     watched: bool = True
 
-    def up_to(self, frames: int) -> DrivenPath:
+    @property
+    def error(self) -> float:
+        """By how much loops do not close, at most, over all frames."""
+        return float(self.errors.max(initial=0.0))
+
+    @property
+    def meets(self) -> tuple[Floats, ...]:
+        """Singular configurations on it, float[J], where another curve meets it."""
+        return tuple(event.angles for event in self.events if event.kind == "rank drop")
+
+    @property
+    def turning(self) -> list[int]:
+        """Numbers of its frames that are turning points of a joint, if these were looked for."""
+        return [event.frame for event in self.events if event.kind == "turning point"]
+
+    def up_to(self, frames: int) -> Path:
         """Return the first frames, and what was met before the last of them."""
         events = tuple(event for event in self.events if event.frame < frames - 1)
         return replace(self, angles=self.angles[:frames], errors=self.errors[:frames], events=events)
@@ -103,7 +118,7 @@ def driven_path(
     values: npt.ArrayLike,
     *,
     options: PathOptions | None = None,
-) -> DrivenPath:
+) -> Path:
     """Return the closed poses at which some joints have given angles, one after the other.
 
     Parameters
@@ -196,11 +211,11 @@ class Drive:
             self._report(len(self._frames))
         return walk.ended
 
-    def path(self, stopped: str) -> DrivenPath:
+    def path(self, stopped: str) -> Path:
         """Return the frames, with why there are no more."""
         angles = np.array([frame.angles for frame in self._frames])
         errors = np.array([frame.error for frame in self._frames])
-        return DrivenPath(angles, errors, stopped, tuple(self._walk.met), self._watched)
+        return Path(angles, errors, stopped, tuple(self._walk.met), self._watched)
 
     def _nearest(self, goal: Goal, first: int, met: int) -> str:
         """Take back the frames beyond the turning point at which the driver came nearest to its goal."""

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
-    from synth.motion.circuits import Circuit as Circuit
     from synth.motion.circuits import circuit_through as circuit_through
     from synth.moving.conical import ConicalMotion as ConicalMotion
     from synth.moving.conical import move_on_cone as move_on_cone
@@ -25,7 +24,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "synth.motion.circuits": "Circuit circuit_through",
+            "synth.motion.circuits": "circuit_through",
             "conical": "ConicalMotion move_on_cone",
             "made": "configuration_of linkage_on_cone",
             "motion": "move",

@@ -7,22 +7,21 @@ Theory: docs/theory/moving.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, fields
 from math import degrees, isfinite, tau
 from typing import Any
 
 import numpy as np
 
 from graphs.edit.named import known
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import JointId, LinkId
-from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.printing import Block, TableBlock, plain
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
-from synth.motion.circuits import Circuit
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
+from synth.motion.configuration import Configuration
+from synth.motion.driving import Driven
+from synth.motion.motion import Motion, motion_along
 from synth.motion.second_order import rates_at
 from synth.moving.conical_walk import (
     ROUND,
@@ -33,40 +32,39 @@ from synth.moving.conical_walk import (
     Stretch,
     positions_of,
 )
-from synth.moving.made import linkage_on_cone
+from synth.moving.made import configuration_of
 
 __all__ = ["ConicalMotion", "move_on_cone"]
 
-_STILL = 1e-9
 
-
-@dataclass(frozen=True)
-class ConicalMotion(Printed):
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ConicalMotion(Motion):
     """A linkage of one freedom on its cone, moved from the conformed position.
+
+    Its path is the circuit: all configurations that can be reached, the driving joint beginning forward.
 
     Attributes
     ----------
     on_cone : OnCone
-    linkage : PosedLinkage
-        At the conformed position.
     chain : ConformedChain
         Its first link is fixed.
     driver : joint id
-    circuit : Circuit
-        All poses that can be reached, from the conformed position on, the driving joint beginning forward.
     backward, forward : Sense
     positions : tuple of Position
         At the turns that were asked for.
     """
 
     on_cone: OnCone
-    linkage: PosedLinkage
     chain: ConformedChain
     driver: JointId
-    circuit: Circuit
     backward: Sense
     forward: Sense
     positions: tuple[Position, ...]
+
+    @property
+    def closed(self) -> bool:
+        """Whether the circuit comes back to where it began."""
+        return not self.path.stopped
 
     @property
     def turns_fully(self) -> bool:
@@ -76,27 +74,27 @@ class ConicalMotion(Printed):
     @property
     def meets(self) -> list[float]:
         """Turns of the driving joint at which another circuit meets this one: the linkage may go on either way."""
-        place = list(self.linkage.graph.joints).index(self.driver)
-        return [float(pose[place]) for pose in self.circuit.meets]
+        place = self.joints.index(self.driver)
+        return [float(angles[place]) for angles in self.path.meets]
 
-    @cached_property
+    @property
     def turns(self) -> dict[JointId, int]:
         """How often each joint turns round while the circuit is passed once; of one that is not closed, none."""
-        if not self.circuit.closed:
+        if not self.closed:
             return {}
-        whole = np.rint((self.circuit.angles[-1] - self.circuit.angles[0]) / tau).astype(int).tolist()
-        return dict(zip(self.linkage.graph.joints, whole, strict=True))
+        whole = np.rint((self.path.angles[-1] - self.path.angles[0]) / tau).astype(int).tolist()
+        return dict(zip(self.joints, whole, strict=True))
 
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
-        chain, angle = self.chain, self.on_cone.cone_angle
-        where = "" if angle is None else f"lambda {degrees(angle):.10g} degrees, "
         rows = [
             (plain(link), _stretches(self.backward.ways[link]), _stretches(self.forward.ways[link]))
-            for link in chain.links[1:]
+            for link in self.chain.links[1:]
         ]
+        angle = self.on_cone.cone_angle
+        where = "" if angle is None else f"lambda {degrees(angle):.10g} degrees, "
         return [
-            f"{where}link {plain(chain.links[0])} fixed, joint {plain(self.driver)} driven",
+            f"{where}link {plain(self.chain.links[0])} fixed, joint {plain(self.driver)} driven",
             f"range {_side(self.backward)}, {_side(self.forward)}",
             _circuit(self),
             TableBlock(("link", "backward", "forward"), rows),
@@ -108,8 +106,9 @@ class ConicalMotion(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the motion as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        joints = list(map(str, self.linkage.graph.joints))
+        joints = list(map(str, self.joints))
         return {
+            **super().to_json(),
             "lambda_deg": None if self.on_cone.cone_angle is None else degrees(self.on_cone.cone_angle),
             "ground": self.chain.links[0],
             "driver": str(self.driver),
@@ -117,14 +116,9 @@ class ConicalMotion(Printed):
             "turns_fully": self.turns_fully,
             "backward": _sense_json(self.backward),
             "forward": _sense_json(self.forward),
-            "circuit": {
-                "closed": self.circuit.closed,
-                "stopped": self.circuit.stopped or None,
-                "turns": {str(joint): turns for joint, turns in self.turns.items()},
-                "meets_deg": list(map(degrees, self.meets)),
-                "closure": self.circuit.error,
-                "poses": len(self.circuit.angles),
-            },
+            "closed": self.closed,
+            "turns": {str(joint): turns for joint, turns in self.turns.items()},
+            "meets_deg": list(map(degrees, self.meets)),
             "positions": [
                 {
                     "at_deg": degrees(each.at),
@@ -166,37 +160,40 @@ def move_on_cone(
     >>> from synth.conformed.linkages import loop_on_cones
     >>> first, _ = loop_on_cones(np.radians([120, 95, 45, 85]))
     >>> motion = move_on_cone(first)
-    >>> motion.turns_fully, motion.circuit.closed, motion.driver
+    >>> motion.turns_fully, motion.closed, motion.driver
     (False, True, '1')
     >>> [round(degrees(sense.limit), 3) for sense in (motion.backward, motion.forward)]
     [-103.923, 5.655]
     """
-    chain = ConformedChain.of(on_cone.chain, ground)
-    linkage = linkage_on_cone(on_cone)
-    closure = ClosureEquations(linkage)
-    place = _driver(closure, linkage, chain, driver)
+    chain, configuration = ConformedChain.of(on_cone.chain, ground), configuration_of(on_cone)
+    linkage, closure = configuration.linkage, configuration.closure
+    place = _driver(configuration, chain, driver)
     for turn in at:
         if not isfinite(turn):
             raise InvariantError("turn", f"a position is asked for at {turn}", "a finite angle")
     links = ConicalLinks(on_cone, chain, linkage)
     towards = np.eye(1, closure.joints, place)[0]
     ahead = Course.along(closure, links, towards, at, place)
-    closed = ahead.circuit.closed
+    closed = not ahead.circuit.stopped
     behind = ahead.reversed(place) if closed else Course.along(closure, links, -towards, at, place)
-    senses = behind.sense(links, place), ahead.sense(links, place)
-    positions = positions_of(behind, ahead, links, at)
-    name = list(linkage.graph.joints)[place]
-    return ConicalMotion(on_cone, linkage, chain, name, ahead.circuit, *senses, tuple(positions))
+    along = motion_along(configuration, Driven(None, [place], {}, ahead.circuit))
+    return ConicalMotion(
+        **{part.name: getattr(along, part.name) for part in fields(Motion)},
+        on_cone=on_cone,
+        chain=chain,
+        driver=configuration.joints[place],
+        backward=behind.sense(links, place),
+        forward=ahead.sense(links, place),
+        positions=tuple(positions_of(behind, ahead, links, at)),
+    )
 
 
-def _driver(
-    closure: ClosureEquations, linkage: PosedLinkage, chain: ConformedChain, driver: JointId | None
-) -> int:
-    joints = list(linkage.graph.joints)
+def _driver(configuration: Configuration, chain: ConformedChain, driver: JointId | None) -> int:
+    joints = configuration.joints
     if driver is not None and driver not in joints:
         raise InvariantError("driver", f"{shown(driver)} is no joint", known(joints, str(driver)))
-    rates = np.abs(rates_at(closure, linkage.angles)).max(axis=1, initial=0.0)
-    moving = rates > _STILL * rates.max(initial=0.0)
+    rates = np.abs(rates_at(configuration.closure, configuration.linkage.angles)).max(axis=1, initial=0.0)
+    moving = rates > configuration.tolerances.zero_rate * rates.max(initial=0.0)
     asked = list(chain.joints_of[0]) if driver is None else [joints.index(driver)]
     found = [joint for joint in asked if moving[joint]]
     if not found:
@@ -227,14 +224,13 @@ def _side(sense: Sense) -> str:
 
 
 def _circuit(motion: ConicalMotion) -> str:
-    circuit = motion.circuit
-    if not circuit.closed:
-        return f"circuit not followed to its end: {circuit.stopped}"
+    if not motion.closed:
+        return f"circuit not followed to its end: {motion.path.stopped}"
     turning = [f"joint {plain(joint)} {turns:+d}" for joint, turns in motion.turns.items() if turns]
-    told = f"circuit closed, loops to {circuit.error:.1e}; whole turns: {', '.join(turning) or 'none'}"
+    line = f"circuit closed, loops to {motion.closure:.1e}; whole turns: {', '.join(turning) or 'none'}"
     if motion.meets:
-        told += "; another circuit meets it at " + ", ".join(f"{degrees(turn):.6g}" for turn in motion.meets)
-    return told
+        line += "; another circuit meets it at " + ", ".join(f"{degrees(turn):.6g}" for turn in motion.meets)
+    return line
 
 
 def _stretches(stretches: tuple[Stretch, ...]) -> str:
@@ -242,7 +238,7 @@ def _stretches(stretches: tuple[Stretch, ...]) -> str:
 
 
 def _positions(motion: ConicalMotion) -> list[Block]:
-    joints = list(motion.linkage.graph.joints)
+    joints = motion.joints
     heads = ("at", *(f"joint {joint}" for joint in joints), "without turning back")
     rows = [
         (
@@ -253,5 +249,5 @@ def _positions(motion: ConicalMotion) -> list[Block]:
         for each in motion.positions
     ]
     asked = {each.at for each in motion.positions}
-    told = f"{len(motion.positions)} position(s) at {len(asked)} turn(s) that are reached"
-    return [TableBlock(heads, rows, ["at"]), told]
+    reached = f"{numbered(len(rows), 'position')} at {numbered(len(asked), 'turn')} that are reached"
+    return [TableBlock(heads, rows, ["at"]), reached]

@@ -14,13 +14,15 @@ import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
 from graphs.ids import LinkId
+from graphs.tolerances import DOUBLE
 from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
-from synth.motion.circuits import Circuit, circuit_through
+from synth.motion.circuits import circuit_through
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.newton import Corrected
+from synth.motion.path import Path
 from synth.motion.placement import link_motions
 from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
@@ -28,11 +30,6 @@ from synth.motion.walk.walking import Event, Walk
 
 __all__ = ["ROUND", "ConicalLinks", "Course", "Position", "Sense", "Stretch", "positions_of"]
 
-_OFF = 1e-9
-"""Points of links that are this near to the cone, in units of their distance from the apex, lie in it."""
-_SAME = 1e-7
-_SHORT = 1e-6
-"""A link that passes through the cone lies in it for less than this turn of the driving joint."""
 BACK, ROUND = "turns back", "turns all round"
 """Why a driving joint goes no further."""
 
@@ -128,6 +125,8 @@ class ConicalLinks:
     def spans(self, angles: Floats) -> Floats:
         """Return how far links lie outside the cone, at least and at most: float[F, N, 2], less what is rounding.
 
+        Lengths are in units of the distance from the apex.
+
         A point of a link at azimuth t lies at y = p cos t + q sin t + c, the cone itself at y = -sin(lambda).
         """
         motions = link_motions(self.linkage, angles, self.names[0])
@@ -137,7 +136,7 @@ class ConicalLinks:
             p, q = cos(self._tilt) * row[:, 2], cos(self._tilt) * row[:, 0]
             off = sin(self._tilt) * (1.0 - row[:, 1])
             low, high = _extremes(p, q, float(begin), float(length))
-            spans[:, number] = np.stack([low + off + _OFF, high + off - _OFF], axis=1)
+            spans[:, number] = np.stack([low + off + DOUBLE.same_point, high + off - DOUBLE.same_point], axis=1)
         return spans
 
 
@@ -211,7 +210,7 @@ class Turns(Event):
 class Course:
     """One way along the circuit from the conformed position, with what is met: see the events above."""
 
-    circuit: Circuit
+    circuit: Path
     begun: Flags
     now: Flags
     crossings: list[Crossing]
@@ -263,12 +262,16 @@ class Course:
                 here[each.side] = not here[each.side]
         every = [*stretches, Stretch(_way(here), limit)]
         starts = [0.0, *(each.end for each in every)]
-        return tuple(each for each, start in zip(every, starts, strict=False) if abs(each.end - start) > _SHORT)
+        return tuple(
+            each
+            for each, start in zip(every, starts, strict=False)
+            if abs(each.end - start) > DOUBLE.same_configuration
+        )
 
 
 def positions_of(behind: Course, ahead: Course, links: ConicalLinks, turns: Sequence[float]) -> list[Position]:
     """Return the positions at some turns of the driving joint, whole turns aside."""
-    back = len(ahead.circuit.angles) - 1 - behind.last if ahead.circuit.closed else inf
+    back = len(ahead.circuit.angles) - 1 - behind.last if not ahead.circuit.stopped else inf
     places = [(turn, angles, frame < behind.last) for frame, turn, angles in behind.places]
     places += [(turn, angles, frame < ahead.last or frame >= back) for frame, turn, angles in ahead.places]
     kept: list[Position] = []
@@ -297,4 +300,4 @@ def _extremes(p: Floats, q: Floats, begin: float, length: float) -> tuple[Floats
 
 def _same(one: Floats, other: Floats) -> bool:
     gap = one - other
-    return bool(np.abs(gap - tau * np.rint(gap / tau)).max() <= _SAME)
+    return bool(np.abs(gap - tau * np.rint(gap / tau)).max() <= DOUBLE.same_configuration)

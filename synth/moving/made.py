@@ -13,6 +13,7 @@ from graphs.answer.mechanisms import precision_of_steps
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.geometry import lines_meet
 from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
@@ -23,6 +24,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
+from graphs.tolerances import DOUBLE
 from synth.conformed.linkages import OnCone, linkage_on_cones
 from synth.conformed.pose import joint_axes
 from synth.folding.configuration import configuration_of_sheet
@@ -35,15 +37,13 @@ from synth.motion.linkage import PosedLinkage, linkage_of_axes
 from synth.motion.misfit import EXACT
 from synth.moving.rods import linkage_of_rods
 
-__all__ = ["Movable", "configuration_of", "linkage_on_cone", "off_one_point", "sheet_of"]
+__all__ = ["Movable", "configuration_of", "linkage_on_cone", "sheet_of"]
 
 Movable = Configuration | PosedLinkage | Mechanism | GuidedFourBar | OnCone
 """What is at a configuration, or has coordinates that tell it."""
 
 _EXACTLY = Precision(0.0, "exact")
 
-_MEETS = 1e-9
-"""Axes that pass a centre at this part of the extent, or are this far from parallel, meet there."""
 _APEX = (0.0, 0.0, 0.0)
 
 
@@ -196,32 +196,12 @@ def _with_centres(linkage: PosedLinkage) -> PosedLinkage:
         if loop.centre is Centre.INFINITE:
             off = float(np.abs(np.cross(axes, axes[0])).max())
         elif loop.centre is Centre.FINITE:
-            off = off_one_point(points, axes)
+            off = float(lines_meet(points, axes).off.max())
         else:
             continue
-        if off > _MEETS:
+        if off > DOUBLE.same_point:
             names = list(linkage.graph.joints)
             ids = shown([names[joint] for joint in loop.joints])
             are = "parallel" if loop.centre is Centre.INFINITE else "through one point"
             raise InvariantError("centre", f"the axes of loop {ids} miss by {off:.1e}", f"axes {are}")
     return linkage
-
-
-def off_one_point(points: Floats, axes: Floats) -> float:
-    """Return how far axes pass, at most, from the point nearest to all, in the unit of the points.
-
-    Parameters
-    ----------
-    points, axes : float[k, 3]
-        On the axes, and their unit vectors.
-
-    Examples
-    --------
-    >>> points, axes = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]]), np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> round(off_one_point(points, axes), 12)
-    1.0
-    """
-    across = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-    sums = (across @ points[..., None])[..., 0]
-    nearest = np.linalg.lstsq(across.reshape(-1, 3), sums.ravel(), rcond=None)[0]
-    return float(np.linalg.norm((across @ (nearest - points)[..., None])[..., 0], axis=1).max())

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches, Certainty
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
@@ -19,8 +20,6 @@ from synth.verdict.verdict import Basis, Verdict, Way, clusters_of
 from synth.verdict.words import Told, text_of_motion
 
 __all__ = ["verdict_of_motion"]
-
-_STILL = 1e-9
 
 
 def verdict_of_motion(configuration: Configuration, generic: int | None = None) -> Verdict:
@@ -85,7 +84,7 @@ def _verdict(configuration: Configuration, found: Branches, generic: int | None)
 
 def _way(linkage: PosedLinkage, branch: Branch) -> Way:
     joints = list(linkage.graph.joints)
-    apart = np.abs(branch.sample - linkage.angles) > _STILL
+    apart = np.abs(branch.sample - linkage.angles) > DOUBLE.immobile
     still = [joint for place, joint in enumerate(joints) if place in branch.still and not apart[place]]
     return Way(branch.signs, branch.freedoms, branch.certainty, tuple(still), branch.followed)
 

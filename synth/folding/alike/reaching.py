@@ -18,7 +18,7 @@ from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
-from graphs.tolerances import Tolerances
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
@@ -41,12 +41,8 @@ _WEIGHTS = (1.01, 0.8, 2.0, 0.5, 4.0, 0.25)
 two motions of a symmetric vertex are as near, and rounding would choose."""
 _DEAD_ENDS = 4
 """Spaces of rates that are tried for each of these."""
-_NONE, _HARDLY = 1e-7, 1e-3
-"""Rates below the first are none. Those below the second, parts of the largest, are no motion but a double zero of
-the equations, where Newton's method ends at the root of its tolerance."""
 _DRIVERS = 3
 """Creases that are driven in turn, of different classes, where the one that moves most turns back."""
-_TIED = 1e-6
 _STEPS = 1000
 """Of one path: 170 degrees take 20 to 100."""
 
@@ -127,7 +123,7 @@ def fold_to(sheet: Sheet, angle: float) -> Reached:
                 reached = _followed(start, driver, angle, straight=straight)
                 if not reached.folding.path.stopped:
                     return reached
-                if best is None or reached.angle > best.angle + _TIED:
+                if best is None or reached.angle > best.angle + DOUBLE.same_configuration:
                     best = reached
     if best is None:
         raise UnsolvableError("no motion is found that folds it as it is marked")
@@ -170,19 +166,19 @@ def _as_marked(pattern: SheetConfiguration, closure: ClosureEquations) -> Floats
             rates = None if space is None else rates_towards(space, wanted)
             if rates is None or not rates.any():
                 continue
-            rates = np.where(np.abs(rates) <= _NONE, 0.0, rates)
-            if not _against(rates, pattern.marks) and np.abs(rates[rates != 0.0]).min() >= _HARDLY:
+            rates = np.where(np.abs(rates) <= DOUBLE.zero_rate, 0.0, rates)
+            if not _against(rates, pattern.marks) and np.abs(rates[rates != 0.0]).min() >= DOUBLE.moved:
                 return rates
     return None
 
 
 def _against(rates: Floats, marks: Floats) -> bool:
-    return bool((rates * marks < -_NONE).any())
+    return bool((rates * marks < -DOUBLE.zero_rate).any())
 
 
 def _drivers(start: _Start) -> list[int]:
     """Return the joints that move most, of different classes, the first of those that move alike."""
-    left, drivers = np.abs(start.rates) > _NONE, list[int]()
+    left, drivers = np.abs(start.rates) > DOUBLE.zero_rate, list[int]()
     while left.any() and len(drivers) < _DRIVERS:
         drivers.append(leading(np.where(left, start.rates, 0.0)))
         left &= start.classes != start.classes[drivers[-1]]

@@ -9,6 +9,7 @@ import numpy as np
 
 from graphs.arrays import Flags, Floats
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import Corrected, corrected
 from synth.motion.walk.event import named
@@ -18,12 +19,9 @@ from synth.motion.walk.walking import Event, Walk, only_rates
 
 __all__ = ["Limit", "RankDeficiency", "Return", "TurningPoint"]
 
-_ROUNDED = 1e-9
 _FLAT, _FLAT_BEYOND = 1e-4, 0.02
 """Angles this near to 0 and 180 degrees, radians, are those if loops close with them; the second is for steps that
 lead beyond 180 degrees, since where branches meet Newton's method may end on another."""
-_SAME = 1e-9
-"""A walk that comes this near to a configuration, radians, has come to it."""
 _SHORT_OF_END = 0.999
 """Part of a step before its end: where that is singular, rates there are more than the curve's."""
 
@@ -84,11 +82,11 @@ class Limit(Event):
 
     def _reached(self, step: Step) -> tuple[int, ...]:
         """Return the joints that come to lie at 180 degrees at the end of a step."""
-        before, after = (np.abs(end.angles) >= pi - _ROUNDED for end in (step.before, step.after))
+        before, after = (np.abs(end.angles) >= pi - DOUBLE.immobile for end in (step.before, step.after))
         return tuple(np.flatnonzero(self._limited & after & ~before).tolist())
 
     def _beyond(self, angles: Floats) -> Flags:
-        return np.asarray(self._limited & (np.abs(angles) > pi + _ROUNDED))
+        return np.asarray(self._limited & (np.abs(angles) > pi + DOUBLE.immobile))
 
 
 class RankDeficiency(Event):
@@ -193,7 +191,7 @@ class Return(Event):
         self._steps += 1
         if self._steps == 1 or step.arriving @ self._tangent <= 0.0:
             return None
-        home = step.passing(self._angles, _SAME)
+        home = step.passing(self._angles, DOUBLE.immobile)
         return None if home is None else (step.up_to(home), self._reason)
 
     def after(self, walk: Walk, step: Step) -> None:

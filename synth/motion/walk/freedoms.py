@@ -8,17 +8,15 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis, pivots
+from graphs.canonical import pivots
+from graphs.rank.spaces import row_space
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 
 __all__ = ["free_rates", "independent_joints"]
 
 _BLOCK, _MOST = 8, 512
-_FREE = 1e-4
-"""Projected random rates have singular values above this part of the largest, or none: it is far from both."""
-_DEPENDS = 1e-6
-"""A joint of which less is left beside others depends on them."""
 
 
 def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = None) -> Floats | None:
@@ -55,10 +53,10 @@ def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = 
     found: list[Floats] = []
     while len(found) < min(_MOST, size):
         found += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
-        _, sizes, rows = np.linalg.svd(np.array(found), full_matrices=False)
-        rank = int((sizes > _FREE * np.sqrt(size)).sum())
-        if rank < len(found):
-            return canonical_basis(rows[:rank].T)
+        # projected random rates have singular values of their number's root, or none
+        basis = row_space(np.array(found), DOUBLE.singular, float(np.sqrt(size)))
+        if basis.shape[1] < len(found):
+            return basis
     return None
 
 
@@ -81,7 +79,7 @@ def independent_joints(basis: Floats, first: int) -> list[int]:
     chosen = []
     left = basis
     own = basis[first]
-    if basis.size and np.linalg.norm(own) > _DEPENDS:
+    if basis.size and np.linalg.norm(own) > DOUBLE.clear:
         chosen = [first]
         left = basis - np.outer(basis @ own, own) / (own @ own)
     return [*chosen, *pivots(left)]

@@ -10,16 +10,14 @@ from __future__ import annotations
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.rank.spaces import row_space, split
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 
 __all__ = ["other_ways"]
 
-_ZERO = 1e-5
-"""Singular values below this are zero, as in `rank`."""
-_SMALL = 1e-3
+_NUDGE = 1e-3
 """Rates for second differences, radians."""
-_NONE = 1e-4
-"""Forms, of unit rates, below this are zero: second differences are good to the square of the above."""
 
 
 def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
@@ -46,21 +44,21 @@ def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
     >>> other_ways(ClosureEquations(flat), flat.angles)
     1
     """
-    left, values, right = np.linalg.svd(closure.at(angles)[1].toarray())
-    rank = int((values > _ZERO).sum())
-    kernel, stresses = right[rank:], left[:, rank:].T
+    parts = split(closure.at(angles)[1].toarray(), DOUBLE.singular)
+    kernel, stresses = parts.kernel.T, parts.cokernel.T
     if len(kernel) != 2:
         return None
     first, second, both = (_curved(closure, angles, rates) for rates in (*kernel, kernel.sum(axis=0)))
     forms = stresses @ np.stack([first, (both - first - second) / 2.0, second], axis=1)
-    sizes, rows = np.linalg.svd(forms)[1:]
-    if int((sizes > _NONE).sum()) != 1:
+    none = 10.0 * DOUBLE.singular  # second differences are good to the square of their step
+    rows = row_space(forms, none, 1.0)
+    if rows.shape[1] != 1:
         return None
-    a, b, c = rows[0]
-    return 1 if b * b - a * c > _NONE else None
+    a, b, c = rows[:, 0]
+    return 1 if b * b - a * c > none else None
 
 
 def _curved(closure: ClosureEquations, angles: Floats, rates: Floats) -> Floats:
     """Return the second derivative of what does not close along rates: float[rows]."""
-    ahead, here, back = (closure.at(angles + step * rates)[0] for step in (_SMALL, 0.0, -_SMALL))
-    return np.asarray((ahead - 2.0 * here + back) / _SMALL**2)
+    ahead, here, back = (closure.at(angles + step * rates)[0] for step in (_NUDGE, 0.0, -_NUDGE))
+    return np.asarray((ahead - 2.0 * here + back) / _NUDGE**2)

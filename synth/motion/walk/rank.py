@@ -15,6 +15,7 @@ import scipy.linalg
 from scipy.optimize import minimize_scalar
 
 from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.walk.step import Step
 
@@ -22,9 +23,6 @@ __all__ = ["WATCHED", "RankWatch"]
 
 WATCHED = 400
 """Linkages of more joints are not watched: to look into a step all their singular values are needed."""
-_ZERO = 1e-5
-"""Singular values of closure equations of unit axes below this are zero, at poses known to 1e-7 or so."""
-_NEARLY = 1e-4
 _DIP = 0.1
 """Part of a squared singular value that is left at the bottom of a dip worth looking into."""
 _AROUND = 0.05
@@ -64,12 +62,12 @@ class RankWatch:
         Where panels lie flat on each other, at its end, the rank is always looked at.
         """
         value = self._followed(step)
-        self.singular = abs(value) <= _NEARLY
+        self.singular = abs(value) <= 10.0 * DOUBLE.singular
         self._values, self._steps = [*self._values, value][-3:], [*self._steps, step][-2:]
         if self._looks >= _MOST_LOOKS:
             return None
         found = None
-        if flat or abs(value) <= _ZERO:
+        if flat or abs(value) <= DOUBLE.singular:
             found = self._deficient(step.after.angles, step)
         elif len(self._values) > 1 and self._values[-2] * value < 0.0:
             found = self._examined(step)
@@ -132,7 +130,7 @@ class RankWatch:
         return (angles, drop) if drop > 0 else None
 
     def _zeros(self, angles: Floats) -> int:
-        return int((self._squares(angles) <= _ZERO**2).sum())
+        return int((self._squares(angles) <= DOUBLE.singular**2).sum())
 
     def _squares(self, angles: Floats) -> Floats:
         """Return the squares of the singular values, of all joints, the least first: float[J]."""

@@ -17,6 +17,7 @@ from graphs.arrays import Floats
 from graphs.canonical import leading
 from graphs.errors import shown
 from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import Corrected, corrected, exactly_held
 from synth.motion.walk.allowance import Allowance
@@ -34,11 +35,7 @@ _HARDLY = 0.05
 """A driven joint that has less than this part of the largest rate may be about to turn back."""
 _EASY = 5
 """Steps of Newton's method after which a step of the walk may be longer."""
-_ALONG = 1e-6
-"""Part of rates that is left across the curve where there is one freedom."""
 _MOST = 20_000
-_STILL = 1e-7
-"""Rates below this part of the largest are none."""
 
 
 class Event:
@@ -110,7 +107,7 @@ class Goal(Event):
     def before(self, walk: Walk, rates: Floats) -> str:
         """Return why the driven joint does not come nearer."""
         speed = self.way * float(rates[self.joint])
-        if self.turned or speed > _STILL:
+        if self.turned or speed > DOUBLE.zero_rate:
             return ""
         if speed < 0.0:
             return self.turns_back(walk.here)
@@ -351,7 +348,7 @@ def only_rates(place: Corrected, rates: Floats) -> bool:
     along = along / np.linalg.norm(along)
     any_rates = place.space.projected(np.random.default_rng(len(rates)).normal(size=len(rates)))
     across = any_rates - (any_rates @ along) * along
-    return bool(np.linalg.norm(across) <= _ALONG * np.linalg.norm(any_rates))
+    return bool(np.linalg.norm(across) <= DOUBLE.clear * np.linalg.norm(any_rates))
 
 
 def _reach(speed: float, bend: float, left: float) -> float:

@@ -60,9 +60,9 @@ def _neighbours(motion):
 
 def test_a_rocker_is_the_closed_form(rocker):
     agrees_with_the_closed_form(rocker)
-    assert rocker.circuit.closed
+    assert rocker.closed
     assert not rocker.turns_fully
-    assert rocker.circuit.error < 1e-12
+    assert rocker.closure < 1e-12
     assert rocker.meets == []
 
 
@@ -98,7 +98,7 @@ def ways_by_points(motion, angles):
 def test_ways_all_along_are_those_of_points(rocker):
     for each in rocker.positions:
         assert each.ways == ways_by_points(rocker, each.angles)
-    frames = rocker.circuit.angles
+    frames = rocker.path.angles
     for sense, numbers in (
         (rocker.forward, range(1, 4)),
         (rocker.backward, range(len(frames) - 10, len(frames) - 2)),
@@ -144,9 +144,9 @@ def test_where_links_can_fold_another_circuit_meets():
     (motion,) = [
         move_on_cone(each) for each in loop_on_cones(np.radians([100, 70, 90, 60])) if each.cone_angle > 1e-3
     ]
-    assert motion.circuit.closed
+    assert motion.closed
     assert motion.meets
-    for pose in motion.circuit.meets:
+    for pose in motion.path.meets:
         axes = np.array([_axis(motion, pose, joint) for joint in range(4)])
         assert np.linalg.svd(axes)[1][2] < 1e-5
 
@@ -162,7 +162,7 @@ def test_several_loops_go_as_far_as_a_driven_path_does(data):
     """Fig. 11 of Hyatt et al. 2020, a chain of two loops: the driver hardly moves, near a dead point."""
     (on_cone,) = linkage_on_cones(read(data / "surfaces" / "fig11-stephenson.json"))
     motion = move_on_cone(on_cone, at=np.radians([0.1]))
-    assert motion.circuit.closed
+    assert motion.closed
     assert len(motion.positions) == 4
     closure = ClosureEquations(motion.linkage)
     for each in motion.positions:
@@ -196,7 +196,7 @@ def test_the_command_tells_up_to_which_turn_one_way_is_kept(data):
     assert {told[sense]["one_way"]["way"] for sense in ("forward", "backward")} == {"inward", "outward"}
     for sense in (told["forward"], told["backward"]):
         assert 0 < sense["one_way"]["to_deg"] / sense["limit_deg"] <= 1
-    assert told["circuit"]["closed"]
+    assert told["closed"]
     assert set(told["forward"]["links"]) == {"1", "2", "3", "4"}
     assert told["positions"][0]["joint_angles_deg"]["1"] == pytest.approx(3.0, abs=1e-12)
     assert "Usage:" in run("cone", "move", code=2).output
@@ -210,4 +210,4 @@ def test_what_is_printed(rocker):
     assert "link 1 fixed, joint 2 driven" in out
     assert "range to -105.5000757 degrees (turns back), to 4.078014059 degrees (turns back)" in out
     assert "circuit closed, loops to" in out
-    assert "4 position(s) at 2 turn(s) that are reached" in out
+    assert "4 positions at 2 turns that are reached" in out
