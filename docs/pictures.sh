@@ -6,6 +6,7 @@ synth="${BIN:+$BIN/}synth"
 mkdir -p docs/pictures
 
 "${BIN:+$BIN/}python" docs/overview.py
+"${BIN:+$BIN/}python" docs/rooms.py
 "${BIN:+$BIN/}python" docs/drawings/pages.py
 
 "$synth" draw data/patterns/bird-base.fold --graph --colour centres --force -o docs/pictures/bird-base-centres.svg
