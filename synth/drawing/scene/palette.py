@@ -77,18 +77,7 @@ PAPERS: Mapping[str, Mapping[str, str]] = MappingProxyType({"light": _LIGHT, "da
 
 
 def colour_of(name: str, paper: str) -> str:
-    """Return a colour as ``#rrggbb``.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such colour, or no such paper.
-
-    Examples
-    --------
-    >>> colour_of("paper", "light"), colour_of("paper", "dark")
-    ('#ffffff', '#14171a')
-    """
+    """Return a colour as ``#rrggbb``; InvariantError if there is no such colour, or no such paper."""
     if paper not in PAPERS:
         raise InvariantError("paper", f"the paper {shown(paper)} is not known", " or ".join(PAPERS))
     colours = PAPERS[paper]
@@ -100,8 +89,6 @@ def colour_of(name: str, paper: str) -> str:
 def colour_of_class(number: int) -> str:
     """Return the name of the colour of a class of joints, loops or links.
 
-    Examples
-    --------
     >>> colour_of_class(9)
     'class1'
     """
