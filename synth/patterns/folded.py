@@ -9,24 +9,9 @@ __all__ = ["folded"]
 
 
 def folded(sheet: Sheet, angle: float) -> Sheet:
-    """Return a flat sheet folded on the way that its letters say, until the crease that moves most has an angle.
+    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    angle : float
-        Radians.
-
-    Raises
-    ------
-    UnsolvableError
-        If it does not fold, or not so far.
-
-    Examples
-    --------
-    >>> from synth.patterns.creases.tessellations import miura
-    >>> folded(miura(2, 2, 1.0), 0.5)
-    <Sheet: 4 faces, 4 creases, 9 vertices, in space>
+    Raise UnsolvableError if it does not fold, or not so far.
     """
     last: Sheet = fold_to(sheet, angle).folding.frames()[-1]
     return last
