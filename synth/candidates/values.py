@@ -37,6 +37,12 @@ def half_turns(
     """Return the pairs of joints that share a link, and which of these steps are half a turn, bool[..., pairs].
 
     Such steps have no sign; azimuths are float[..., J], radians.
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> pairs, is_half_turn = half_turns(chain, np.radians([0, 180, 90, 300]))
+    >>> [pair for pair, is_so in zip(pairs, is_half_turn) if is_so]
+    [(0, 1)]
     """
     t = np.asarray(places, dtype=float)
     pairs = sorted({pair for joints in chain.joints_of for pair in combinations(joints, 2)})

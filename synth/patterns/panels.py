@@ -61,6 +61,10 @@ def sheet_of_faces(
 
 
 def rounded(sheet: Sheet, digits: int) -> Sheet:
-    """Return a sheet with its coordinates rounded to so many decimals."""
+    """Return a sheet with its coordinates rounded to so many decimals.
+
+    >>> rounded(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1 / 3, 0), (0, 1))), 2).coordinates
+    ((0.0, 0.0), (0.33, 0.0), (0.0, 1.0))
+    """
     assert sheet.coordinates is not None
     return replace(sheet, coordinates=tuple(tuple(round(x, digits) + 0.0 for x in p) for p in sheet.coordinates))

@@ -46,6 +46,9 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     `size` is the longest side of the box round the places, in millimetres. Raise InvariantError if scale or size
     is not positive, or both are given; UnsolvableError if the box would be smaller than 10 mm, which nobody could
     fold, or larger than 1e6 mm.
+
+    >>> millimetres(np.array([[0, 0], [2, 1.0]]), size=100)
+    50.0
     """
     if scale is not None and size is not None:
         raise InvariantError("scale", "a scale and a size", "one of them")

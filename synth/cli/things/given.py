@@ -43,6 +43,9 @@ def given(argument: str, row: int | None = None, mode: str | None = None) -> Giv
     With a row, from 1, it is one of a store, a list or a folder. The mode is that of an R/- string; a row of a
     list of modes has its own. Raise click.UsageError if a row is required and missing, or the other way round;
     FileError if the file cannot be read, or has no such row.
+
+    >>> given("RR-R-RRR").thing
+    ChainString(clusters=(2, 1, 3))
     """
     from graphs.files.formats import read
     from synth.drawing.catalogue.entries import entry_numbered, is_catalogue

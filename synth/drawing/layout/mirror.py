@@ -53,6 +53,10 @@ def mirrored(graph: nx.Graph, swap: Mapping[Node, Node]) -> Neighbours | None:
     """Return rotations of a connected graph that a symmetry of order two reverses; None if there are none.
 
     The symmetry swaps the ends of no edge.
+
+    >>> square = nx.cycle_graph(4)
+    >>> mirrored(square, {0: 0, 1: 3, 2: 2, 3: 1}) is None, mirrored(square, {0: 2, 1: 3, 2: 0, 3: 1}) is None
+    (False, True)
     """
     fixed = [node for node in graph if swap[node] == node]
     half = _one_side(graph, fixed, swap)

@@ -256,7 +256,11 @@ def _middle_of_link(drawn: _Drawn, faces: Sequence[int]) -> Point:
 
 
 def inside(row: Sequence[Point]) -> Point:
-    """Return a point inside a polygon: the middle of its area if that lies there, else one that does."""
+    """Return a point inside a polygon: the middle of its area if that lies there, else one that does.
+
+    >>> inside([(0, 0), (2, 0), (2, 2), (0, 2)])
+    (1.0, 1.0)
+    """
     from shapely.geometry import Polygon as Area
 
     area = Area(row)

@@ -34,7 +34,11 @@ def overlaps(one: Label, other: Label) -> bool:
 
 
 def beside(at: Point, distance: float, directions: int = 12, first: float = -pi / 2) -> list[Point]:
-    """Return places round a point, nearer ones first."""
+    """Return places round a point, nearer ones first.
+
+    >>> [(round(x, 6), round(y, 6)) for x, y in beside((0, 0), 2, 4)[:2]]
+    [(0.0, -2.0), (2.0, 0.0)]
+    """
     found = []
     for far in (1.0, 1.35, 1.8, 2.4, 3.2):
         for i in range(directions):

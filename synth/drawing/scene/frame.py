@@ -57,6 +57,9 @@ def framed(
     """Return a frame round places for a box, (width, height), and a margin on each side, all in points.
 
     A unit of the layout is `unit` points long, if there is room.
+
+    >>> framed([(0, 0), (2, 1)], 30, margin=10).at((0, 1))
+    (10, 10)
     """
     rows = list(places) or [(0.0, 0.0)]
     left, right = min(p[0] for p in rows), max(p[0] for p in rows)

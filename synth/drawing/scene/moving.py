@@ -21,7 +21,11 @@ def moved(layer: Layer, right: float, down: float) -> Layer:
 
 
 def put(layer: Layer, there: Callable[[Point], Point]) -> Layer:
-    """Return a layer with its places mapped by a function; letters stay upright, discs as large."""
+    """Return a layer with its places mapped by a function; letters stay upright, discs as large.
+
+    >>> put(Layer("a", (Disc((1, 2), 3),)), lambda place: (-place[0], place[1])).shapes[0].centre
+    (-1, 2)
+    """
 
     def shape_there(shape: Shape) -> Shape:
         if isinstance(shape, Label):

@@ -77,7 +77,11 @@ PAPERS: Mapping[str, Mapping[str, str]] = MappingProxyType({"light": _LIGHT, "da
 
 
 def colour_of(name: str, paper: str) -> str:
-    """Return a colour as ``#rrggbb``; InvariantError if there is no such colour, or no such paper."""
+    """Return a colour as ``#rrggbb``; InvariantError if there is no such colour, or no such paper.
+
+    >>> colour_of("paper", "light"), colour_of("paper", "dark")
+    ('#ffffff', '#14171a')
+    """
     if paper not in PAPERS:
         raise InvariantError("paper", f"the paper {shown(paper)} is not known", " or ".join(PAPERS))
     colours = PAPERS[paper]

@@ -37,7 +37,12 @@ class Plot:
         return self.left + across * self.width, self.top + (1 - up) * self.height
 
     def row(self, x: Floats, y: Floats) -> list[Point]:
-        """Return the points of a curve on the page."""
+        """Return the points of a curve on the page.
+
+        >>> import numpy as np
+        >>> Plot(0, 0, 10, 10, (0, 1), (0, 2)).row(np.array([0, 1]), np.array([0, 1]))
+        [(0.0, 10.0), (10.0, 5.0)]
+        """
         return [self.at(*pair) for pair in zip(x.tolist(), y.tolist(), strict=True)]
 
     def below(self, ticks: Iterable[float], name: str) -> list[Shape]:
@@ -77,5 +82,9 @@ def round_steps(low: float, high: float, most: int = 7) -> list[float]:
 
 
 def signed(number: float) -> str:
-    """Return a number as axes and legends show it, with a minus as long as a plus."""
+    """Return a number as axes and legends show it, with a minus as long as a plus.
+
+    >>> signed(-180.0), signed(2.5)
+    ('−180', '2.5')
+    """
     return f"{number:.6g}".replace("-", "−")

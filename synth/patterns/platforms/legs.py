@@ -39,6 +39,10 @@ def platform(
     angle `gap` (radians) between the two of a pair. `base` and `top` are the radii of the circles of feet and
     heads; the knees of legs without P are `out` outside. Raise InvariantError if three legs are upright, so that
     their level axes have no direction.
+
+    >>> stewart = platform("UPS", 6, 1.0, 0.6, 1.0, gap=0.5)
+    >>> stewart, stewart.mobility
+    (<JointedLinkage: 14 links, 18 joints: 6P 6S 6U, placed>, 6)
     """
     if number == _UPRIGHT and isclose(base, top, rel_tol=DOUBLE.same_point):
         told = f"feet and heads are both at {base:g}, so that legs stand upright"

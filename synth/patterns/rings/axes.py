@@ -25,7 +25,11 @@ DIGITS = 14
 
 
 def ring(lines: Sequence[Line], digits: int = DIGITS) -> HingedSolids:
-    """Return a ring of solids with the given axes: joint i connects solids i - 1 and i."""
+    """Return a ring of solids with the given axes: joint i connects solids i - 1 and i.
+
+    >>> ring([((x, 0, 0), (0, x - 1, 1)) for x in range(3)])
+    <HingedSolids: <SCGraph: 3 links, 3 joints, 0 centres>>
+    """
     n = len(lines)
     chain = SCGraph(n, [((i - 1) % n, i) for i in range(n)])
     axes: dict[JointId, Axis] = {
@@ -75,7 +79,11 @@ def ring_of_sides(across: Floats, lengths: Floats) -> HingedSolids:
 
 
 def turned(angle: float, axis: int) -> Floats:
-    """Return a rotation about a coordinate axis, float[4, 4]."""
+    """Return a rotation about a coordinate axis, float[4, 4].
+
+    >>> turned(0.0, 2).tolist() == np.eye(4).tolist()
+    True
+    """
     made = np.eye(4)
     a, b = [(1, 2), (2, 0), (0, 1)][axis]
     made[a, a] = made[b, b] = cos(angle)

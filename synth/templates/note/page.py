@@ -21,7 +21,12 @@ _LARGEST = 140.0
 
 
 def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | None) -> Page:
-    """Return the page that says how a template is put together; the steps are numbered here."""
+    """Return the page that says how a template is put together; the steps are numbered here.
+
+    >>> page = note_page(Paper(210, 297), "bird base", ["Cut it out.", "Fold it."], None)
+    >>> [text.words for text in page.texts]
+    ['bird base', '1. Cut it out.', '2. Fold it.']
+    """
     wide, high = paper.width - 2 * MARGIN, paper.height - 2 * MARGIN
     top = MARGIN + high
     heading = [Text((MARGIN, top - _TITLE / 2), title, _TITLE, middle=False)] if title else []

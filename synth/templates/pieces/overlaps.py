@@ -37,5 +37,11 @@ def lies_over(shape: Any, others: Sequence[Any]) -> bool:
 
 
 def lies_within(shape: Any, area: Any) -> bool:
-    """Say whether a shape lies within an area, up to its edge."""
+    """Say whether a shape lies within an area, up to its edge.
+
+    >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 9, 20))
+    True
+    >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 8.9, 20))
+    False
+    """
     return bool(shapely.covers(area, shape.buffer(-_INSIDE)))

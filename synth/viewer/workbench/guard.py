@@ -43,7 +43,11 @@ class Place:
 
     @property
     def address(self) -> str:
-        """The address that a browser opens."""
+        """The address that a browser opens.
+
+        >>> Place(8000, "secret").address
+        'http://127.0.0.1:8000/secret/'
+        """
         return f"http://{self.host}/{self.token}/"
 
 
