@@ -77,16 +77,19 @@ def lines_of_hinges(
     """Group the hinges between the same two panels, a bundle, by the lines on which they lie.
 
     Without coordinates every hinge is on a line of its own; `rounding` is their rounding error, if known, in units
-    of their extent. The deviation of two hinges from one line: the line goes through the two of their ends that
-    are farthest apart, and the deviation is the distance of the ends of each from it, in units of the length of
-    that hinge, the larger of the two. So for hinges that meet it is an angle, half that of the bend if they are
-    equally long, all of it if one is short; for hinges beside each other it is large. Rounding moves ends by some
-    length, and so rotates short hinges more: what it explains is subtracted. The tolerance is the foot of the
-    coarsest plateau, a range of a decade or more between ``COLLINEAR`` and ``BENT`` in which the number of lines
-    does not change; ``COLLINEAR`` if there is none. The hinges of a group fit each other two by two; a row that
-    fit one to the next, but not the first to the last, are a curve, and ``COLLINEAR`` holds for them. Unclear are
-    hinges apart that all fit each other at ``BENT``, and hinges that are bent or a curve by no more than rounding
-    explains.
+    of their extent.
+
+    The deviation of two hinges from one line: the line goes through the two of their ends that are farthest apart,
+    and the deviation is the distance of the ends of each from it, in units of the length of that hinge, the larger
+    of the two. So for hinges that meet it is an angle, half that of the bend if they are equally long, all of it
+    if one is short; for hinges beside each other it is large. Rounding moves ends by some length, and so rotates
+    short hinges more: what it explains is subtracted.
+
+    The tolerance is the foot of the coarsest plateau, a range of a decade or more between ``COLLINEAR`` and
+    ``BENT`` in which the number of lines does not change; ``COLLINEAR`` if there is none. The hinges of a group
+    fit each other two by two; hinges in a row that fit one to the next, but not the first to the last, are a
+    curve, and ``COLLINEAR`` holds for them. Unclear are hinges apart that all fit each other at ``BENT``, and
+    hinges that are bent or a curve by no more than rounding explains.
     """
     groups: list[tuple[tuple[int, ...], ...]] = [tuple((i,) for i in range(len(bundle))) for bundle in bundles]
     several = [i for i, bundle in enumerate(bundles) if len(bundle) > 1]

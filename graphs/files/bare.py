@@ -71,7 +71,7 @@ def _order(text: str) -> int | None:
 
 
 def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
-    r"""Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
+    """Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
 
     Raise UnsolvableError if two links share several joints and the form is graph6, which cannot express them.
     """
@@ -127,7 +127,10 @@ def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyT
 
 
 def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
-    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops."""
+    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops.
+
+    The errors are those of `as_sc`.
+    """
     told = {key: kind for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
     if not told:
         return as_sc(graph, path)

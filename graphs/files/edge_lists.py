@@ -128,7 +128,7 @@ def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:
 
 
 def edge_list_text(sc: SCGraph) -> str:
-    r"""Return one line ``link link joint`` for each joint.
+    """Return one line ``link link joint`` for each joint.
 
     Raise UnsolvableError if a name has blanks, commas or ``#``, or a link has no joint.
     """

@@ -86,7 +86,7 @@ def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
 def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
     """Return what the SVG file of the sheet of a mechanism does not hold.
 
-    Opacity is the fold angle up to 180 degrees, below zero for mountains and above it for valleys.
+    Opacity holds fold angles up to 180 degrees, of mountains below zero and of valleys above it.
 
     >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
     >>> lost_as_svg(sheet, sheet)

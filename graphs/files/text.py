@@ -100,7 +100,7 @@ def load_json(path: Path) -> Any:
 
 
 def json_text(document: Mapping[str, Any]) -> str:
-    r"""Return the text of a JSON document: one line per key, and per item of lists of lists or objects."""
+    """Return the text of a JSON document: one line per key, and per item of lists of lists or objects."""
 
     def compact(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -44,7 +44,7 @@ def region(holds: Callable[[Floats], Flags], columns: int) -> list[list[tuple[Fl
     Each ring is its corners on the map, float[k, 2], and whether it is a hole. `holds` takes points of the sphere,
     float[n, 3], and returns bool[n]; it is evaluated on a grid with half as many rows as columns. Between two
     places of the grid that differ the border is found by bisection, so that outlines are no steps; what is
-    narrower than the grid may be missed.
+    narrower than the grid may be missed. The northern half:
 
     >>> [[(outline, hole)]] = region(lambda points: points[:, 2] > 0.0, 40)
     >>> bool(abs(outline[:, 1].min()) < 1e-3), hole

@@ -30,7 +30,10 @@ __all__ = ["ConicalQuadrilaterals", "CyclicQuadrilaterals", "circumradii", "cone
 
 @dataclass(frozen=True, slots=True)
 class CyclicQuadrilaterals:
-    """Circumradii, float[...], of open and crossed quadrilaterals with given sides; nan if there is none."""
+    """Circumradii, float[...], of open and crossed quadrilaterals; nan where there is none.
+
+    They are in the unit of the sides, float[..., 4].
+    """
 
     open: Floats
     crossed: Floats

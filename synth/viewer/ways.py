@@ -32,9 +32,9 @@ _MOST_DRIVERS = 40
 class Beginning:
     """One start of a motion, and its name, `told`.
 
-    `rates`, float[J], are those at the configuration, the largest 1 or -1. `drivers` are the driven joints, one
-    for each degree of freedom (None if unknown), the fastest first; `still` are the joints that do not move on it;
-    all indices.
+    `rates`, float[J], are those at the configuration, the largest 1 or -1. `drivers` are the indices of the
+    driven joints, one for each degree of freedom, the fastest first; `still` are those of the joints that do not
+    move on it. `freedoms` is None if unknown.
     """
 
     told: str

@@ -47,7 +47,7 @@ def sheet_from_cp(path: Path) -> Sheet:
 
 
 def cp_text(sheet: Sheet) -> str:
-    r"""Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
+    """Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
 
     Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
     """

@@ -87,7 +87,7 @@ class FoldFrames:
 
 
 def read_fold(path: Path) -> Sheet:
-    """Read a FOLD file; the sheet knows the frames of its file."""
+    """Read a FOLD file; the sheet knows the frames of its file. The errors are those of `sheet_from_fold`."""
     document, check = load_json(path), Checker(path)
     frame, notes = _frame(document, check)
     sheet = _sheet(frame, notes, check)

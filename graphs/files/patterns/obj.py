@@ -73,7 +73,7 @@ def sheet_from_obj(path: Path) -> Sheet:
 
 
 def obj_text(sheet: Sheet) -> str:
-    r"""Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates.
+    """Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates.
 
     >>> obj_text(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).splitlines()[-1]
     'f 1 2 3'

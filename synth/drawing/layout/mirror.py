@@ -52,7 +52,8 @@ def swaps_of(links: Sequence[LinkId], joints: Joints) -> Iterator[dict[Node, Nod
 def mirrored(graph: nx.Graph, swap: Mapping[Node, Node]) -> Neighbours | None:
     """Return rotations of a connected graph that a symmetry of order two reverses; None if there are none.
 
-    The symmetry swaps the ends of no edge.
+    The symmetry swaps the ends of no edge. A square mirrored in a diagonal, and rotated by half a turn, which is
+    no mirror:
 
     >>> square = nx.cycle_graph(4)
     >>> mirrored(square, {0: 0, 1: 3, 2: 2, 3: 1}) is None, mirrored(square, {0: 2, 1: 3, 2: 0, 3: 1}) is None

@@ -42,7 +42,7 @@ def check_matplotlib() -> None:
 
 
 def png_bytes(scene: Scene, *, paper: str = "light", dots: float = 200) -> bytes:
-    r"""Return a scene as a PNG file, with so many dots per inch.
+    """Return a scene as a PNG file, with so many dots per inch.
 
     Raise UnsolvableError if matplotlib is not installed.
     """

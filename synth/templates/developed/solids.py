@@ -65,8 +65,8 @@ def _shell(
 ) -> Mesh:
     """Return the closed mesh of the cells that are there, about the middle of a layer.
 
-    `azimuths` is float[columns + 1] (float[columns] if closed), `lengths` float[rows + 1], `there` bool[columns,
-    rows].
+    `there` is bool[columns, rows], `lengths` float[rows + 1], `azimuths` float[columns + 1] (float[columns] if
+    closed).
     """
     half = linkage.dimensions.thickness / 2
     heights = np.array([linkage.height(layer) - half, linkage.height(layer) + half])

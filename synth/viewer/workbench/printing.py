@@ -31,7 +31,7 @@ REFUSED = 2
 
 
 def printed(name: str, content: bytes, size: float, kind: str, edits: Sequence[str] = ()) -> tuple[str, bytes]:
-    r"""Return the template of a file after edits: its extension, and its content.
+    """Return the template of a file after edits: its extension, and its content.
 
     The name is without folders; `size` is the longer side in millimetres. Raise SynthedraError if it cannot be
     read or edited, has no panels, or would need too many pages.
