@@ -26,17 +26,8 @@ _FARTHEST = 1e3
 
 
 def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: Mapping[int, Edge]) -> list[Loop]:
-    """Return those cycles whose axes are parallel or meet in a point, as far as the coordinates tell, as loops.
+    """Return those cycles of joints whose axes are parallel or meet in a point, by the coordinates, as loops.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates.
-    cycles : sequence of tuple of joint id
-    hinges : mapping of joint id to (vertex, vertex)
-
-    Examples
-    --------
     >>> sheet = Sheet(6, (), "", (), ((0, 0), (1, 0), (0, 1), (2, 1), (0, 3), (1, 3)))
     >>> loops_with_centres(sheet, [(7, 8, 9)], {7: (0, 1), 8: (2, 3), 9: (4, 5)})[0].centre
     <Centre.INFINITE: 'infinite'>
@@ -51,19 +42,9 @@ def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: 
 
 
 def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centre:
-    """Return where lines through pairs of points meet, within a tolerance for each point.
+    """Return where two or more lines, each through two points, float[n, 3], meet.
 
-    Parameters
-    ----------
-    points : float[n, 3]
-    hinges : sequence of (point, point)
-        Two at least.
-    tolerance : float
-
-    Examples
-    --------
-    >>> axes_meet(np.array([[1.0, 0, 0], [2, 0, 0], [0, 1, 0], [0, 3, 0]]), [(0, 1), (2, 3)], 1e-6)
-    <Centre.FINITE: 'finite'>
+    The tolerance is that of each point.
     """
     ends = np.array(hinges)
     start, along = points[ends[:, 0]], points[ends[:, 1]] - points[ends[:, 0]]

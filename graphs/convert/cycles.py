@@ -16,14 +16,10 @@ __all__ = ["Hinged", "boundary_cycles", "vertex_cycles"]
 
 @dataclass(frozen=True)
 class Hinged:
-    """What hangs on what in a sheet.
+    """Which faces of a sheet meet at each edge, and in which panel each face is.
 
-    Attributes
-    ----------
-    faces_at : mapping of edge to faces
-    joint_of_edge : mapping of edge to joint id or None
-        Of the hinges; None for one inside a panel. Edges inside a panel that are no hinges are not in it.
-    panel_of_face : sequence of int
+    `joint_of_edge` has the hinges (None for one inside a panel); edges inside a panel that are no hinges are not
+    in it.
     """
 
     faces_at: Mapping[Edge, Sequence[int]]
@@ -140,10 +136,8 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
 def boundary_cycles(sheet: Sheet, hinged: Hinged) -> list[tuple[int, ...]]:
     """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
 
-    Along a boundary the creases that end there are passed in order.
+    Along a boundary the creases that end there are passed in order. Four squares in a ring:
 
-    Examples
-    --------
     Four squares in a ring:
 
     >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))

@@ -43,16 +43,10 @@ Groups = frozenset[tuple[int, ...]]
 class HingeLines:
     """Bundles of hinges, a bundle for two panels, grouped by the lines on which they lie.
 
-    Attributes
-    ----------
-    groups : tuple of tuple of tuple of int
-        Of each bundle its groups; of each group the places of its hinges in the bundle, in order.
-    within : float
-        How far off one line two hinges of a group are at most, in units of their lengths.
-    loosely : int
-        How many joints fewer these groups are than those of a tight tolerance, ``COLLINEAR``.
-    unclear : int
-        Hinges that stay apart from others, but may lie on a line with them.
+    For each bundle, each group has the indices of its hinges in the bundle, in order. `within` is the largest
+    deviation of two hinges of a group from one line, in units of their lengths. `loosely` is how many joints fewer
+    there are than with the tight tolerance, ``COLLINEAR``; `unclear` counts hinges that stay apart from others,
+    but may lie on a line with them.
     """
 
     groups: tuple[tuple[tuple[int, ...], ...], ...]
@@ -80,48 +74,22 @@ def lines_of_hinges(
     *,
     rounding: float = 0.0,
 ) -> HingeLines:
-    """Group the hinges between the same two panels by the lines on which they lie.
+    """Group the hinges between the same two panels, a bundle, by the lines on which they lie.
 
-    Parameters
-    ----------
-    coordinates : sequence of (x, y) or (x, y, z), or None
-        Where the vertices are; without it every hinge is on a line of its own.
-    bundles : sequence of sequence of (vertex, vertex)
-        Of each two panels their hinges.
-    rounding : float, optional
-        The rounding error of the coordinates, if known, in units of the extent of them all.
+    Without coordinates every hinge is on a line of its own; `rounding` is their rounding error, if known, in units
+    of their extent.
 
-    Returns
-    -------
-    HingeLines
+    The deviation of two hinges from one line: the line goes through the two of their ends that are farthest apart,
+    and the deviation is the distance of the ends of each from it, in units of the length of that hinge, the larger
+    of the two. So for hinges that meet it is an angle, half that of the bend if they are equally long, all of it
+    if one is short; for hinges beside each other it is large. Rounding moves ends by some length, and so rotates
+    short hinges more: what it explains is subtracted.
 
-    Notes
-    -----
-    How far two hinges are off one line: that line goes through those two of their ends that are farthest apart;
-    the distance of the ends of each from it, in units of the length of that hinge, the larger of the two. So of
-    hinges that meet it is an angle, half that of the bend if they are equally long, all of it if one is short; of
-    hinges beside each other it is large. Rounding moves ends by some length, and so turns short hinges more. What
-    it explains, if it is known, is taken off the distances.
-
-    The tolerance is the foot of the coarsest plateau, a range between ``COLLINEAR`` and ``BENT`` of a decade or
-    more in which the number of lines does not change; ``COLLINEAR`` if there is none.
-
-    The hinges of a group fit each other two by two. Where a row of hinges fit one to the next, but not the first
-    to the last, they are a curve, and ``COLLINEAR`` holds for them.
-
-    Unclear are hinges apart that all fit each other at ``BENT``, and hinges that rounding may have turned or put
-    in a row: such as are bent, or a curve, but by no more than rounding explains.
-
-    Examples
-    --------
-    Three hinges on a line as far as two decimals go, and one that is bent:
-
-    >>> points = [(0, 0), (10, 3.33), (20, 6.67), (30, 10), (40, 10)]
-    >>> lines = lines_of_hinges(points, [[(0, 1), (1, 2), (2, 3), (3, 4)]])
-    >>> lines.groups
-    (((0, 1, 2), (3,)),)
-    >>> lines.repairs
-    ('hinges within 5e-04 of a line joined: 2',)
+    The tolerance is the foot of the coarsest plateau, a range of a decade or more between ``COLLINEAR`` and
+    ``BENT`` in which the number of lines does not change; ``COLLINEAR`` if there is none. The hinges of a group
+    fit each other two by two; hinges in a row that fit one to the next, but not the first to the last, are a
+    curve, and ``COLLINEAR`` holds for them. Unclear are hinges apart that all fit each other at ``BENT``, and
+    hinges that are bent or a curve by no more than rounding explains.
     """
     groups: list[tuple[tuple[int, ...], ...]] = [tuple((i,) for i in range(len(bundle))) for bundle in bundles]
     several = [i for i, bundle in enumerate(bundles) if len(bundle) > 1]
@@ -149,14 +117,8 @@ def lines_of_hinges(
 class _Bundle:
     """The hinges between two panels, measured two by two: (0, 1), (0, 2), ..., (1, 2), ...
 
-    Attributes
-    ----------
-    size : int
-        How many hinges.
-    pairs : array of int, shape (2, pairs)
-        The places of the two hinges of each pair.
-    deviation, excess : array of shape (pairs,)
-        How far each two are off one line, in units of their lengths; the same, less what rounding explains.
+    `pairs`, int[2, pairs], are the indices of the hinges of each pair; `deviation`, float[pairs], is how far they
+    are off one line in units of their lengths, and `excess` the same less what rounding explains.
     """
 
     size: int

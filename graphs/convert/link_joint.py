@@ -23,14 +23,9 @@ __all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]
 
 @dataclass(frozen=True, slots=True)
 class BlockCycles:
-    """The cycles of one block (2-connected part) of a link-joint graph.
+    """The cycles of one block (2-connected part) of a link-joint graph, each joint ids in cyclic order.
 
-    Attributes
-    ----------
-    inner : tuple of cycles
-        Independent cycles, each a tuple of joint ids in cyclic order.
-    outer : cycle or None
-        The face that was left out, a longest one; None where the block is not planar.
+    `inner` are independent. `outer` is the face that was left out, a longest one; None if the block is not planar.
     """
 
     inner: tuple[tuple[JointId, ...], ...]
@@ -38,25 +33,9 @@ class BlockCycles:
 
 
 def block_cycles(links: Iterable[LinkId], joints: Joints) -> list[BlockCycles]:
-    """Return independent cycles of each block of a link-joint graph.
+    """Return independent cycles of each block with a cycle of a link-joint graph; joints may be parallel.
 
-    Parameters
-    ----------
-    links : iterable of link ids
-    joints : mapping of joint id to (link, link)
-        Parallel joints are welcome.
-
-    Returns
-    -------
-    list of BlockCycles
-        One for each block with a cycle. Over all of them there are J - N + c inner cycles.
-
-    Examples
-    --------
-    >>> theta = dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]))
-    >>> [block] = block_cycles(range(6), theta)
-    >>> sorted(map(len, block.inner)), len(block.outer)
-    ([4, 4], 6)
+    Over all blocks there are J - N + c inner cycles.
     """
     simple, joint_of = _subdivided(links, joints)
     blocks = []

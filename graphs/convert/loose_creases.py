@@ -24,8 +24,6 @@ _OVERLAP = 1e-6
 def creases_on_no_face(sheet: Sheet) -> int:
     """Return how many edges of hinges are no side of a face.
 
-    Examples
-    --------
     >>> creases_on_no_face(Sheet(4, ((0, 2), (1, 3)), "MV", ((0, 1, 2), (0, 2, 3))))
     1
     """
@@ -37,10 +35,8 @@ def creases_on_no_face(sheet: Sheet) -> int:
 
 
 def joins_faces(sheet: Sheet) -> bool:
-    """Tell whether an edge that is a hinge lies between two faces.
+    """Say whether an edge that is a hinge lies between two faces.
 
-    Examples
-    --------
     >>> joins_faces(Sheet(4, ((0, 2), (1, 3)), "FV", ((0, 1, 2), (0, 2, 3))))
     False
     """
@@ -54,13 +50,9 @@ def joins_faces(sheet: Sheet) -> bool:
 def traced_anew(sheet: Sheet) -> Sheet | None:
     """Trace the faces of a sheet from its edges and the sides of its faces together.
 
-    Returns
-    -------
-    Sheet or None
-        None if the sheet does not lie flat, or its faces lie over each other: folded flat.
+    Return None if the sheet does not lie flat, or its faces lie over each other, folded flat. The paper as one
+    face, and a crease across it:
 
-    Examples
-    --------
     The paper as one face, and a crease across it:
 
     >>> square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))

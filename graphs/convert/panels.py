@@ -213,19 +213,9 @@ def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
 
     The outer boundary is the one round the largest area. Where the creases of a loop round a hole meet in a point
     or are parallel, within the precision of the coordinates, it has an implicit centre there. Without coordinates
-    loops round holes are spatial, and the boundary with the most open edges is the outer.
+    loops round holes are spatial, and the boundary with the most open edges is the outer. The errors are those of
+    `graphs.convert.panels.scd_from_panels`.
 
-    Parameters
-    ----------
-    sheet : Sheet
-
-    Raises
-    ------
-    InvariantError
-        As `graphs.convert.panels.scd_from_panels`.
-
-    Examples
-    --------
     Four panels round a square hole, the creases on its diagonals: they meet in its middle.
 
     >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -259,10 +249,8 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
 
 
 def rings_of(after: Mapping[int, int]) -> list[tuple[int, ...]]:
-    """Return the rings of vertices that follow each other, each from the first that is named.
+    """Return the rings of vertices that follow each other, each from the first in the mapping.
 
-    Examples
-    --------
     >>> rings_of({0: 1, 5: 6, 1: 2, 6: 5, 2: 0})
     [(0, 1, 2), (5, 6)]
     """

@@ -80,11 +80,9 @@ def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
 def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
     """Return the 2n - 6 rods that make a body of n vertices rigid, given its n sides.
 
-    Two fans of n - 3 diagonals, from two neighbouring vertices, are with the n sides a triangulated sphere,
-    which is rigid in general position (thesis 2.3.3).
+    Two fans of n - 3 diagonals, from two neighbouring vertices, are with the n sides a triangulated sphere, which
+    is rigid in general position (thesis 2.3.3).
 
-    Examples
-    --------
     >>> internal_rods((0, 1, 2, 3))
     [(0, 2), (1, 3)]
     """

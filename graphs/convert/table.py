@@ -86,17 +86,10 @@ def to_sc(thing: Mechanism) -> SCGraph:
 
 
 def graph_of(thing: Mechanism | nx.Graph) -> SCGraph:
-    """Return the SC or SCD graph that something is, or the SC graph that it has.
+    """Return the SC or SCD graph that something is, or the SC graph that it has; the errors are those of `to_sc`.
 
-    A plain networkx graph is a link-joint graph: each face of a drawing of it is given a finite centre.
+    A plain networkx graph is a link-joint graph: each face of a drawing of it gets a finite centre.
 
-    Raises
-    ------
-    UnsolvableError
-        As `to_sc`.
-
-    Examples
-    --------
     >>> graph_of(nx.cycle_graph(4)), graph_of(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
     (<SCGraph: 4 links, 4 joints, 1 centre>, <SCGraph: 2 links, 1 joint, 0 centres>)
     """
@@ -242,18 +235,11 @@ def to_vertex_edge(thing: Mechanism) -> VertexEdgeGraph:
 
 
 def to_solids(thing: Mechanism) -> HingedSolids:
-    """Return a mechanism of revolutes with the axes of its joints.
+    """Return a mechanism of revolutes with the axes of its joints; UnsolvableError if there are no axes.
 
-    Of a linkage with joints of all kinds each joint becomes the chain of revolutes that stands for it, of a crease
-    pattern each crease the axis that it lies on; the panels are forgotten.
+    Each joint of a linkage with joints of all kinds becomes the chain of revolutes that stands for it, each crease
+    of a pattern the axis on which it lies; the panels are dropped.
 
-    Raises
-    ------
-    UnsolvableError
-        If there are no axes.
-
-    Examples
-    --------
     >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1), (0, -1), (1, -1))
     >>> book = Sheet(6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
     >>> dict(to_solids(book).axes)
@@ -269,15 +255,10 @@ def to_solids(thing: Mechanism) -> HingedSolids:
 
 
 def to_joints(thing: Mechanism) -> JointedLinkage:
-    """Return a linkage with joints of all kinds: chains of revolutes are seen as what they stand for.
+    """Return a linkage with joints of all kinds, in which chains of revolutes are the joints that they stand for.
 
-    Raises
-    ------
-    UnsolvableError
-        If there are no axes to see it by.
+    Raise UnsolvableError if there are no axes by which to recognise them.
 
-    Examples
-    --------
     >>> from graphs.joints.kinds import JointKind
     >>> ball = JointedLinkage(SCGraph(2, [(0, 1)]), {0: JointKind.SPHERICAL})
     >>> to_solids(ball), to_joints(to_solids(ball))

@@ -38,14 +38,8 @@ _RANK = "MVUFJBC"
 class Lines:
     """Straight lines of a planar pattern.
 
-    Attributes
-    ----------
-    ends : array of shape (n, 2, 2)
-        Both ends of each line; any length unit.
-    letters : str
-        The assignment of each, as in FOLD.
-    angles : tuple of float or None, optional
-        The fold angle of each, in degrees as in files.
+    `ends`, float[n, 2, 2], are both ends of each line in any unit of length; `letters` has the assignment of each,
+    as in FOLD, and `angles` the fold angle, in degrees as in files.
     """
 
     ends: Floats
@@ -65,24 +59,11 @@ class Lines:
 
 @dataclass
 class Network:
-    """Vertices and edges, after welding and splitting.
+    """Vertices, float[n, 2], and edges with their assignments, after welding and splitting.
 
-    Attributes
-    ----------
-    points : array of shape (n, 2)
-        Where the vertices are; some may have no edge.
-    edges : dict of edge to letter
-        The assignment of each, as in FOLD.
-    tolerance : float
-        At which ends were welded; a length.
-    angles : dict of edge to float or None
-        Fold angles, in degrees as in files.
-    notes : counter of str
-        What was mended, and how often.
-    dangling : int
-        How many lines ended nowhere.
-    spread : float
-        How far ends were apart that are one vertex now, in the mean (root of squares); a length.
+    A vertex may have no edge. `tolerance` is the length within which ends were welded, and `spread` the root mean
+    square of how far ends of one vertex were apart; fold angles are in degrees as in files. `notes` counts the
+    repairs, and `dangling` the lines that ended nowhere.
     """
 
     points: Floats
@@ -97,39 +78,13 @@ class Network:
 def network_of(lines: Lines, tolerance: float) -> Network:
     """Weld ends, split lines where they cross and where an end lies on them, prune what ends nowhere.
 
-    Parameters
-    ----------
-    lines : Lines
-    tolerance : float
-        In the length unit of the lines.
-
-    Examples
-    --------
-    Two lines that cross, the ends of both joined by borders, one of which stops short:
-
-    >>> ends = [[[0, 0], [2, 2]], [[2, 0], [0, 2]], [[0, 0], [2, 0]], [[2.001, 0], [2, 2]], [[2, 2], [0, 2]]]
-    >>> network = network_of(Lines(np.array(ends, dtype=float), "MVBBB"), 0.01)
-    >>> len(network.edges), network.dangling, network.notes["crossing(s) split"]
-    (7, 0, 1)
+    The tolerance is in the length unit of the lines.
     """
     return networks_of(lines, [tolerance])[0]
 
 
 def networks_of(lines: Lines, tolerances: Sequence[float]) -> list[Network]:
-    """Return the network that each tolerance gives; those that weld alike are welded once.
-
-    Parameters
-    ----------
-    lines : Lines
-    tolerances : sequence of float
-        In the length unit of the lines, the finest first.
-
-    Examples
-    --------
-    >>> ends = np.array([[[0, 0], [1, 0]], [[1.01, 0], [0, 1]], [[0, 1], [0, 0]]], dtype=float)
-    >>> [len(one.edges) for one in networks_of(Lines(ends, "BBB"), [1e-6, 1e-5, 0.1])]
-    [0, 0, 3]
-    """
+    """Return the network for each tolerance, the finest first; those that weld alike are welded once."""
     lines, again = _distinct(lines)
     networks = []
     for group in _alike(lines.ends, tolerances):
@@ -217,17 +172,10 @@ def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
 
 
 def crossings(ends: Floats, tolerance: float) -> Floats:
-    """Return the points where two lines cross away from all four ends; where many do, once.
+    """Return the points where two lines, float[n, 2, 2], cross away from all four ends; where many do, once.
 
-    Parameters
-    ----------
-    ends : array of shape (n, 2, 2)
-        Both ends of each line.
-    tolerance : float
-        Closer than this to an end they do not cross; in the length unit of the lines.
+    Closer than the tolerance to an end they do not cross.
 
-    Examples
-    --------
     >>> crossings(np.array([[[0, 0], [2, 2]], [[2, 0], [0, 2]], [[0, 0], [2, 0]]], dtype=float), 0.01).tolist()
     [[1.0, 1.0]]
     """
@@ -366,10 +314,8 @@ def _straightened(welded: Network, tolerance: float) -> Network:
 
 
 def either_way(a: int, b: int) -> Edge:
-    """Return an edge as it is named, whichever end comes first.
+    """Return an edge as a key, whichever end comes first.
 
-    Examples
-    --------
     >>> either_way(5, 2)
     (2, 5)
     """

@@ -19,13 +19,10 @@ __all__ = ["Beside", "FolderBeside", "check_new_folder", "check_place", "reason_
 
 
 def check_place(path: Path, *, force: bool) -> None:
-    """Refuse a place where something is that must not be replaced; with ``force`` a plain file may be.
+    """Refuse a place where something must not be replaced; with ``force`` a plain file may be.
 
-    Raises
-    ------
-    OpenError
-        For a file (without ``force``), a folder, a symbolic link, wherever it leads, or a special file; and where
-        there is no folder to write it to.
+    Raise OpenError for a file (without ``force``), a folder, a symbolic link, wherever it leads, a special file,
+    or if there is no folder to write to.
     """
     try:
         mode = path.lstat().st_mode
@@ -45,12 +42,7 @@ def check_place(path: Path, *, force: bool) -> None:
 
 
 def check_new_folder(path: Path) -> None:
-    """Refuse a place for a new folder where something is.
-
-    Raises
-    ------
-    OpenError
-    """
+    """Raise OpenError if something is at the place of a new folder."""
     if path.exists() or path.is_symlink():
         raise OpenError(path, "", "exists already", "a new folder: folders are not replaced")
     _check_parent(path)
@@ -64,10 +56,7 @@ def _check_parent(path: Path) -> None:
 def write_text(path: Path, text: str, *, force: bool = False) -> None:
     """Write a file beside its place and move it there, so that it is never half written.
 
-    Raises
-    ------
-    OpenError
-        If it cannot be written, or is there already and ``force`` is not given; what was there is kept.
+    Raise OpenError if it cannot be written, or exists and ``force`` is not set; the file there is kept.
     """
     write_chunks(path, [text], force=force)
 
@@ -86,14 +75,7 @@ def write_chunks(path: Path, chunks: Iterable[str], *, force: bool = False) -> N
 class FolderBeside:
     """A new folder, made beside its place and moved there when it is complete.
 
-    Parameters
-    ----------
-    path : Path
-
-    Raises
-    ------
-    OpenError
-        If there is something at its place, or it cannot be made.
+    Raise OpenError if something is at its place, or it cannot be made.
     """
 
     def __init__(self, path: Path) -> None:
@@ -118,19 +100,10 @@ class FolderBeside:
 
 
 class Beside:
-    """A file that is written beside its place and moved there when it is whole.
+    """A file that is written beside its place and moved there when it is complete.
 
-    Parameters
-    ----------
-    path : Path
-        Its place; a file that is there is kept until :meth:`commit`.
-    force : bool, optional
-        Replace a file that is there.
-
-    Raises
-    ------
-    OpenError
-        If the folder cannot be written to, or something is there that must not be replaced.
+    A file at its place is kept until :meth:`commit`, and replaced only with `force`. Raise OpenError if the folder
+    cannot be written to, or something there must not be replaced.
     """
 
     def __init__(self, path: Path, *, force: bool = False) -> None:
@@ -145,13 +118,7 @@ class Beside:
         self._path, self._beside = path, self._unfinished.path
 
     def write(self, data: bytes) -> None:
-        """Append bytes.
-
-        Raises
-        ------
-        FileError
-            If the disk is full, or otherwise broken.
-        """
+        """Append bytes; FileError if the disk is full, or writing fails otherwise."""
         with self._named():
             self.stream.write(data)
 
@@ -164,10 +131,7 @@ class Beside:
     def commit(self) -> None:
         """Move the file to its place.
 
-        Raises
-        ------
-        OpenError
-            If that fails, or meanwhile something is there that must not be replaced.
+        Raise OpenError if that fails, or something is there now that must not be replaced.
         """
         with self._named():
             self.stream.close()

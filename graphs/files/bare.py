@@ -40,13 +40,7 @@ _LARGEST_SHORT = 62
 
 
 def read_graph6(path: Path) -> Iterator[tuple[int, nx.Graph]]:
-    """Yield line number and graph for each line of a graph6 or sparse6 file.
-
-    Raises
-    ------
-    FileError
-        With the line.
-    """
+    """Yield line number and graph for each line of a graph6 or sparse6 file; a FileError names the line."""
     for number, line in enumerate(read_text(path).splitlines(), start=1):
         text = re.sub(r"^>>(graph6|sparse6)<<", "", line.strip())
         if not text:
@@ -77,17 +71,9 @@ def _order(text: str) -> int | None:
 
 
 def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
-    r"""Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
+    """Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
 
-    Raises
-    ------
-    UnsolvableError
-        If two links share several joints and the form is graph6, which cannot say so.
-
-    Examples
-    --------
-    >>> graph6_text(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]), sparse=False)
-    'Cl\n'
+    Raise UnsolvableError if two links share several joints and the form is graph6, which cannot express them.
     """
     if sc.parallel_joints() and not sparse:
         raise UnsolvableError("graph6 cannot hold links that share several joints; write sparse6 (.s6)")
@@ -101,10 +87,6 @@ def read_graphml(path: Path) -> nx.MultiGraph:
     """Read the link-joint graph of a GraphML file; directions are dropped, of attributes ``type`` is kept.
 
     Names of links that are all integers become integers, and so do those of joints.
-
-    Raises
-    ------
-    FileError
     """
     text = read_text(path)
     try:
@@ -130,17 +112,9 @@ def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
 
 
 def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyType({})) -> str:
-    """Return the GraphML text of the link-joint graph, with the types of joints that are told.
+    """Return the GraphML text of the link-joint graph, with the types of joints that are given.
 
-    Raises
-    ------
-    UnsolvableError
-        If a name holds a character that XML cannot.
-
-    Examples
-    --------
-    >>> "edge" in graphml_text(SCGraph(2, [(0, 1)]))
-    True
+    Raise UnsolvableError if a name has a character that XML does not allow.
     """
     for name in (*sc.nodes, *sc.joints):
         if re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", str(name)):
@@ -153,11 +127,9 @@ def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyT
 
 
 def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
-    """Give a graph read from a file its loops, or if it tells types of joints make a linkage of it, without loops.
+    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops.
 
-    Raises
-    ------
-    FileError
+    The errors are those of `as_sc`.
     """
     told = {key: kind for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
     if not told:
@@ -172,12 +144,7 @@ def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
 
 
 def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:
-    """Give a graph read from a file its loops; refuse a self-joint, naming the place.
-
-    Raises
-    ------
-    FileError
-    """
+    """Return a graph read from a file with its loops; refuse a self-joint by a FileError that names the place."""
     for link in nx.nodes_with_selfloops(graph):
         raise FileError(path, place, f"a joint joins link {shown(link)} to itself", "two links")
     return Checker(path).build(lambda: sc_from_link_joint_graph(graph), lambda _: place, place)

@@ -16,20 +16,7 @@ T = TypeVar("T")
 
 
 class Checker:
-    """Checks JSON values and names the place of what is wrong.
-
-    Parameters
-    ----------
-    path : Path
-        The file, for messages.
-
-    Examples
-    --------
-    >>> Checker(Path("a.json")).integer("three", "joints[0][1]")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.json: joints[0][1]: 'three'; expected an integer
-    """
+    """Checks JSON values; errors name the file and the place of what is wrong."""
 
     def __init__(self, path: Path) -> None:
         self.path = path

@@ -40,12 +40,8 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
 
     A dictionary at the end of a line (networkx) is left alone. If the first line names columns for the ends of
     edges (source and target, from and to), the file is a table, of which these columns are read, and one called
-    joint if there is one. Names of links that are all integers become integers, and so do those of joints.
-
-    Raises
-    ------
-    FileError
-        With the line.
+    joint if there is one. Names of links that are all integers become integers, and so do those of joints. A
+    FileError names the line.
     """
     lines = [
         (number, line)
@@ -132,17 +128,9 @@ def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:
 
 
 def edge_list_text(sc: SCGraph) -> str:
-    r"""Return one line ``link link joint`` a joint.
+    """Return one line ``link link joint`` for each joint.
 
-    Raises
-    ------
-    UnsolvableError
-        If a name holds blanks, commas or ``#``, or a link has no joint.
-
-    Examples
-    --------
-    >>> edge_list_text(SCGraph(["A", "B"], {"a": ("A", "B")}))
-    'A B a\n'
+    Raise UnsolvableError if a name has blanks, commas or ``#``, or a link has no joint.
     """
     for name in (*sc.nodes, *sc.joints):
         if not re.fullmatch(r"[^\s,;#]+", str(name)):

@@ -143,21 +143,7 @@ def read(path: str | Path) -> Mechanism:
 def read_linkage(path: str | Path) -> ConicalLinkage:
     """Return the linkage of a file of a linkage on a cone.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read, or holds another mechanism, which has no angles.
-
-    Examples
-    --------
-    >>> read_linkage("k1:Cr")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: k1:Cr: a mechanism without angles; expected a linkage on a cone, 'synthedra/conical'
+    Raise FileError if the file cannot be read, or has another mechanism, which has no angles.
     """
     linkage = read(path)
     if not isinstance(linkage, ConicalLinkage):

@@ -17,10 +17,8 @@ _IDS = ("k1:", "m1:")
 
 
 def is_id(path: str | Path) -> bool:
-    """Tell whether the name of a file is the id of a mechanism.
+    """Say whether the name of a file is the id of a mechanism.
 
-    Examples
-    --------
     >>> is_id("k1:Cr"), is_id("./k1:Cr")
     (True, False)
     """
@@ -30,15 +28,7 @@ def is_id(path: str | Path) -> bool:
 def mechanism_of_id(code: str) -> SCGraph:
     """Return the mechanism of an id; a chain gets finite centres, as a bare link-joint graph does.
 
-    Raises
-    ------
-    FileError
-        If it is not an id.
-
-    Examples
-    --------
-    >>> mechanism_of_id("k1:Cr")
-    <SCGraph: 4 links, 4 joints, 1 centre>
+    Raise FileError if it is not an id.
     """
     try:
         if code.startswith("k1:"):
@@ -54,10 +44,8 @@ _LINE = re.compile(r"(.+\.[gs]6):([1-9][0-9]{0,17})", re.IGNORECASE | re.DOTALL)
 def line_named(path: str | Path) -> tuple[Path, str | None]:
     """Return the file of a line of a graph6 file, ``chains.g6:7``, and the line; None for a whole file.
 
-    A file that is there under the whole name is meant itself.
+    An existing file with the whole name takes precedence.
 
-    Examples
-    --------
     >>> path, line = line_named("chains.g6:7")
     >>> path.name, line
     ('chains.g6', '7')

@@ -39,26 +39,11 @@ class _Type:
 
 
 def change_of_type(before: Mechanism, after: Mechanism) -> str | None:
-    """Say how the type of a mechanism changed, or None if it did not.
+    """Say how the type of a mechanism changed; None if it did not, or `before` has no type.
 
-    Two types are one if links, joints and centre classes correspond. Of a polyhedron model that is more than its
-    panels only the mobility by count is compared; linkages with joints of all kinds, by the names of these.
-
-    Parameters
-    ----------
-    before, after : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or Sheet
-
-    Returns
-    -------
-    str or None
-        None also where ``before`` has no mechanism, such as a sheet with an edge of three faces.
-
-    Examples
-    --------
-    >>> from graphs.loops.loop import Loop
-    >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> change_of_type(SCGraph(4, ring, [Loop(range(4))]), SCGraph(4, ring))
-    'M = 1 spherical becomes M = -2 spatial'
+    A sheet with an edge of three faces has none. Two types are one if links, joints and centre classes correspond.
+    A polyhedron model that is more than its panels is compared by mobility alone, linkages with joints of all
+    kinds by the names of these.
     """
     if isinstance(before, JointedLinkage) and isinstance(after, JointedLinkage):
         return None if _as_text(before) == _as_text(after) else "links, joints or their kinds are others"

@@ -36,10 +36,8 @@ _KEYS = 12
 
 
 def lost_as_json(mechanism: Mechanism) -> Lost:
-    """Return what a native file does not hold: of a sheet everything but its mechanism.
+    """Return what a native file does not hold; for a sheet, all but its mechanism.
 
-    Examples
-    --------
     >>> lost_as_json(Sheet(3, ((0, 1),), "B", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)), "Kite"))
     ('the title', 'coordinates of 3 vertices', 'the shape of 1 face')
     """
@@ -49,10 +47,8 @@ def lost_as_json(mechanism: Mechanism) -> Lost:
 
 
 def lost_as_fold(mechanism: Mechanism) -> Lost:
-    """Return what a FOLD file does not hold: of a sheet read from one, its other frames and keys.
+    """Return what a FOLD file does not hold; for a sheet read from one, its other frames and keys.
 
-    Examples
-    --------
     >>> lost_as_fold(SCGraph(["A", "B"], [("A", "B")]))
     ('names of 2 links',)
     """
@@ -60,10 +56,8 @@ def lost_as_fold(mechanism: Mechanism) -> Lost:
 
 
 def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the ``.cp`` file of a sheet that was made of a mechanism does not hold.
+    """Return what the ``.cp`` file of the sheet of a mechanism does not hold.
 
-    Examples
-    --------
     >>> sheet = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, 90.0))
     >>> lost_as_cp(sheet, sheet)
     ('1 cut: as borders', '1 unassigned crease: as valleys', '1 fold angle', 'which lines bound which of 1 face')
@@ -80,10 +74,8 @@ def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
 
 
 def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the DXF file of a sheet that was made of a mechanism does not hold.
+    """Return what the DXF file of the sheet of a mechanism does not hold.
 
-    Examples
-    --------
     >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
     >>> lost_as_dxf(sheet, sheet)
     ('1 fold angle', 'which lines bound which of 1 face')
@@ -92,12 +84,10 @@ def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
 
 
 def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the SVG file of a sheet that was made of a mechanism does not hold.
+    """Return what the SVG file of the sheet of a mechanism does not hold.
 
-    Opacity tells fold angles up to 180 degrees, of mountains below zero and of valleys above it.
+    Opacity holds fold angles up to 180 degrees, of mountains below zero and of valleys above it.
 
-    Examples
-    --------
     >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
     >>> lost_as_svg(sheet, sheet)
     ('1 join: as flat edges', '1 fold angle', 'which lines bound which of 1 face')
@@ -118,10 +108,8 @@ def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
 
 
 def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
-    """Return what a bare link-joint graph does not hold; ``names`` says whether it holds names.
+    """Return what a bare link-joint graph, with names or without, does not hold.
 
-    Examples
-    --------
     >>> lost_as_bare_graph(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))]), names=False)
     ('1 loop and its centre',)
     """
@@ -154,8 +142,6 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
 def lost_as_typed_graph(linkage: JointedLinkage) -> Lost:
     """Return what a link-joint graph with the types of joints does not hold.
 
-    Examples
-    --------
     >>> lost_as_typed_graph(JointedLinkage(SCGraph(2, [(0, 1)], ground=0), {}))
     ('the ground link',)
     """

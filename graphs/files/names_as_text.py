@@ -18,8 +18,6 @@ _INTEGER = re.compile(r"0|-?[1-9]\d{0,17}")
 def names_from_text(words: Iterable[str]) -> dict[str, str | int]:
     """Return word to name: integers if all are, else the words.
 
-    Examples
-    --------
     >>> names_from_text(["3", "-1"]), names_from_text(["3", "a"]), names_from_text(["01", "1"])
     ({'3': 3, '-1': -1}, {'3': '3', 'a': 'a'}, {'01': '01', '1': '1'})
     """
@@ -29,10 +27,8 @@ def names_from_text(words: Iterable[str]) -> dict[str, str | int]:
 
 
 def are_kept(names: Collection[Hashable]) -> bool:
-    """Tell whether names are the same when they are written as text and read again.
+    """Say whether names are the same when they are written as text and read again.
 
-    Examples
-    --------
     >>> are_kept([1, 2]), are_kept(["1", "2"]), are_kept([1, "a"])
     (True, False, False)
     """

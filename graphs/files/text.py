@@ -20,10 +20,8 @@ __all__ = ["json_text", "load_json", "read_text"]
 def read_text(path: Path) -> str:
     """Return the text of a file (UTF-8, with or without byte order mark).
 
-    Raises
-    ------
-    FileError
-        If the file is missing, a directory, a pipe, socket or device, not readable, too large, empty or not text.
+    Raise FileError if it is missing, a directory, a pipe, socket or device, not readable, too large, empty or not
+    text.
     """
     try:
         raw = _bytes_of(path)
@@ -73,10 +71,7 @@ def _check_regular(path: Path, entry: os.stat_result) -> None:
 def load_json(path: Path) -> Any:
     """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys.
 
-    Raises
-    ------
-    FileError
-        With line and column of a syntax error.
+    A FileError names line and column of a syntax error.
     """
     text = read_text(path)
 
@@ -105,19 +100,7 @@ def load_json(path: Path) -> Any:
 
 
 def json_text(document: Mapping[str, Any]) -> str:
-    r"""Return the text of a JSON document: a key a line, and a line for each item of lists of lists or objects.
-
-    Examples
-    --------
-    >>> print(json_text({"version": 1, "joints": [[0, 1], [1, 2]]}), end="")
-    {
-      "version": 1,
-      "joints": [
-        [0, 1],
-        [1, 2]
-      ]
-    }
-    """
+    """Return the text of a JSON document: one line per key, and per item of lists of lists or objects."""
 
     def compact(value: Any) -> str:
         return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -41,20 +41,7 @@ _removers: list[subprocess.Popen[bytes]] = []
 class Unfinished:
     """An empty file or folder beside a place, locked by this process until it is released.
 
-    Parameters
-    ----------
-    place : Path
-        Where it shall be moved when it is finished.
-    folder : bool, optional
-
-    Attributes
-    ----------
-    path : Path
-
-    Raises
-    ------
-    OSError, ValueError
-        If it cannot be made.
+    `place` is where it is moved when it is finished. Raise OSError or ValueError if it cannot be made.
     """
 
     def __init__(self, place: Path, *, folder: bool = False) -> None:
@@ -92,12 +79,7 @@ def _beginning(place: Path) -> str:
 def _locked(path: Path) -> int | None:
     """Lock a file or folder; return the descriptor that holds the lock, None where there are no locks.
 
-    Raises
-    ------
-    BlockingIOError
-        If a living process has it.
-    FileNotFoundError
-        If it is gone.
+    Raise BlockingIOError if a living process has it, FileNotFoundError if it is gone.
     """
     if sys.platform == "win32":
         return None
@@ -133,22 +115,9 @@ if sys.platform != "win32":
 
 
 def remove_left(place: Path) -> None:
-    """Remove what processes that live no more left unfinished beside a place, and nothing else.
+    """Remove what processes that have ended left unfinished beside a place, and nothing else.
 
-    Parameters
-    ----------
-    place : Path
-        What is unfinished for other places stays. What cannot be removed stays too: it hinders nobody.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     own = Unfinished(Path(folder) / "rows.jsonl")
-    ...     _ = (Path(folder) / ".rows.jsonl.01234567.unfinished").write_text("of a process that was killed")
-    ...     remove_left(Path(folder) / "rows.jsonl")
-    ...     [path.name for path in Path(folder).iterdir()] == [own.path.name]
-    True
+    Unfinished files for other places stay, and so does what cannot be removed: it hinders nobody.
     """
     pattern = re.compile(re.escape(_beginning(place)) + "[a-z0-9_]{8}" + re.escape(_ENDING))
     left: list[Path] = []

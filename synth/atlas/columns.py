@@ -23,17 +23,9 @@ _DRAWN = ("sc", "scd")
 
 @dataclass(frozen=True, slots=True)
 class AtlasColumn:
-    """A column of the table of types.
+    """A column of the table of types; `says` describes its value in words.
 
-    Attributes
-    ----------
-    holds : type or ListColumn
-    says : str
-        What the value is, in words.
-    kinds : tuple of str
-        Kinds of types that have a value there.
-    indexed : bool
-        Whether rows are found by it without looking through all.
+    `kinds` are those of types that have a value there; with an index rows are found by it without a full scan.
     """
 
     holds: Column
@@ -98,11 +90,5 @@ COLUMNS: dict[str, AtlasColumn] = {
 
 
 def stored_columns() -> dict[str, Column]:
-    """Return the columns as the runner of enumerations takes them.
-
-    Examples
-    --------
-    >>> list(stored_columns())[:3]
-    ['id', 'kind', 'name']
-    """
+    """Return the columns as the runner of enumerations takes them."""
     return {name: column.holds for name, column in COLUMNS.items()}

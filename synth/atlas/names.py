@@ -17,16 +17,7 @@ __all__ = ["NamedType", "name_of_type", "named_types"]
 
 @dataclass(frozen=True, slots=True)
 class NamedType:
-    """A type that has a name.
-
-    Attributes
-    ----------
-    kind : str
-    id : str
-    name : str
-    source : str
-        Who calls it so.
-    """
+    """A type that has a name, and the source that uses it."""
 
     kind: str
     id: str
@@ -56,10 +47,8 @@ def _names() -> dict[tuple[str, str], str]:
 
 
 def name_of_type(kind: str, code: str) -> str | None:
-    """Return what a type is called, or None; a string is called by the joints it stands for.
+    """Return the name of a type, or None; a string has the name of the joints for which it stands.
 
-    Examples
-    --------
     >>> name_of_type("chain", "k1:E`hW"), name_of_type("string", "RR-R-RRR"), name_of_type("chain", "k1:Bw")
     ('Watt chain', 'UPS', None)
     """

@@ -59,13 +59,7 @@ def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Scene:
 def title_of_picture(row: Mapping[str, Any], layers: int) -> str:
     """Return the title of a picture of a candidate: order, circuits, and in how many layers it is drawn.
 
-    A cyclic order is drawn at one choice of angles; its row, and the title, tell those of all choices.
-
-    Examples
-    --------
-    >>> row = {"order": ["O", "A", "B"], "circuits": ["open"], "layers": 1, "most_layers": 2}
-    >>> title_of_picture(row, 1)
-    'O A B   open   layers 1 (1 to 2 over all angles)'
+    A cyclic order is drawn at one choice of angles; its row, and the title, have the layers of all choices.
     """
     low, high = row["layers"], row.get("most_layers", row["layers"])
     every = "" if low == high else f" ({low} to {high} over all angles)"

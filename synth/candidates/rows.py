@@ -63,19 +63,10 @@ class LoopCircuits(NamedTuple):
 
 @dataclass(frozen=True)
 class CandidateChain:
-    """A chain with one ground link, and what all its rows have in common.
+    """A chain with one ground link, its id, and what all its rows have in common.
 
-    Attributes
-    ----------
-    chain : ConformedChain
-    code : str
-        Id of the chain.
-    grounded : bool
-        Whether a link is fixed; else nothing is said of ways.
-    links : tuple of str
-        Names in the order of rows.
-    loops : tuple of tuples of int
-        Joints of every loop, in loop order.
+    `grounded`: a link is fixed; else rows have no ways. `links` are names in the order of rows, `loops` the joints
+    of each loop in loop order.
     """
 
     chain: ConformedChain
@@ -174,13 +165,7 @@ class CandidateChain:
 def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites: bool) -> list[Row]:
     """Return rows of cyclic orders, or of orders with opposites.
 
-    Parameters
-    ----------
-    candidate : CandidateChain
-    slots : int64[r, J]
-        On J slots, or 2 J.
-    symmetry : int64[r]
-    opposites : bool
+    `slots`, int64[r, J], are on J slots, or on 2 J with opposites; `symmetry` is int64[r].
     """
     joints = slots.shape[1]
     sets = slots[:, np.newaxis] if opposites else orders_with_opposites(slots)
@@ -253,20 +238,9 @@ def placed_rows(
     on_slots: bool,
     cone_angle: float | None,
 ) -> list[Row]:
-    """Return rows of joints at given azimuths.
+    """Return rows of joints at azimuths, float[r, J], between 0 and 2 pi, on a cone of angle lambda, in radians.
 
-    Parameters
-    ----------
-    candidate : CandidateChain
-    places : float[r, J]
-        Azimuths between 0 and 2 pi, radians.
-    slots : int64[r, J]
-        Slots, or the cyclic order.
-    symmetry : int64[r]
-    on_slots : bool
-        Whether rows name the slots.
-    cone_angle : float, optional
-        lambda, radians.
+    `slots`, int64[r, J], are slots, named in rows with `on_slots`, or the cyclic order; `symmetry` is int64[r].
     """
     chain = candidate.chain
     motion = first_order(chain, places)

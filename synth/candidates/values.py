@@ -22,21 +22,7 @@ __all__ = ["four_bar_classes", "half_turns", "loop_circuits"]
 
 
 def loop_circuits(loops: Sequence[Sequence[int]], places: npt.ArrayLike) -> tuple[Circuits, ...]:
-    """Return the circuits of loops.
-
-    Parameters
-    ----------
-    loops : sequence of sequences of int
-        Numbers of the joints of each loop, in loop order.
-    places : float[..., J]
-        Azimuths, radians.
-
-    Examples
-    --------
-    >>> (circuit,) = loop_circuits([(0, 1, 2, 3)], np.radians([[0, 90, 180, 270], [0, 180, 90, 270]]))
-    >>> circuit.names().tolist(), circuit.turns.tolist()
-    (['open', 'crossed'], [1, -1])
-    """
+    """Return the circuits of loops, each its joints in loop order, at azimuths float[..., J], radians."""
     t = np.asarray(places, dtype=float)
     of_loops = []
     for loop in loops:
@@ -48,21 +34,10 @@ def loop_circuits(loops: Sequence[Sequence[int]], places: npt.ArrayLike) -> tupl
 def half_turns(
     chain: ConformedChain, places: npt.ArrayLike
 ) -> tuple[list[tuple[int, int]], npt.NDArray[np.bool_]]:
-    """Tell which steps within links are half a turn and have no sign.
+    """Return the pairs of joints that share a link, and which of these steps are half a turn, bool[..., pairs].
 
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[..., J]
+    Such steps have no sign; azimuths are float[..., J], radians.
 
-    Returns
-    -------
-    pairs : list of (int, int)
-        Joints that share a link.
-    is_half_turn : bool[..., number of pairs]
-
-    Examples
-    --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> pairs, is_half_turn = half_turns(chain, np.radians([0, 180, 90, 300]))
@@ -78,18 +53,11 @@ def half_turns(
 def four_bar_classes(
     loops: Sequence[Sequence[int]], places: npt.ArrayLike, cone_angle: float | None
 ) -> list[npt.NDArray[np.str_]]:
-    """Return ``Grashof``, ``non-Grashof`` or ``folding`` for each loop of four joints.
+    """Return ``Grashof``, ``non-Grashof`` or ``folding`` for each loop of four joints; other loops are skipped.
 
-    Parameters
-    ----------
-    loops : sequence of sequences of int
-        Loops of other numbers of joints are passed over.
-    places : float[..., J]
-    cone_angle : float or None
-        lambda, radians: the class depends on it. None: on a cylinder.
+    The class depends on lambda, radians (None for a cylinder): a crossed loop is Grashof on a cylinder, on a steep
+    cone it need not be (docs/misprints.md 000-6). Azimuths are float[..., J].
 
-    Examples
-    --------
     A crossed loop is Grashof on a cylinder; on a steep cone it need not be (docs/misprints.md 000-6).
 
     >>> places = np.radians([0, 150, 20, 160])

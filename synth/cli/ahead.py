@@ -38,12 +38,9 @@ With eight links there are three loops, made of two.
 
 
 def compile_ahead() -> int:
-    """Run small commands, as many at once as there are cores, so that their code is kept; return how much was new.
+    """Run small commands, one per core at a time, so that their code is kept; return how many functions are new.
 
-    Returns
-    -------
-    int
-        Functions compiled, one counted for each type of arguments.
+    A function counts once for each type of arguments.
     """
     with ProcessPoolExecutor(cores()) as pool:
         try:

@@ -16,12 +16,7 @@ _MOST_DIGITS = 9
 
 
 class _LengthType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A length, or a factor for lengths, in the range that coordinates have; with ``zero`` also 0.
-
-    Parameters
-    ----------
-    zero : bool, optional
-    """
+    """A length, or a factor for lengths, in the range that coordinates have; with ``zero`` also 0."""
 
     name = "length"
 

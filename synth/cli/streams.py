@@ -24,12 +24,9 @@ class ReaderGoneError(OutputError):
 
 
 class _Guarded(io.RawIOBase):
-    """The bytes of standard output; its failures are told from those of files, and told once.
+    """The bytes of standard output (a descriptor, None if there is none).
 
-    Parameters
-    ----------
-    descriptor : int, optional
-        Of standard output. None if there is none.
+    Its failures are told from those of files, and reported once.
     """
 
     def __init__(self, descriptor: int | None) -> None:
@@ -52,12 +49,9 @@ class _Guarded(io.RawIOBase):
         return self._descriptor
 
     def write(self, data: Any) -> int:
-        """Write; what is left after a failure goes nowhere.
+        """Write; what is left after a failure is dropped.
 
-        Raises
-        ------
-        OutputError
-            At the first failure; ReaderGoneError where nobody reads any more.
+        Raise OutputError at the first failure, ReaderGoneError if there is no reader any more.
         """
         if self._failed:
             return len(data)

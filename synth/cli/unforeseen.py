@@ -25,11 +25,7 @@ _LONGEST = 300
 def end_with_fault(error: Exception, *, debug: bool) -> NoReturn:
     """Print an exception that is a fault of the program on one line, and end.
 
-    Parameters
-    ----------
-    error : Exception
-    debug : bool
-        Print the traceback before it. So it is where `VARIABLE` is 1.
+    With `debug`, or if `VARIABLE` is 1, the traceback is printed before it.
     """
     with suppress(OSError):  # standard error may be what failed
         if debug or os.environ.get(VARIABLE) == "1":

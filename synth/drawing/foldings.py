@@ -27,14 +27,10 @@ _PIXELS = (".gif", ".png")
 
 
 def check_output(path: str | Path, *, force: bool = False) -> None:
-    """Refuse a name that a folding cannot be written to.
+    """Refuse a path that a folding cannot be written to.
 
-    Raises
-    ------
-    FileError
-        If the extension is not known, or something is there already.
-    UnsolvableError
-        If it is of pixels (.gif, .png), and matplotlib is not installed.
+    Raise FileError if the extension is unknown or the file exists, UnsolvableError for a raster image (.gif, .png)
+    if matplotlib is not installed.
     """
     path = Path(path)
     suffix = path.suffix.lower()

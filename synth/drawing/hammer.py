@@ -21,8 +21,6 @@ _ROUND = 1e-4
 def hammer(points: Floats) -> tuple[Floats, Floats]:
     """Return points of the sphere on the Hammer map: x and y, |x| <= 2 sqrt 2, |y| <= sqrt 2; z points up.
 
-    Examples
-    --------
     >>> [round(float(c[0]), 6) for c in hammer(np.array([[1.0, 0.0, 0.0]]))]
     [0.0, 0.0]
     """
@@ -41,26 +39,12 @@ def hammer_inverse(x: Floats, y: Floats) -> tuple[Floats, npt.NDArray[np.bool_]]
 
 
 def region(holds: Callable[[Floats], Flags], columns: int) -> list[list[tuple[Floats, bool]]]:
-    """Return where on the map something holds: polygons, each its outline and its holes.
+    """Return where on the map something holds: polygons, each its outline first and then its holes.
 
-    Looked at on a grid; between two places of it that differ the border is found by bisection, so that outlines
-    are no steps. What is narrower than the grid may be missed.
-
-    Parameters
-    ----------
-    holds : callable
-        Takes points of the sphere, float[n, 3]; returns bool[n].
-    columns : int
-        Of the grid; half as many rows.
-
-    Returns
-    -------
-    list of list of (float[k, 2], bool)
-        Corners on the map of each ring, and whether it is a hole; the outline of a polygon comes first.
-
-    Examples
-    --------
-    The northern half:
+    Each ring is its corners on the map, float[k, 2], and whether it is a hole. `holds` takes points of the sphere,
+    float[n, 3], and returns bool[n]; it is evaluated on a grid with half as many rows as columns. Between two
+    places of the grid that differ the border is found by bisection, so that outlines are no steps; what is
+    narrower than the grid may be missed. The northern half:
 
     >>> [[(outline, hole)]] = region(lambda points: points[:, 2] > 0.0, 40)
     >>> bool(abs(outline[:, 1].min()) < 1e-3), hole

@@ -13,25 +13,10 @@ _ROUNDS = 400
 
 
 def spread(points: Floats, reach: float, gap: float, only_x: bool = False) -> Floats:
-    """Return a place for the label of each point: float[n, 2].
+    """Return a place for the label of each point, both float[n, 2].
 
-    Labels start at a distance from their points, away from the middle of all, and push each other away, and off
-    the points, until none are nearer than a gap.
-
-    Parameters
-    ----------
-    points : float[n, 2]
-    reach : float
-        The distance to start with.
-    gap : float
-    only_x : bool, optional
-        Move them to the left and right only.
-
-    Examples
-    --------
-    >>> places = spread(np.zeros((2, 2)), 0.1, 0.1)
-    >>> bool(np.linalg.norm(places[0] - places[1]) > 0.09)
-    True
+    Labels start at a distance `reach` from their points, away from the middle of all, and push each other away
+    (only left and right with `only_x`), and off the points, until none are nearer than `gap`.
     """
     if not len(points):
         return points

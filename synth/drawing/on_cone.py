@@ -29,8 +29,6 @@ _REACH, _FILLED = 1.2, 0.88
 def colour_of_link(number: int) -> str:
     """Return the colour of a link by its place, the first grey.
 
-    Examples
-    --------
     >>> colour_of_link(0), colour_of_link(1)
     ('grey', 'class0')
     """
@@ -38,18 +36,9 @@ def colour_of_link(number: int) -> str:
 
 
 def cone_layer(chain: ConformedChain, t: Floats, laid: LinksInLayers, cone_angle: float, side: float) -> Layer:
-    """Return a linkage on its cone, in a square.
+    """Return a linkage on its cone, in a square with a side in points.
 
-    Parameters
-    ----------
-    chain : ConformedChain
-    t : float[J]
-        Azimuths of the joints, radians.
-    laid : LinksInLayers
-    cone_angle : float
-        lambda, radians.
-    side : float
-        Of the square, points.
+    `t` are the azimuths of the joints, float[J], and `cone_angle` is lambda, both in radians.
     """
     page = _Page(_view(t, cone_angle), cone_angle, side)
     shapes = [*_surface(page, cone_angle)]

@@ -28,19 +28,10 @@ _DASH = 7.0
 
 
 class _Sums(NamedTuple):
-    """What is drawn of the sums of a loop.
+    """What is drawn of the sums of a loop, for a cylinder (base 0) or a cone (base 1).
 
-    Attributes
-    ----------
-    along : float[p]
-        lambda in degrees, or the radius.
-    size : float[p]
-        The same as `synth.surfaces.loop_sums` counts it.
-    reach : float[n]
-    base : 0 or 1
-        Of a cylinder, of a cone.
-    roots : list of (signs, place along, turns)
-    families : list of signs
+    `along` is float[p], lambda in degrees or the radius, and `size` the same as `synth.surfaces.loop_sums` counts
+    it; `reach` is float[n]. A root is (signs, place along, turns), a family its signs.
     """
 
     along: Floats

@@ -131,12 +131,9 @@ def _without_number(gap: float) -> UnsolvableError:
 
 
 def _forms(kernel: Floats) -> Floats:
-    """Return pairs of linear forms in W, taken at random, that make a regular pencil: float[tries, 2, 3].
+    """Return random pairs of linear forms in W that make a regular pencil: float[tries, 2, 3].
 
-    Raises
-    ------
-    UnsolvableError
-        If every one is singular: then the solutions are infinitely many.
+    Raise UnsolvableError if every one is singular: then there are infinitely many solutions.
     """
     forms = np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
     sizes = singular_values(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1])

@@ -106,24 +106,12 @@ class Hoop:
 
 
 def required_sequence(n: int) -> tuple[Pair, ...]:
-    """Return the axes whose crossings decide: S_13, ..., S_1n, S_2n.
-
-    Examples
-    --------
-    >>> required_sequence(5)
-    ((1, 3), (1, 4), (1, 5), (2, 5))
-    """
+    """Return the axes whose crossings decide: S_13, ..., S_1n, S_2n."""
     return (*((1, j) for j in range(3, n + 1)), (2, n))
 
 
 def pair_name(pair: Pair) -> str:
-    """Return S23 for (2, 3), and S2,13 where the numbers would run together.
-
-    Examples
-    --------
-    >>> pair_name((2, 3)), pair_name((2, 13))
-    ('S23', 'S2,13')
-    """
+    """Return S23 for (2, 3), and S2,13 where the numbers would run together."""
     i, j = pair
     return f"S{i}{j}" if j < 10 else f"S{i},{j}"
 
@@ -131,8 +119,6 @@ def pair_name(pair: Pair) -> str:
 def direction_words(direction: Direction | None) -> str:
     """Return a direction in words.
 
-    Examples
-    --------
     >>> direction_words("cw"), direction_words(None)
     ('clockwise', 'neither way')
     """
@@ -188,20 +174,8 @@ def hoop_sequence(
     """Return all relative axes but S_12 as the hoop crosses them: the geometric form, without angles.
 
     The end of each axis line that lies ahead of the plane of the hoop at its start is the one that the hoop meets;
-    of two such ends that one is met first from which the other lies ahead. Both are signs of triple products.
-
-    Raises
-    ------
-    InvariantError, UnsolvableError
-        As :func:`hoop`.
-
-    Examples
-    --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> orientations = Orientations.from_rotation(body)
-    >>> hoop_sequence(orientations, (0, 0, 1)), hoop_sequence(orientations, (0, 0, 1), "cw")
-    (((1, 3), (2, 3)), ((2, 3), (1, 3)))
+    of two such ends that one is met first from which the other lies ahead. Both are signs of triple products. The
+    errors are those of :func:`hoop`.
     """
     g = unit_vector(axis, "fixed axis") * (1.0 if direction == "ccw" else -1.0)
     lines = _lines_off_axis(orientations, g)

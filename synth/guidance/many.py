@@ -67,13 +67,7 @@ def dyads_by_least_squares(orientations: Orientations) -> tuple[Dyad, ...]:
 
 
 def fibonacci_sphere(count: int) -> Floats:
-    """Return points spread evenly over the sphere: float[count, 3].
-
-    Examples
-    --------
-    >>> bool(np.allclose(np.linalg.norm(fibonacci_sphere(10), axis=1), 1.0))
-    True
-    """
+    """Return points spread evenly over the sphere: float[count, 3]."""
     k = np.arange(count) + 0.5
     z = 1.0 - 2.0 * k / count
     turn = k * np.pi * (3.0 - np.sqrt(5.0))

@@ -209,46 +209,17 @@ def order_by_inequalities(orientations: Orientations, axis: npt.ArrayLike) -> Di
     successive axes a, b of S_13, ..., S_1n, S_2n, the triple products fulfil
     [G, S_12, a] [G, a, b] [G, S_12, b] > 0; < 0 for a crank that turns clockwise. Each axis occurs twice, so its
     sign does not matter.
-
-    Examples
-    --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> orientations = Orientations.from_rotation(body)
-    >>> order_by_inequalities(orientations, (0, 0, 1)), order_by_inequalities(orientations, (0, 0, -1))
-    ('ccw', 'cw')
     """
     verdict = int(order_verdicts(orientations, unit_vector(axis, "fixed axis")[None])[0])
     return {1: DIRECTIONS[0], -1: DIRECTIONS[1]}.get(verdict)
 
 
 def order_verdicts(orientations: Orientations, axes: npt.ArrayLike) -> npt.NDArray[np.int8]:
-    """Check many fixed axes at once, by the inequalities.
+    """Check many fixed axes, float[m, 3] of any length, at once by the inequalities; return int8[m].
 
-    Parameters
-    ----------
-    orientations : Orientations
-    axes : float[m, 3]
-        Fixed axes, any length.
-
-    Returns
-    -------
-    int8[m]
-        1 where a counter-clockwise crank keeps the order, -1 where a clockwise one does, 0 where neither does or
-        where the axis lies on a relative axis that decides.
-
-    Raises
-    ------
-    InvariantError
-        If the axes are not m by 3, or one has no direction.
-
-    Examples
-    --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> orientations = Orientations.from_rotation(body)
-    >>> order_verdicts(orientations, [(0, 0, 1), (0, 0, -1), orientations.relative_axis(1, 2)]).tolist()
-    [1, -1, 0]
+    It is 1 where a counter-clockwise crank keeps the order, -1 where a clockwise one does, 0 where neither does or
+    the axis lies on a relative axis that decides. Raise InvariantError if the axes are not m by 3, or one has no
+    direction.
     """
     g = np.asarray(axes, dtype=float)
     if g.ndim != 2 or g.shape[1] != 3:
@@ -265,13 +236,9 @@ def order_verdicts(orientations: Orientations, axes: npt.ArrayLike) -> npt.NDArr
 def nearest_moving_axis(orientations: Orientations, axis: npt.ArrayLike) -> Floats:
     """Return the axis W of the body whose angle with a fixed axis changes least: float[3].
 
-    With three orientations there is one that keeps its angle; with more, where the fixed axis is that of a dyad.
-    W is in the frame of the body: at orientation i it points along M_i W.
-
-    Raises
-    ------
-    InvariantError
-        If the fixed axis has no direction.
+    With three orientations there is one that keeps its angle; with more, where the fixed axis is that of a dyad. W
+    is in the frame of the body: at orientation i it points along M_i W. Raise InvariantError if the fixed axis has
+    no direction.
     """
     seen = orientations.matrices.transpose(0, 2, 1) @ unit_vector(axis, "fixed axis")
     return best_plane(seen).direction
@@ -305,15 +272,7 @@ def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.A
 def order_by_crank_angles(angles: npt.ArrayLike) -> Direction | None:
     """Return the direction in which crank angles grow in their order: 0 < b_12 < ... < b_1n < 2 pi (Eq. 1).
 
-    Parameters
-    ----------
-    angles : float[n]
-        Counter-clockwise from any start, in radians.
-
-    Examples
-    --------
-    >>> order_by_crank_angles([0, 1, 4]), order_by_crank_angles([0, 4, 1]), order_by_crank_angles([0, 1, 3, 2])
-    ('ccw', 'cw', None)
+    Angles are counter-clockwise from any start, in radians.
     """
     turned = np.asarray(angles, dtype=float)
     for way, sign in zip(DIRECTIONS, (1.0, -1.0), strict=True):

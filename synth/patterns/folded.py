@@ -9,21 +9,10 @@ __all__ = ["folded"]
 
 
 def folded(sheet: Sheet, angle: float) -> Sheet:
-    """Return a flat sheet folded on the way that its letters say, until the crease that moves most has an angle.
+    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    angle : float
-        Radians.
+    Raise UnsolvableError if it does not fold, or not so far.
 
-    Raises
-    ------
-    UnsolvableError
-        If it does not fold, or not so far.
-
-    Examples
-    --------
     >>> from synth.patterns.creases.tessellations import miura
     >>> folded(miura(2, 2, 1.0), 0.5)
     <Sheet: 4 faces, 4 creases, 9 vertices, in space>

@@ -23,17 +23,8 @@ def sheet_of_panels(
 ) -> Sheet:
     """Return the sheet of panels given by the places of their corners; corners at one place are one vertex.
 
-    Parameters
-    ----------
-    panels : sequence of sequences of (x, y) or (x, y, z)
-    title : str, optional
-    letters : mapping of a pair of vertices to an assignment, optional
-        Vertices are numbered as they come; creases that have none are unassigned.
-
-    Examples
-    --------
-    >>> sheet_of_panels([[(0, 0), (1, 0), (1, 1)], [(0, 0), (1, 1), (0, 1)]]).assignments
-    'BBUBB'
+    Vertices are numbered as they come; `letters` has the assignment of pairs of them, other creases are
+    unassigned.
     """
     number: dict[Place, int] = {}
     places: list[Place] = []
@@ -56,21 +47,9 @@ def sheet_of_faces(
     title: str = "",
     letters: Mapping[frozenset[int], str] = _NONE,
 ) -> Sheet:
-    """Return a sheet with every side of its faces listed; sides of two faces are creases.
+    """Return a sheet with every side of its faces (vertex cycles) listed; sides of two faces are creases.
 
-    Parameters
-    ----------
-    places : sequence of (x, y) or (x, y, z)
-    faces : sequence of vertex cycles
-    title : str, optional
-    letters : mapping of a pair of vertices to an assignment, optional
-        Creases that have none are unassigned.
-
-    Examples
-    --------
-    >>> places = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    >>> sheet_of_faces(places, [(0, 1, 2), (0, 2, 3)], letters={frozenset((0, 2)): "V"}).assignments
-    'BBVBB'
+    `letters` has the assignment of pairs of vertices; other creases are unassigned.
     """
     sides: dict[frozenset[int], int] = {}
     for face in faces:
@@ -82,10 +61,8 @@ def sheet_of_faces(
 
 
 def rounded(sheet: Sheet, digits: int) -> Sheet:
-    """Return a sheet with so many decimals of its coordinates.
+    """Return a sheet with its coordinates rounded to so many decimals.
 
-    Examples
-    --------
     >>> rounded(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1 / 3, 0), (0, 1))), 2).coordinates
     ((0.0, 0.0), (0.33, 0.0), (0.0, 1.0))
     """

@@ -136,15 +136,8 @@ def _in_json(one: MappedLoop) -> dict[str, Any]:
 
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
-    """Return cone angles; refuse what no cone has.
+    """Return cone angles; InvariantError unless 0 <= lambda < pi / 2.
 
-    Raises
-    ------
-    InvariantError
-        Unless 0 <= lambda < pi / 2.
-
-    Examples
-    --------
     >>> checked_cone_angle(np.pi / 2)
     Traceback (most recent call last):
     ...
@@ -234,31 +227,16 @@ def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats
 
 
 def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
-    """Return the largest cone angle for links: there they span half the circle (Hyatt et al. 2021, Eqs. 15, 16).
+    """Return the largest cone angle for links, pi / 2 - phi / 2: there they span half the circle.
 
-    Parameters
-    ----------
-    angles : float[...]
-        Link angles, radians. A loop is bound by its largest.
-
-    Returns
-    -------
-    float[...]
-        pi / 2 - phi / 2.
-
-    Examples
-    --------
-    >>> float(np.degrees(largest_cone_angle(np.radians(120))).round(9))
-    30.0
+    Link angles are in radians; a loop is bound by its largest. Source: Hyatt et al. 2021, Eqs. 15, 16.
     """
     return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
 
 
 def is_flat(cone_angle: float, longest: float) -> bool:
-    """Tell whether a cone is flat as far as the rounding of the longest link, which ends the cones, can tell.
+    """Say whether a cone is flat within the rounding of the longest link, which ends the cones.
 
-    Examples
-    --------
     >>> is_flat(0.0, 1.0), is_flat(1e-12, 1.0)
     (True, False)
     """
@@ -266,13 +244,7 @@ def is_flat(cone_angle: float, longest: float) -> bool:
 
 
 def cone_reach(angles: npt.ArrayLike) -> Floats:
-    """Return cot(angle / 2)^2, the reach of links in a loop sum.
-
-    Examples
-    --------
-    >>> float(cone_reach(np.pi / 2).round(12))
-    1.0
-    """
+    """Return cot(angle / 2)^2, the reach of links in a loop sum."""
     half = np.asarray(angles, dtype=float) / 2.0
     return np.asarray((np.cos(half) / np.sin(half)) ** 2)
 
@@ -323,25 +295,11 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
 
 
 def solution_class(angles: npt.ArrayLike) -> str:
-    """Return the class of a four-bar's cones (Hyatt et al. 2020, Fig. 10 and section 5).
+    """Return the class of a four-bar's cones, by its link angles, float[4], radians.
 
-    Parameters
-    ----------
-    angles : float[4]
-        Link angles, radians.
-
-    Returns
-    -------
-    {"a", "b", "c", "d", "crossed only", "none"}
-        a: Grashof, two cones; b: non-Grashof, one, open; c: folding, one cone of angle 0; d: two pairs of equal
-        angles, infinitely many. With T4 < 0: none if Grashof, one crossed cone if non-Grashof (the paper says
-        none, docs/misprints.md 000-6).
-
-    Examples
-    --------
-    >>> fig_10 = [120, 95, 45, 85], [155, 50, 65, 80], [100, 70, 90, 60], [120, 50, 120, 50]
-    >>> [solution_class(np.radians(four)) for four in fig_10]
-    ['a', 'b', 'c', 'd']
+    The classes of Hyatt et al. 2020, Fig. 10 and section 5, are a: Grashof, two cones; b: non-Grashof, one, open;
+    c: folding, one cone of angle 0; d: two pairs of equal angles, infinitely many. With T4 < 0: "none" if Grashof,
+    "crossed only" if non-Grashof, one crossed cone (the paper says none, docs/misprints.md 000-6).
     """
     given = np.asarray(angles, dtype=float)
     t = spherical_differences(given)

@@ -30,14 +30,9 @@ __all__ = ["ConicalQuadrilaterals", "CyclicQuadrilaterals", "circumradii", "cone
 
 @dataclass(frozen=True, slots=True)
 class CyclicQuadrilaterals:
-    """Circles of quadrilaterals.
+    """Circumradii, float[...], of open and crossed quadrilaterals; nan where there is none.
 
-    Attributes
-    ----------
-    open, crossed : float[...]
-        Circumradius in the unit of the sides; nan where there is none.
-    sides : float[..., 4]
-        As they were given.
+    They are in the unit of the sides, float[..., 4].
     """
 
     open: Floats
@@ -52,14 +47,9 @@ class CyclicQuadrilaterals:
 
 @dataclass(frozen=True, slots=True)
 class ConicalQuadrilaterals:
-    """Cones of spherical four-bars.
+    """Cones of open and crossed spherical four-bars with link angles float[..., 4], radians.
 
-    Attributes
-    ----------
-    open, crossed : float[...]
-        Cone angle lambda, radians, in [0, pi/2); nan where there is none.
-    angles : float[..., 4]
-        Link angles, radians, as they were given.
+    Cone angles are float[...], lambda in [0, pi/2), radians; nan where there is none.
     """
 
     open: Floats
@@ -175,21 +165,9 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
 
 
 def crossed_area(sides: npt.ArrayLike) -> Floats:
-    """Return the area of crossed cyclic quadrilaterals, triangles of opposite sense subtracted (Eq. 11).
+    """Return the area, float[...], of crossed cyclic quadrilaterals with sides float[..., 4] (Eq. 11).
 
-    Parameters
-    ----------
-    sides : float[..., 4]
-
-    Returns
-    -------
-    float[...]
-        nan where no crossed quadrilateral has a circle.
-
-    Examples
-    --------
-    >>> float(crossed_area([4, 3, 5, 1]).round(4))
-    3.4911
+    Triangles of opposite sense are subtracted; nan where no crossed quadrilateral has a circle.
     """
     with np.errstate(invalid="ignore"):
         return np.asarray(np.sqrt(_sixteen_area_squared(*_sides(sides), -1)) / 4.0)

@@ -121,30 +121,12 @@ def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
 
 
 def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
-    """Return the lengths of links that span given angles.
-
-    Parameters
-    ----------
-    steps : float[...]
-        Radians, signed or not.
-    radius : float[...]
-
-    Examples
-    --------
-    >>> float(chords(-np.pi / 3, 2.0).round(9))
-    2.0
-    """
+    """Return the lengths of links that span angles, in radians, signed or not, on a cylinder of a radius."""
     return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
 
 
 def cylinder_reach(lengths: npt.ArrayLike) -> Floats:
-    """Return 1 / length^2, the reach of links in a loop sum.
-
-    Examples
-    --------
-    >>> float(cylinder_reach(2.0))
-    0.25
-    """
+    """Return 1 / length^2, the reach of links in a loop sum."""
     return np.asarray(np.asarray(lengths, dtype=float) ** -2.0)
 
 

@@ -90,19 +90,11 @@ class LoopRoots:
 
 
 def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Floats:
-    """Return half of the steps that links span, in [0, pi/2].
+    """Return half of the steps that links span, in [0, pi/2], on a cylinder (base 0) or a cone (base 1).
 
-    Parameters
-    ----------
-    size : float[...]
-        z; at most the reach (more is taken as equal, for rounding).
-    reach : float[...]
-        C, broadcast against z.
-    base : {0, 1}
-        0 on a cylinder, 1 on a cone.
+    `size` is z, at most the reach C, against which it is broadcast (more is taken as equal, for rounding). A link
+    of 60 degrees on the flat cone, lambda = 0, and at the largest lambda, where it spans half the circle:
 
-    Examples
-    --------
     A link of 60 degrees on the flat cone, lambda = 0, and at the largest lambda, where it spans half the circle:
 
     >>> np.degrees(2 * half_steps([0, 3], 3.0, 1)).round(9)
@@ -132,21 +124,14 @@ def loop_sum(size: npt.ArrayLike, reach: npt.ArrayLike, signs: npt.ArrayLike, ba
 
 
 def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLike, base: Base) -> Floats:
-    """Return how far the rounding of the links may take loop sums, radians: what is less is zero.
+    """Return how far the rounding of the links may change loop sums, radians: what is less is zero.
 
     A last digit of a link changes its step by as much, relatively, while it is small, but the more the nearer it
     is to half a turn: by tan(half a step), up to the root of a last digit. The longest link is half a turn where
-    the interval ends, whatever its last digit.
+    the interval ends, whatever its last digit. Reach and weights are float[..., n]; weights are the signs, those
+    of equal reaches added up or not. A small linkage has a small rounding, and the end of the interval a large one
+    for its second longest link:
 
-    Parameters
-    ----------
-    size : float[...]
-    reach, weights : float[..., n]
-        Weights are the signs, those of equal reaches put together or not.
-    base : {0, 1}
-
-    Examples
-    --------
     A small linkage has a small rounding, and the end of the interval a large one for its second longest link:
 
     >>> small, large = (np.tan(np.array([1.0, 0.9, 0.8]) * part / 2) ** -2 for part in (1e-3, 1.0))
@@ -164,8 +149,6 @@ def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLi
 def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Floats]:
     """Return the weights of one loop, the signs of equal links added up, and their reaches in rising order.
 
-    Examples
-    --------
     >>> [values.tolist() for values in put_together([1, -1, -1, 1], [2.0, 1.0, 2.0, 1.0])]
     [[0.0, 0.0], [1.0, 2.0]]
     """
@@ -177,8 +160,6 @@ def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Fl
 def sign_patterns(links: int) -> npt.NDArray[np.int8]:
     """Return all sign patterns with first sign +: int8[2^(links - 1), links], the pattern of all + first.
 
-    Examples
-    --------
     >>> sign_patterns(3).tolist()
     [[1, 1, 1], [1, 1, -1], [1, -1, 1], [1, -1, -1]]
     """

@@ -163,8 +163,6 @@ def cautions_of(
 def in_degrees(values: Iterable[float]) -> list[float]:
     """Return degrees without the last digits that conversion from and to radians spoils, and without -0.
 
-    Examples
-    --------
     >>> in_degrees([np.radians(40.1), -0.0])
     [40.1, 0.0]
     """
@@ -174,8 +172,6 @@ def in_degrees(values: Iterable[float]) -> list[float]:
 def signs_text(signs: Sequence[int]) -> str:
     """Return signs as text.
 
-    Examples
-    --------
     >>> signs_text((1, -1, 1))
     '+-+'
     """
@@ -198,19 +194,11 @@ def kind_line(kind: FourBarKind, *, angular: bool) -> str:
 def circles_table(
     loops: Sequence[MappedLoop], families: Sequence[FamilyOfCircles], *, flat: Sequence[MappedLoop], angular: bool
 ) -> list[Block]:
-    """Return a table of the circles of a loop, a row for each, then its families; nothing where there are none.
+    """Return a table of the circles of a loop, one row for each, then its families; nothing without circles.
 
-    Parameters
-    ----------
-    loops : sequence of MappedLoop
-    families : sequence of FamilyOfCircles
-    flat : sequence of MappedLoop
-        Those of the loops that lie in a plane: no cone.
-    angular : bool
-        Sizes are angles, radians, printed as degrees: of cones. Otherwise they are lengths: of cylinders.
+    `flat` are the loops that lie in a plane: no cone. `angular`: sizes are angles of cones, in radians and printed
+    as degrees; otherwise they are lengths, of cylinders.
 
-    Examples
-    --------
     >>> from synth.surfaces.cylinder import map_to_cylinders
     >>> circles_table(map_to_cylinders([4, 3, 5, 1]).cylinders, (), flat=(), angular=False)[0].rows[0][1:4]
     ('open', '++++', '1')
@@ -240,22 +228,12 @@ def circles_table(
 def mapped_loop(
     reach: Floats, base: Base, flat_steps: Floats | None = None
 ) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:
-    """Return all circles of one loop, and the families.
+    """Return all circles of one loop, and the families, on a cylinder (base 0) or a cone (base 1).
 
-    Parameters
-    ----------
-    reach : float[n]
-        As in `synth.surfaces.loop_sums`.
-    base : {0, 1}
-        0 on a cylinder, 1 on a cone.
-    flat_steps : float[n], optional
-        Of cones: what the links span where the circle has size 0, without sign: the link angles as they were
-        given, of which the reach is rounded.
-
-    Notes
-    -----
-    A step of half a turn has no sign. Sign patterns that differ in such steps only are one linkage, listed with
-    +; where it ends a family it is not listed.
+    `reach` is float[n], as in `synth.surfaces.loop_sums`. For cones, `flat_steps` are the unsigned steps of the
+    links where the circle has size 0: the given link angles, of which the reach is rounded. A step of half a turn
+    has no sign: sign patterns that differ in such steps only are one linkage, listed with +; where it ends a
+    family it is not listed.
     """
     roots = loop_roots(reach, base)
     families = _families(roots, reach, base)

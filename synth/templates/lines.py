@@ -13,20 +13,11 @@ Kind = Literal["CUT", "MOUNTAIN", "VALLEY", "CREASE", "MARKS"]
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How strokes of a kind look.
+    """The look of strokes of a kind.
 
-    Attributes
-    ----------
-    colour : str
-        ``#rrggbb``; of cuts and folds the colours that crease patterns are read by (docs/files.md).
-    number : int
-        The colour's number in DXF.
-    width : float
-        Millimetres.
-    dash : tuple of float
-        Lengths of dashes and gaps by turns, millimetres; none for a full line.
-    meaning : str
-        For the foot of a page.
+    `colour` is ``#rrggbb`` (for cuts and folds, the colours by which crease patterns are read: docs/files.md),
+    `number` the colour's number in DXF. `width` is in millimetres, as are the dashes and gaps, in turn, of `dash`
+    (empty for a full line); `meaning` is for the foot of a page.
     """
 
     colour: str
@@ -51,13 +42,7 @@ Marks are grey, which no reader of crease patterns takes for a line of the patte
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """A straight line of a template, millimetres.
-
-    Examples
-    --------
-    >>> Stroke("CUT", (0, 0), (30, 40)).moved(5, 0)
-    Stroke(kind='CUT', start=(5, 0), end=(35, 40))
-    """
+    """A straight line of a template, millimetres."""
 
     kind: Kind
     start: Point
@@ -84,15 +69,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of a template that is cut out whole.
-
-    Attributes
-    ----------
-    strokes : tuple of Stroke
-    texts : tuple of Text
-    covered : shapely geometry
-        The material of it.
-    """
+    """A part of a template that is cut out whole; `covered` is its material, a shapely geometry."""
 
     strokes: tuple[Stroke, ...]
     texts: tuple[Text, ...]

@@ -19,12 +19,8 @@ _GAUGE_TEXT = 2.5
 
 
 def gauge(at: Point) -> tuple[list[Stroke], list[Text]]:
-    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on.
+    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge itself.
 
-    The first stroke is the gauge itself.
-
-    Examples
-    --------
     >>> gauge((10, 20))[0][0]
     Stroke(kind='MARKS', start=(10, 20), end=(110.0, 20))
     """

@@ -13,16 +13,7 @@ __all__ = ["Page", "Picture"]
 
 @dataclass(frozen=True)
 class Picture:
-    """A scene on a page.
-
-    Attributes
-    ----------
-    scene : Scene
-    corner : (left, low)
-        Millimetres.
-    scale : float
-        Millimetres for a point of the scene.
-    """
+    """A scene on a page; its corner is (left, low) in millimetres, its scale millimetres per point."""
 
     scene: Scene
     corner: Point
@@ -33,15 +24,7 @@ class Picture:
 class Page:
     """A page: strokes and texts in millimetres from its lower left corner.
 
-    Attributes
-    ----------
-    paper : Paper
-    strokes : tuple of Stroke
-    texts : tuple of Text
-    picture : Picture or None
-        On the page of assembly, of which nothing is cut.
-    is_note : bool
-        Whether it is that page.
+    Nothing is cut from the page of assembly: it alone has a picture, and `is_note`.
     """
 
     paper: Paper

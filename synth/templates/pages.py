@@ -29,29 +29,8 @@ _Laid = list[tuple[Piece, float, float]]
 def pages_of(template: Template, paper: Paper) -> list[Page]:
     """Return the pages of a template, of the paper upright or turned, whichever needs fewer.
 
-    Parameters
-    ----------
-    template : Template
-    paper : Paper
-
-    Returns
-    -------
-    list of Page
-        First those of pieces that fit on a page, then tiles, row by row from the top left; then, where the
-        template says how it is put together, the page of that.
-
-    Raises
-    ------
-    UnsolvableError
-        If there would be more than 500 pages.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.templates.template import template_of
-    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> [len(pages_of(template_of(square, size=size), Paper(210, 297))) for size in (100, 250)]
-    [2, 3]
+    First come those of pieces that fit on a page, then tiles, row by row from the top left, then the page of
+    assembly if the template has one. Raise UnsolvableError if there would be more than 500 pages.
     """
     ways = (paper, paper.turned())
     most = [_pages_at_most(template, way) for way in ways]
@@ -69,19 +48,10 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
 
 
 def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_Laid]:
-    """Yield what lies on each area of a width and a height: pieces in rows, the highest first.
+    """Yield the content of each area of a width and a height (millimetres): pieces in rows, the highest first.
 
-    Parameters
-    ----------
-    pieces : sequence of Piece
-        Each fits on the area; its lower left corner is the origin.
-    width, height : float
-        Millimetres.
-
-    Yields
-    ------
-    list of (Piece, right, up)
-        How far each is moved.
+    Each item is (piece, right, up), how far it is moved. Every piece fits on the area; its lower left corner is
+    the origin.
     """
     laid: _Laid = []
     right = up = row = 0.0

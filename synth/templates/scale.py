@@ -22,16 +22,9 @@ GREATEST = 1e6
 
 
 def unit_of(sheet: Sheet) -> float | None:
-    """Return the millimetres of the unit that the file of a sheet names; None where it names none.
+    """Return the millimetres of the unit that the file of a sheet names; None if it names none.
 
-    Raises
-    ------
-    UnsolvableError
-        If it is a unit that FOLD does not know.
-
-    Examples
-    --------
-    >>> unit_of(Sheet(3, (), "", ((0, 1, 2),)))
+    Raise UnsolvableError if FOLD does not know the unit.
     """
     name = None if sheet.frames is None else sheet.frames.unit
     if name is None or name == "unit":
@@ -48,26 +41,12 @@ def scale_of(sheet: Sheet, scale: float | None, size: float | None) -> float | N
 
 
 def millimetres(places: Floats, scale: float | None = None, size: float | None = None) -> float:
-    """Return millimetres for a unit, and refuse what nobody could fold.
+    """Return millimetres per unit of places float[vertices, 2 or 3]: the scale (1 by default), or that of a size.
 
-    Parameters
-    ----------
-    places : float[vertices, 2 or 3]
-        Any unit.
-    scale : float, optional
-        Millimetres for a unit; 1 without it.
-    size : float, optional
-        Millimetres of the longest side of the box round the places, instead of a scale.
+    `size` is the longest side of the box round the places, in millimetres. Raise InvariantError if scale or size
+    is not positive, or both are given; UnsolvableError if the box would be smaller than 10 mm, which nobody could
+    fold, or larger than 1e6 mm.
 
-    Raises
-    ------
-    InvariantError
-        If scale or size is no positive number, or both are given.
-    UnsolvableError
-        If the box would be smaller than 10 mm, or larger than 1e6 mm.
-
-    Examples
-    --------
     >>> millimetres(np.array([[0, 0], [2, 1.0]]), size=100)
     50.0
     """

@@ -39,28 +39,11 @@ THICKNESS = 1.0
 
 
 def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
-    """Return a sheet with coordinates, its poses, and how many frames of its file are left out.
+    """Return a sheet with all edges listed, its poses, and the number of frames of its file that are left out.
 
-    Poses are the frames with the same panels; what has other panels, or no coordinates, is another sheet.
-
-    Returns
-    -------
-    sheet : Sheet
-        With all edges listed.
-    poses : float[poses, vertices, 3]
-        In the unit of the file; the first is the sheet's own.
-    left_out : int
-
-    Raises
-    ------
-    UnsolvableError
-        If it has no coordinates or no panels.
-
-    Examples
-    --------
-    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> poses_of(square)[1].shape
-    (1, 4, 3)
+    Poses are float[poses, vertices, 3] in the unit of the file, the sheet's own first: the frames with the same
+    panels. A frame with other panels, or no coordinates, is another sheet. Raise UnsolvableError if the sheet has
+    no coordinates or no panels.
     """
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
@@ -141,27 +124,12 @@ def write_meshes(
     motion: tuple[Floats, Floats] | None = None,
     force: bool = False,
 ) -> None:
-    """Write closed meshes; equal meshes give equal files.
+    """Write closed meshes as ``.stl``, ``.3mf``, ``.obj`` or ``.gltf``; equal meshes give equal files.
 
-    Parameters
-    ----------
-    meshes : sequence of Mesh
-    path : str or Path
-        ``.stl``, ``.3mf``, ``.obj`` or ``.gltf``.
-    title : str, optional
-        Of glTF.
-    motion : (float[poses, meshes, 3, 3], float[poses, meshes, 3]), optional
-        Of glTF: how meshes are turned and shifted. Without it they stay where they are.
-    force : bool, optional
-        Replace a file that is there.
+    The title and the motion are for glTF; a motion is (float[poses, meshes, 3, 3], float[poses, meshes, 3]), how
+    meshes rotate and translate. `force` overwrites a file. Raise FileError if the extension is unknown, or the
+    file cannot be written or exists.
 
-    Raises
-    ------
-    FileError
-        If the extension is not known, or the file cannot be written or is there already.
-
-    Examples
-    --------
     >>> write_meshes([], "a.doc")
     Traceback (most recent call last):
     ...
@@ -184,30 +152,12 @@ def write_meshes(
 def write_linkage_on_surface(
     linkage: OnCone, surface: Surface, path: str | Path, *, dimensions: Dimensions, gap: float, force: bool = False
 ) -> tuple[str, ...]:
-    """Write a linkage on a cone or a cylinder as solids in layers, the surface among them.
+    """Write a linkage on a cone or a cylinder as solids in layers; return what the file does not hold.
 
-    Parameters
-    ----------
-    linkage : OnCone
-    surface : Cone or Cylinder
-    path : str or Path
-    dimensions : Dimensions
-    gap : float
-        At hinges, millimetres at the inner edge of links.
-    force : bool, optional
-        Replace a file that is there.
-
-    Returns
-    -------
-    tuple of str
-        What the file does not hold.
-
-    Raises
-    ------
-    FileError
-        If the extension is not known, or the file cannot be written or is there already.
-    UnsolvableError
-        If two joints are on one ruling line, or a link has one joint only, or is narrower than the gap.
+    The surface is among the solids. `gap` is that at hinges, millimetres at the inner edge of links; `force`
+    overwrites a file. Raise FileError if the extension is unknown, or the file cannot be written or exists;
+    UnsolvableError if two joints are on one ruling line, or a link has one joint only, or is narrower than the
+    gap.
     """
     _checked(Path(path), force=force)
     write_meshes(solids_on_surface(layered(linkage, surface, dimensions), gap), path, force=force)

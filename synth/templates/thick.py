@@ -32,16 +32,9 @@ _STRAIGHT = 1e-6
 
 @dataclass(frozen=True)
 class Plates:
-    """Panels as solids, each in the frame of its plane.
+    """Panels as solids, each in the frame of its plane at the pose from which the plates are made.
 
-    Attributes
-    ----------
-    meshes : tuple of Mesh
-        A panel whose middle is cut off by its hinges has several.
-    faces : tuple of int
-        The panel of each.
-    planes : tuple of Plane
-        Of the panels, at the pose that the plates were made of.
+    `faces` gives the panel of each mesh: a panel whose middle is cut off by its hinges has several.
     """
 
     meshes: tuple[Mesh, ...]
@@ -49,23 +42,10 @@ class Plates:
     planes: tuple[Plane, ...]
 
     def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
-        """Return how plates are turned and shifted in poses.
+        """Return rotations, float[poses, meshes, 3, 3], and translations, float[poses, meshes, 3], of plates.
 
-        Parameters
-        ----------
-        sheet : Sheet
-        poses : float[poses, vertices, 3]
-            Millimetres.
-
-        Returns
-        -------
-        turns : float[poses, meshes, 3, 3]
-        shifts : float[poses, meshes, 3]
-
-        Raises
-        ------
-        UnsolvableError
-            If a panel has another shape in a pose.
+        Poses are float[poses, vertices, 3], millimetres. Raise UnsolvableError if a panel has another shape in a
+        pose.
         """
         turns = np.empty((len(poses), len(self.faces), 3, 3))
         shifts = np.empty((len(poses), len(self.faces), 3))
@@ -79,23 +59,11 @@ class Plates:
 
 
 def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> Plates:
-    """Return the panels of a sheet as plates.
+    """Return the panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With all edges listed.
-    places : float[vertices, 3]
-        Millimetres.
-    thickness, gap : float
-        Of the plates, and between two of them at a hinge, millimetres.
-
-    Raises
-    ------
-    InvariantError
-        If the thickness is no positive number, the gap no number from 0 on, or one of them larger than 1e6 mm.
-    UnsolvableError
-        If a panel is not plane, or narrower than the gap.
+    The places are float[vertices, 3]; all in millimetres. Raise InvariantError if the thickness is not positive,
+    the gap negative, or one of them larger than 1e6 mm; UnsolvableError if a panel is not planar, or narrower than
+    the gap.
     """
     if not 0 < thickness <= GREATEST:
         raise InvariantError("thickness", f"thickness {thickness!r}", f"a positive number, at most {GREATEST:g}")

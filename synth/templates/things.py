@@ -67,32 +67,11 @@ def panels_of_thing(
 def linkage_on_a_cone(
     thing: ConicalLinkage | OrderOnCircle, *, cone_angle: float | None = None, number: int | None = None
 ) -> OnCone:
-    """Return a linkage on the one of its cones that is asked for.
+    """Return a linkage on one of its cones; a row of conical candidates is an order.
 
-    Parameters
-    ----------
-    thing : ConicalLinkage or OrderOnCircle
-        A row of conical candidates is an order.
-    cone_angle : float, optional
-        lambda, radians, of what is given by its azimuths.
-    number : int, optional
-        Which of its cones, from 1, of what is given by its link angles; needed where there are several.
-
-    Raises
-    ------
-    UnsolvableError
-        If it lies on no cone, or on several of which none is asked for, or there is no such one.
-
-    Examples
-    --------
-    >>> from math import radians
-    >>> from graphs.loops.loop import Loop
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> angles = {(3, 0): radians(120), (0, 1): radians(95), (1, 2): radians(45), (2, 3): radians(85)}
-    >>> linkage_on_a_cone(ConicalLinkage(ring, angles=angles))
-    Traceback (most recent call last):
-    ...
-    graphs.errors.UnsolvableError: the linkage lies on 2 cones, of 13.9984, 29.0445 degrees: expected --cone
+    `cone_angle` is lambda in radians, for azimuths; `number` chooses, from 1, among the cones for given link
+    angles. Raise UnsolvableError if the linkage lies on no cone, on several without a choice, or the chosen one
+    does not exist.
     """
     if isinstance(thing, OrderOnCircle):
         return OnCone(thing.chain, list(thing.azimuths), cone_angle)

@@ -19,15 +19,10 @@ _TINY = 1e-9
 
 @dataclass(frozen=True)
 class Tile:
-    """What a page shows of a larger piece, in millimetres from the corner of the page.
+    """The part of a larger piece that a page shows, in millimetres from the corner of the page.
 
-    Attributes
-    ----------
-    strokes : tuple of Stroke
-        Those of the piece, cut off at the border of the tile; the frame, and the crosses.
-    texts : tuple of Text
-    where : str
-        Column and row, for the caption.
+    The strokes of the piece end at the border of the tile; the frame and the crosses are added. `where` is column
+    and row, for the caption.
     """
 
     strokes: tuple[Stroke, ...]
@@ -38,8 +33,6 @@ class Tile:
 def tiles_across(size: tuple[float, float], window: tuple[float, float]) -> tuple[int, int]:
     """Return how many columns and rows of windows cover a box, neighbours overlapping; all in millimetres.
 
-    Examples
-    --------
     >>> tiles_across((500, 100), (190, 261))
     (3, 1)
     """
@@ -51,16 +44,10 @@ def tiles_across(size: tuple[float, float], window: tuple[float, float]) -> tupl
 
 
 def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Iterator[Tile]:
-    """Yield the tiles of a piece, row by row from the top left; those it does not reach are left out.
+    """Yield the tiles of a piece, row by row from the top left, without those that it does not reach.
 
-    Parameters
-    ----------
-    piece : Piece
-        Its lower left corner is the origin.
-    window : (width, height)
-        Of a tile, millimetres.
-    name : str, optional
-        Of the piece, where several have tiles.
+    The lower left corner of the piece is the origin; `window` is (width, height) of a tile in millimetres. `name`
+    is that of the piece if several have tiles.
     """
     from shapely import box
 
@@ -93,12 +80,10 @@ def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Itera
 
 
 def clipped(stroke: Stroke, area: tuple[float, float, float, float]) -> Stroke | None:
-    """Return the part of a stroke in an area (left, low, right, high); None if there is none of any length.
+    """Return the part of a stroke in an area (left, low, right, high); None if it has no length.
 
     The method is that of Liang and Barsky.
 
-    Examples
-    --------
     >>> clipped(Stroke("CUT", (-5, 0), (5, 10)), (0, 0, 20, 8))
     Stroke(kind='CUT', start=(0.0, 5.0), end=(3.0, 8.0))
     """

@@ -23,17 +23,11 @@ _A4 = Paper(210.0, 297.0)
 
 
 def check_template(path: str | Path, *, force: bool = False) -> None:
-    """Refuse a place where no template can be written, before one is made.
+    """Refuse a path where no template can be written, before one is made.
 
-    Raises
-    ------
-    FileError
-        If the extension is not known, or something is there that must not be replaced.
-    UnsolvableError
-        If it is a PDF, and reportlab is not installed.
+    Raise FileError if the extension is unknown, or an existing file must not be replaced; UnsolvableError for a
+    PDF if reportlab is not installed.
 
-    Examples
-    --------
     >>> check_template("a.doc")
     Traceback (most recent call last):
     ...

@@ -34,18 +34,10 @@ _AXIS, _BODY = "-", "|"
 
 @dataclass(frozen=True, slots=True)
 class Bodies:
-    """Corners, faces and lines.
+    """Corners, float[V, 3], faces and lines at the configuration, in units of the extent, about the middle.
 
-    Attributes
-    ----------
-    vertices : float[V, 3]
-        At the pose, in units of the extent, about the middle.
-    owners : list of int
-        The link that carries each, by its place; -1 for none.
-    faces : list of (link, vertices)
-        Polygons.
-    edges : list of (vertex, vertex, letter, joint)
-        Lines: the letter of a crease pattern's edge, and the place of the joint there, -1 for none.
+    Links and joints are indices, -1 for none: the owner of a corner is the link that carries it, a face is (link,
+    vertices), and an edge (vertex, vertex, letter of the crease pattern's edge, joint).
     """
 
     vertices: Floats
@@ -64,19 +56,8 @@ class Bodies:
 
 
 def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> Bodies:
-    """Return the panels of a crease pattern.
+    """Return the panels of a crease pattern with coordinates and all its edges, with its mechanism and linkage.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates and all its edges.
-    mechanism : SheetMechanism
-        Of the sheet.
-    linkage : PosedLinkage
-        Of both.
-
-    Examples
-    --------
     >>> from graphs.convert.duality import mechanism_of_sheet
     >>> from synth.motion.linkage import linkage_of_sheet
     >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1))
@@ -106,12 +87,8 @@ def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinka
 def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
     """Return bodies that carry the axes of a linkage.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
+    A link with two skew axes is a tetrahedron:
 
-    Examples
-    --------
     A link with two skew axes is a tetrahedron:
 
     >>> from graphs.mechanism.sc import SCGraph
@@ -147,16 +124,9 @@ def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
 
 
 def hull_faces(corners: Floats) -> list[list[int]]:
-    """Return the faces of the convex hull of points; one polygon of what is plane, none of what is on a line.
+    """Return the faces of the convex hull of points, float[n, 3].
 
-    Parameters
-    ----------
-    corners : float[n, 3]
-
-    Examples
-    --------
-    >>> hull_faces(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]))
-    [[0, 1, 3, 2]]
+    There is one polygon for planar points, none for points on a line.
     """
     if len(corners) < 3:
         return []

@@ -53,19 +53,9 @@ def needed() -> list[str]:
 
 
 def build(web: Path = _WEB, built: Path = BUILT) -> str:
-    """Build the script of the page, unless it is that of the sources already.
+    """Build the script of the page from the sources in `web`, unless `built` is up to date.
 
-    Parameters
-    ----------
-    web : Path, optional
-        The folder of the sources.
-    built : Path, optional
-        The folder to write to.
-
-    Returns
-    -------
-    str
-        Why it was not built; empty if it is there.
+    Return why it was not built; empty if it is there.
     """
     if os.environ.get(_OFF):
         return f"{_OFF} is set"

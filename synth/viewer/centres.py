@@ -26,23 +26,12 @@ Kind = Literal["explicit", "implicit", "finite", "infinite"]
 
 @dataclass(frozen=True, slots=True)
 class ShownCentre:
-    """A centre.
+    """A centre of a number of loops, with the joints whose axes pass through it and a link that carries it.
 
-    Attributes
-    ----------
-    kind : {"explicit", "implicit", "finite", "infinite"}
-        Explicit: a vertex of links. Implicit: links do not reach it. Finite: links have no shape that would tell.
-        Infinite: the axes are parallel.
-    place : float[3]
-        At the pose, in units of the extent, about the middle; of an infinite one a place among its axes.
-    direction : float[3] or None
-        Of the axes of an infinite one.
-    link : int
-        Place of a link that carries it.
-    joints : tuple of int
-        Places of the joints whose axes pass through it.
-    loops : int
-        How many loops share it.
+    An explicit centre is a vertex of links, an implicit one is not reached by them; finite: links have no shape
+    that decides; infinite: the axes are parallel to `direction`. The place, float[3], is that at the
+    configuration, in units of the extent, about the middle; for an infinite centre, a place among its axes. Link
+    and joints are indices.
     """
 
     kind: Kind
@@ -67,30 +56,7 @@ class ShownCentre:
 def centres_of(configuration: Configuration) -> tuple[ShownCentre, ...]:
     """Return the centres of a mechanism: of panels those at vertices are explicit, others implicit.
 
-    Parameters
-    ----------
-    configuration : Configuration
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.moving.made import configuration_of
-    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> (centre,) = centres_of(configuration_of(Sheet(5, (), "", faces, corners)))
-    >>> centre.kind, centre.joints, centre.place.round(3).tolist()
-    ('explicit', (0, 1, 2, 3), [-0.167, 0.0, 0.0])
-
-    Links of a linkage have no shape that would tell:
-
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
-    >>> linkage = linkage_of_axes(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)})
-    >>> [(centre.kind, centre.direction.tolist()) for centre in centres_of(configuration_of(linkage))]
-    [('infinite', [0.0, 0.0, 1.0])]
+    Links of a linkage have no shape that decides, so theirs are finite or infinite.
     """
     if not isinstance(configuration, SheetConfiguration):
         return _centres(configuration.linkage, set(), "finite")

@@ -99,8 +99,6 @@ def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, bu
 def json_in_html(value: Any) -> str:
     r"""Return JSON in which nothing can end a script element or begin a comment.
 
-    Examples
-    --------
     >>> json_in_html({"</script><!--": "&\u2028"})
     '{"\\u003c/script\\u003e\\u003c!--":"\\u0026\\u2028"}'
     """
@@ -109,12 +107,7 @@ def json_in_html(value: Any) -> str:
 
 
 def check_built(built: Path = BUILT) -> None:
-    """Refuse to make pages, before anything is computed for one, where their script was not built.
-
-    Raises
-    ------
-    UnsolvableError
-    """
+    """Raise UnsolvableError, before a page is computed, if the script of pages was not built."""
     _text(built / _SCRIPT)
 
 

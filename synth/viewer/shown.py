@@ -44,19 +44,9 @@ _STEPS = 4
 
 @dataclass(frozen=True, slots=True)
 class Moving:
-    """What moves.
+    """A linkage that moves, its bodies and centres; `ways` is None if nothing moves, or no motion was found.
 
-    Attributes
-    ----------
-    linkage : PosedLinkage
-    bodies : Bodies
-    ways : Ways or None
-        None where nothing moves, or no motion was found.
-    centres : tuple of ShownCentre
-    ground : int
-        Place of the link that stays.
-    limited : bool
-        Whether joints end at 180 degrees.
+    `ground` is the index of the fixed link; `limited`: joints end at 180 degrees.
     """
 
     linkage: PosedLinkage
@@ -85,16 +75,9 @@ class Moving:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A crease pattern where it is drawn, so that creases can be added between places on the picture.
+    """A crease pattern and its picture, so that creases can be added between places on the picture.
 
-    Attributes
-    ----------
-    vertices : tuple of (x, y, ...)
-        Coordinates as the file has them.
-    edges : tuple of (vertex, vertex)
-        All of them.
-    places : list of (x, y)
-        Of the vertices in the picture.
+    Vertices have the coordinates of the file, `places` are theirs in the picture, and all edges are listed.
     """
 
     vertices: tuple[tuple[float, ...], ...]

@@ -28,32 +28,12 @@ __all__ = ["factor_order", "solver_data"]
 
 
 def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None = None) -> dict[str, Any]:
-    """Return what the page's solver needs to move a linkage.
+    """Return what the page's solver needs to move a closed linkage.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        Closed at its pose.
-    limited : bool
-        Whether joints end at 180 degrees, where panels lie on each other.
-    ground : link, optional
-        The link that stays; by default the first.
-
-    Returns
-    -------
-    dict
-        Plain data; `LinkageData` of web/src/solver/types.js. Angles in radians, lengths in units of the extent.
-        The tolerances are those of closed configurations, which are solved for in double precision whatever the
-        file says.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
-    >>> told = solver_data(hinge, limited=False)
-    >>> told["directions"], told["tree"], told["order"]
-    ([[0.0, 0.0, 1.0]], [(0, 1, 0, 1)], [0])
+    It is plain data, `LinkageData` of web/src/solver/types.js. `limited`: joints end at 180 degrees, where panels
+    lie on each other; `ground` is the fixed link, by default the first. Angles are in radians, lengths in units of
+    the extent. The tolerances are those of closed configurations, which are solved for in double precision
+    whatever the file says.
     """
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     tree = [
@@ -74,22 +54,11 @@ def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None =
 
 
 def factor_order(joints: int, loops: Sequence[Sequence[int]]) -> Ints:
-    """Return where each joint goes in factors of normal equations, so that these stay sparse.
+    """Return the index of each joint, int[J], in factors of normal equations.
 
-    Parameters
-    ----------
-    joints : int
-        How many there are.
-    loops : sequence of sequence of int
-        Places of the joints of each loop: they see each other.
+    The factors stay sparse: the order is by minimum degree. The joints of a loop, given by their indices, are
+    neighbours. A hub of a star goes last, so that nothing is filled in:
 
-    Returns
-    -------
-    int[J]
-        A permutation, by minimum degree.
-
-    Examples
-    --------
     A hub of a star goes last, so that nothing is filled in:
 
     >>> int(factor_order(5, [(0, 1), (0, 2), (0, 3), (0, 4)])[0]) >= 3

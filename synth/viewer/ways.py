@@ -30,20 +30,11 @@ _MOST_DRIVERS = 40
 
 @dataclass(frozen=True, slots=True)
 class Beginning:
-    """One way to begin.
+    """One start of a motion, and its name, `told`.
 
-    Attributes
-    ----------
-    told : str
-        What it is called.
-    rates : float[J]
-        At the pose; the largest is 1 or -1.
-    drivers : tuple of int
-        Places of the joints that are driven, one for each freedom; the first begins fastest.
-    still : tuple of int
-        Places of the joints that do not move on it.
-    freedoms : int or None
-        Where they are known.
+    `rates`, float[J], are those at the configuration, the largest 1 or -1. `drivers` are the indices of the
+    driven joints, one for each degree of freedom, the fastest first; `still` are those of the joints that do not
+    move on it. `freedoms` is None if unknown.
     """
 
     told: str
@@ -65,15 +56,9 @@ class Beginning:
 
 @dataclass(frozen=True, slots=True)
 class Ways:
-    """All ways that can be chosen.
+    """All starts of a motion to choose from; `taken` is the index of the first choice.
 
-    Attributes
-    ----------
-    all : tuple of Beginning
-    singular : bool
-        Whether the pose has to be left at the rates of one of them; else the least rates do.
-    taken : int
-        The one that is taken first.
+    `singular`: the configuration has to be left at the rates of one of them; else the least rates do.
     """
 
     all: tuple[Beginning, ...]
@@ -86,20 +71,10 @@ class Ways:
 
 
 def ways_of(configuration: Configuration) -> Ways:
-    """Return the ways in which a mechanism can begin to move.
+    """Return the ways in which a mechanism with joints can start to move.
 
-    Parameters
-    ----------
-    configuration : Configuration
-        With joints.
+    Raise UnsolvableError if no motion starts there, or none was found.
 
-    Raises
-    ------
-    UnsolvableError
-        If no motion begins there, or none was found.
-
-    Examples
-    --------
     >>> from graphs.mechanism.sheet import Sheet
     >>> from synth.folding.configuration import configuration_of_sheet
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))

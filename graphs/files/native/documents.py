@@ -34,24 +34,7 @@ NativeObject = (
 
 
 def from_document(value: Any, path: Path) -> NativeObject:
-    """Build the object that a parsed native document describes.
-
-    Parameters
-    ----------
-    value : parsed JSON
-    path : Path
-        Where it comes from, for messages.
-
-    Raises
-    ------
-    FileError
-
-    Examples
-    --------
-    >>> doc = {"format": "synthedra/sc", "version": 1, "links": 2, "joints": [[0, 1]], "loops": []}
-    >>> print(from_document(doc, Path("two.json")))
-    SCGraph with 2 links, 1 joints, 0 centred and 0 spatial loops
-    """
+    """Build the object that a parsed native document describes; a FileError names the path."""
     check = Checker(path)
     if not isinstance(value, dict):
         check.fail("", value, "an object with the key 'format'")
@@ -69,18 +52,7 @@ def from_document(value: Any, path: Path) -> NativeObject:
 
 
 def document(thing: NativeObject) -> dict[str, Any]:
-    """Return the native document of an object.
-
-    Raises
-    ------
-    UnsolvableError
-        If an id is neither text nor an integer.
-
-    Examples
-    --------
-    >>> document(SCGraph(2, [(0, 1)]))["joints"]
-    [[0, 1]]
-    """
+    """Return the native document of an object; UnsolvableError if an id is neither text nor an integer."""
     if isinstance(thing, VertexEdgeGraph):
         return _vertex_edge_document(thing)
     if isinstance(thing, ConicalLinkage):
@@ -93,21 +65,7 @@ def document(thing: NativeObject) -> dict[str, Any]:
 
 
 def dumps(thing: NativeObject) -> str:
-    """Return the text of a native file.
-
-    Examples
-    --------
-    >>> print(dumps(SCGraph(2, [(0, 1)])), end="")
-    {
-      "format": "synthedra/sc",
-      "version": 1,
-      "links": 2,
-      "joints": [
-        [0, 1]
-      ],
-      "loops": []
-    }
-    """
+    """Return the text of a native file."""
     return json_text(document(thing))
 
 

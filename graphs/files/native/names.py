@@ -19,13 +19,7 @@ def head(kind: str) -> dict[str, Any]:
 
 
 def written(name: Hashable) -> str | int:
-    """Return a name as it is written in a file.
-
-    Raises
-    ------
-    UnsolvableError
-        If it is neither text nor an integer.
-    """
+    """Return a name as it is written in a file; UnsolvableError if it is neither text nor an integer."""
     if isinstance(name, bool) or not isinstance(name, str | int):
         raise UnsolvableError(f"the id {shown(name)} cannot be written: ids in files are text or integers")
     return name

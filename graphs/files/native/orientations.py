@@ -25,43 +25,17 @@ Rows = tuple[tuple[float, ...], ...]
 
 
 def orientation_rows(path: str | Path) -> tuple[str, Rows]:
-    """Return what a file of orientations lists.
+    """Return the key and the rows of a file of orientations.
 
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    key : str
-        ``"quaternions"`` (scalar first) or ``"matrices"`` (nine numbers, row by row).
-    rows : tuple of tuple of float
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read or does not have this form. That quaternions and matrices are those of rotations
-        is not checked here.
-
-    Examples
-    --------
-    >>> orientation_rows("no such file.json")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.OpenError: no such file.json: no such file; expected a file
+    The key is ``"quaternions"`` (scalar first) or ``"matrices"`` (nine numbers, row by row). Raise FileError if
+    the file cannot be read or has another form; that the rows are those of rotations is not checked here.
     """
     path = Path(path)
     return rows_from_document(load_json(path), path)
 
 
 def holds_orientations(path: str | Path) -> bool:
-    """Tell whether a file is a JSON document that says it holds orientations; what it lists is not looked at.
-
-    Examples
-    --------
-    >>> holds_orientations("no such file.json")
-    False
-    """
+    """Say whether a file is a JSON document of orientations by its format; what it lists is not read."""
     if Path(path).suffix.lower() != ".json":
         return False
     try:
@@ -72,14 +46,7 @@ def holds_orientations(path: str | Path) -> bool:
 
 
 def rows_from_document(value: Any, path: Path) -> tuple[str, Rows]:
-    """Return what a parsed document of orientations lists; see :func:`orientation_rows`.
-
-    Examples
-    --------
-    >>> doc = {"format": "synthedra/orientations", "version": 1, "quaternions": [[1, 0, 0, 0], [0, 0, 0, 1]]}
-    >>> rows_from_document(doc, Path("two.json"))
-    ('quaternions', ((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)))
-    """
+    """Return what a parsed document of orientations lists; see :func:`orientation_rows`."""
     check = Checker(path)
     check.mapping(value, "", ("format", "version"), ("quaternions", "matrices"))
     if value["format"] != KIND:
@@ -97,18 +64,7 @@ def rows_from_document(value: Any, path: Path) -> tuple[str, Rows]:
 
 
 def orientations_document(quaternions: Sequence[Sequence[float]]) -> dict[str, Any]:
-    """Return the native document of orientations.
-
-    Parameters
-    ----------
-    quaternions : sequence of four numbers each
-        Scalar first.
-
-    Examples
-    --------
-    >>> orientations_document([(1, 0, 0, 0)])["quaternions"]
-    [[1.0, 0.0, 0.0, 0.0]]
-    """
+    """Return the native document of orientations, quaternions with the scalar first."""
     return head("orientations") | {"quaternions": [[float(x) for x in q] for q in quaternions]}
 
 

@@ -24,10 +24,7 @@ _TYPES = {"B": 1, "C": 1, "M": 2, "V": 3, "U": 3, "F": 4, "J": 4}
 def sheet_from_cp(path: Path) -> Sheet:
     """Read a ``.cp`` file and trace its faces.
 
-    Raises
-    ------
-    FileError
-        With the line; or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
+    A FileError names the line, or why the lines make no pattern (:mod:`graphs.files.patterns.traced`).
     """
     ends, letters = [], []
     for number, line in enumerate(read_text(path).splitlines(), start=1):
@@ -50,17 +47,9 @@ def sheet_from_cp(path: Path) -> Sheet:
 
 
 def cp_text(sheet: Sheet) -> str:
-    r"""Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
+    """Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, does not lie in a plane, or has no line.
-
-    Examples
-    --------
-    >>> cp_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
-    '2 0.0 0.0 1.0 0.5\n'
+    Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
     """
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("a .cp file needs lines, and the sheet has none")

@@ -51,17 +51,8 @@ _NOTHING_NEW = {
 class FoldFrames:
     """The frames of a FOLD file.
 
-    Attributes
-    ----------
-    path : Path
-    sheet : Sheet
-        As the file is read when no frame is asked for.
-    document : mapping or None
-        The parsed file; None where it has the key frame only.
-    left_out : tuple of str
-        Keys of the frame that was read that the sheet does not hold.
-    unit : str or None
-        ``frame_unit`` of that frame.
+    `sheet` is that of the file when no frame is chosen, `unit` is its ``frame_unit``, and `left_out` are the keys
+    of its frame that it does not hold. `document` is the parsed file, None if it has the key frame only.
     """
 
     path: Path
@@ -76,13 +67,7 @@ class FoldFrames:
         return 0 if self.document is None else len(self.document["file_frames"])
 
     def frame(self, number: int) -> Sheet:
-        """Return the sheet of one frame; 0 is the key frame.
-
-        Raises
-        ------
-        FileError
-            If there is no such frame.
-        """
+        """Return the sheet of one frame, 0 for the key frame; FileError if there is no such frame."""
         if self.document is not None:
             return sheet_from_fold(self.document, self.path, number)
         if number:
@@ -102,12 +87,7 @@ class FoldFrames:
 
 
 def read_fold(path: Path) -> Sheet:
-    """Read a FOLD file; the sheet knows the frames of its file.
-
-    Raises
-    ------
-    FileError
-    """
+    """Read a FOLD file; the sheet knows the frames of its file. The errors are those of `sheet_from_fold`."""
     document, check = load_json(path), Checker(path)
     frame, notes = _frame(document, check)
     sheet = _sheet(frame, notes, check)
@@ -120,26 +100,9 @@ def read_fold(path: Path) -> Sheet:
 
 
 def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
-    """Build a sheet from a parsed FOLD document.
+    """Build a sheet from a parsed FOLD document: from one frame, or by default the first that has a pattern.
 
-    Parameters
-    ----------
-    value : parsed JSON
-    path : Path
-        Where it comes from, for messages.
-    frame : int, optional
-        Number of the frame; the first that holds a pattern if left out.
-
-    Raises
-    ------
-    FileError
-        If the document is no FOLD file, with the place.
-
-    Examples
-    --------
-    >>> sheet = sheet_from_fold({"faces_vertices": [[0, 1, 2], [0, 2, 3]]}, Path("two.fold"))
-    >>> sheet.vertices, len(sheet.faces)
-    (4, 2)
+    A FileError names the place if the document is no FOLD file.
     """
     check = Checker(path)
     return _sheet(*_frame(value, check, frame), check)
@@ -232,15 +195,7 @@ def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
 
 
 def fold_text(sheet: Sheet) -> str:
-    """Return the text of a FOLD 1.2 file; without coordinates the frame is marked abstract.
-
-    Examples
-    --------
-    >>> import json
-    >>> text = fold_text(Sheet(3, ((0, 1),), "B", ((0, 1, 2),)))
-    >>> json.loads(text)["frame_attributes"]
-    ['abstract']
-    """
+    """Return the text of a FOLD 1.2 file; without coordinates the frame is marked abstract."""
     document: dict[str, Any] = {
         "file_spec": 1.2,
         "file_creator": "synthedra",

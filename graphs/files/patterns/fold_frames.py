@@ -27,20 +27,8 @@ def resolved_frame(
 ) -> tuple[dict[str, Any], list[str]]:
     """Return the frame that holds the pattern, and notes on how it was found.
 
-    It is the key frame if that has edges or faces, else the first frame that does; or the frame asked for.
-
-    Parameters
-    ----------
-    document : mapping
-        The parsed file.
-    check : Checker
-    frame : int, optional
-        Number of the frame to return: 0 is the key frame.
-
-    Raises
-    ------
-    FileError
-        If there is no such frame, or frames are not as FOLD has them, or inherit in a circle.
+    It is the key frame (number 0) if that has edges or faces, else the first frame that does; or the chosen frame.
+    Raise FileError if there is no such frame, or frames are not as FOLD has them, or inherit in a circle.
     """
     frames = [document]
     if document.get("file_frames") is not None:

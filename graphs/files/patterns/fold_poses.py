@@ -15,14 +15,8 @@ __all__ = ["fold_text_of_poses"]
 def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
     """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    poses : sequence of Sheet
-        The same sheet with other coordinates and fold angles.
+    A pose is the same sheet with other coordinates and fold angles.
 
-    Examples
-    --------
     >>> from dataclasses import replace
     >>> flat = Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)))
     >>> pose = replace(flat, coordinates=((0, 0, 0), (1, 0, 0), (0, 0, 1)))

@@ -22,12 +22,9 @@ __all__ = ["obj_text", "sheet_from_obj"]
 
 
 def sheet_from_obj(path: Path) -> Sheet:
-    """Read the ``v`` and ``f`` lines and the crease comments of an OBJ file; all others are left alone.
+    """Read the ``v`` and ``f`` lines and the crease comments of an OBJ file, and ignore others.
 
-    Raises
-    ------
-    FileError
-        With the line.
+    A FileError names the line.
     """
     edges: dict[tuple[int, int], tuple[str, float | None]] = {}
     places: list[tuple[float, ...]] = []
@@ -76,15 +73,8 @@ def sheet_from_obj(path: Path) -> Sheet:
 
 
 def obj_text(sheet: Sheet) -> str:
-    r"""Return the OBJ text of a sheet; a flat one lies in z = 0.
+    """Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates.
-
-    Examples
-    --------
     >>> obj_text(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).splitlines()[-1]
     'f 1 2 3'
     """

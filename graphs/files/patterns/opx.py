@@ -30,12 +30,8 @@ _LETTERS = {"0": "F", "1": "B", "2": "M", "3": "V", "4": "U"}
 def sheet_from_opx(path: Path) -> Sheet:
     """Read the lines of an ORIPA file and trace its faces.
 
-    Coordinates are kept as they are written, as they are of ``.cp``.
-
-    Raises
-    ------
-    FileError
-        With the number of the line; or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
+    Coordinates are kept as they are written, like those of ``.cp``. A FileError names the line, or why the lines
+    make no pattern (:mod:`graphs.files.patterns.traced`).
     """
     try:
         root = ElementTree.fromstring(_without_entities(read_text(path), path))

@@ -16,17 +16,10 @@ __all__ = ["with_simple_faces"]
 
 
 def with_simple_faces(sheet: Sheet) -> Sheet:
-    """Return a sheet; refuse a flat one of which a face crosses itself.
+    """Return a sheet; refuse a flat one with a face that crosses itself, by an InvariantError with face and point.
 
-    Faces of sheets that do not lie flat need not be plane, and pass.
+    Faces of sheets that do not lie flat need not be planar, and pass.
 
-    Raises
-    ------
-    InvariantError
-        With the face and the point.
-
-    Examples
-    --------
     >>> square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
     >>> with_simple_faces(Sheet(4, (), "", ((0, 1, 3, 2),), square))
     Traceback (most recent call last):

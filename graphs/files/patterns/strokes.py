@@ -35,8 +35,6 @@ _KINDS = 6
 def letter_of_colour(red: int, green: int, blue: int) -> str | None:
     """Return the assignment that a stroke colour stands for, or None.
 
-    Examples
-    --------
     >>> letter_of_colour(230, 10, 10), letter_of_colour(128, 128, 128), letter_of_colour(255, 165, 0)
     ('M', None, None)
     """
@@ -66,10 +64,8 @@ def kind_of_stroke(shape: Any) -> str:
 
 
 def described_strokes(kinds: Counter[str]) -> str:
-    """Return which strokes were not understood, by kind and number; empty if none.
+    """Return the strokes that were not understood, by kind and number; empty if none.
 
-    Examples
-    --------
     >>> described_strokes(Counter({"#ffa500": 3, "dashed #000000": 12}))
     '15 shape(s) with strokes not understood left out: 12 dashed #000000, 3 #ffa500'
     """

@@ -42,10 +42,7 @@ _PIECES = 8
 def sheet_from_svg(path: Path) -> Sheet:
     """Read the lines of an SVG file and trace its faces.
 
-    Raises
-    ------
-    FileError
-        Or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
+    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
     """
     ends: list[Any] = []
     letters: list[str] = []

@@ -19,14 +19,9 @@ _LONG_NUMBER = re.compile(r"[0-9]{101}")
 def check_work_of_svg(text: str, path: Path) -> None:
     """Refuse shapes that use shapes too often, or themselves, or nest too deeply; found without drawing any.
 
-    Raises
-    ------
-    FileError
-        If what is used is drawn again more often than the limit ``shapes``, if elements, those that are used
-        among them, are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform
-        or style sheet is too long.
-    ElementTree.ParseError
-        If it is not XML.
+    Raise FileError if shapes are drawn by use more often than the limit ``shapes``, elements (used ones included)
+    are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform or style sheet is
+    too long; ElementTree.ParseError if the text is not XML.
     """
     root = ElementTree.fromstring(text)
     named = {one.get("id"): one for one in root.iter() if one.get("id") is not None}

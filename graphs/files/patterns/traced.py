@@ -21,25 +21,11 @@ _BORDERS = "BC"
 def traced_sheet(lines: Lines, check: Checker, *, title: str = "", border: str = "", unread: str = "") -> Sheet:
     """Trace the lines of a file.
 
-    Parameters
-    ----------
-    lines : Lines
-    check : Checker
-        Of the file, for messages.
-    title : str, optional
-    border : str, optional
-        What a border is in this format. Without it a drawing needs none: its lines may have no assignment.
-    unread : str, optional
-        What was in the drawing and is not among the lines, for messages.
+    `border` is what a border is in this format; without it a drawing needs none, and its lines may have no
+    assignment. `unread` is what was in the drawing and is not among the lines, for messages. Raise FileError if
+    there is no border, no face, no crease between two faces although creases were drawn, or several faces and no
+    crease. One face with nothing in it is a panel.
 
-    Raises
-    ------
-    FileError
-        If there is no border, or no face, or no crease between two faces although creases were drawn, or several
-        faces and no crease. One face with nothing in it is a panel.
-
-    Examples
-    --------
     >>> import numpy as np
     >>> from pathlib import Path
     >>> ends = np.array([[[0, 0], [1, 0]], [[1, 0], [0, 1]], [[0, 1], [0, 0]]], dtype=float)

@@ -56,27 +56,10 @@ class _Buffer:
 def gltf_text(
     meshes: Sequence[Mesh], turns: Floats, shifts: Floats, *, seconds: float = 4.0, title: str = ""
 ) -> str:
-    """Return meshes that move as glTF text.
+    """Return meshes, each in its own frame, that move, as glTF text; all in millimetres.
 
-    Parameters
-    ----------
-    meshes : sequence of Mesh
-        Each in its own frame, millimetres.
-    turns : float[poses, meshes, 3, 3]
-        Rotation matrices: a corner c of a mesh is at turn @ c + shift.
-    shifts : float[poses, meshes, 3]
-        Millimetres.
-    seconds : float, optional
-        From the first pose to the last. Of one pose there is no animation.
-    title : str, optional
-
-    Examples
-    --------
-    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
-    >>> mesh = Mesh("a", corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
-    >>> text = gltf_text([mesh], np.eye(3)[None, None], np.zeros((1, 1, 3)))
-    >>> json.loads(text)["asset"]["version"]
-    '2.0'
+    A corner c of a mesh is at turn @ c + shift, with rotation matrices float[poses, meshes, 3, 3] and shifts
+    float[poses, meshes, 3]. `seconds` is from the first pose to the last; a single pose is not animated.
     """
     buffer = _Buffer()
     drawn = [_mesh(mesh, buffer) for mesh in meshes]

@@ -15,15 +15,9 @@ __all__ = ["Mesh", "is_watertight"]
 
 @dataclass(frozen=True)
 class Mesh:
-    """A solid of one material.
+    """A solid of one material: corners float[n, 3], millimetres, and triangles of them, int[m, 3].
 
-    Attributes
-    ----------
-    name : str
-    corners : float[n, 3]
-        Millimetres.
-    triangles : int[m, 3]
-        Corners, counter-clockwise seen from outside.
+    Triangles are counter-clockwise seen from outside.
     """
 
     name: str
@@ -37,14 +31,6 @@ class Mesh:
 
 
 def is_watertight(mesh: Mesh) -> bool:
-    """Tell whether each side of a triangle is a side of one other, the other way round.
-
-    Examples
-    --------
-    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
-    >>> faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-    >>> is_watertight(Mesh("a", corners, faces)), is_watertight(Mesh("a", corners, faces[:3]))
-    (True, False)
-    """
+    """Say whether each side of a triangle is a side of one other, the other way round."""
     sides = Counter((a, b) for one in mesh.triangles.tolist() for a, b in zip(one, one[1:] + one[:1], strict=True))
     return all(number == 1 and sides[b, a] == 1 for (a, b), number in sides.items())

@@ -13,15 +13,7 @@ _LONGEST = 100
 
 
 def obj_of_meshes(meshes: Sequence[Mesh]) -> str:
-    """Return meshes as OBJ text, in millimetres.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
-    >>> print(obj_of_meshes([Mesh("a", corners, np.array([[0, 2, 1]]))]).splitlines()[-1])
-    f 1 3 2
-    """
+    """Return meshes as OBJ text, in millimetres."""
     rows, before = ["# millimetres"], 1
     for mesh in meshes:
         rows.append(f"o {plain(mesh.name, _LONGEST).replace(' ', '_')}")

@@ -29,15 +29,7 @@ __all__ = ["FoundType", "NearType", "find_type"]
 
 @dataclass(frozen=True, slots=True)
 class NearType:
-    """A type of the atlas that one edit makes of a mechanism.
-
-    Attributes
-    ----------
-    edit : str
-        In words.
-    row : dict
-        Of the atlas.
-    """
+    """A type of the atlas, as its row, that one edit, in words, makes of a mechanism."""
 
     edit: str
     row: dict[str, Any]
@@ -49,18 +41,10 @@ class NearType:
 
 @dataclass(frozen=True, slots=True)
 class FoundType(Printed):
-    """Which types of an atlas a mechanism is.
+    """The types of an atlas that a mechanism is, with its ids as a chain and as a drawing.
 
-    Attributes
-    ----------
-    chain, drawing : str or None
-        Ids of the mechanism.
-    rows : tuple of dict
-        The types with these ids, that of the drawing first.
-    named : tuple of NamedType
-        What the literature calls them, in the atlas or not.
-    near : tuple of NearType
-        Types one edit away.
+    `rows` are the types with these ids, that of the drawing first; `named` are their names in the literature, in
+    the atlas or not, and `near` the types one edit away.
     """
 
     chain: str | None

@@ -44,15 +44,7 @@ _LONGEST_PATTERN = 200
 
 
 class Rows(NamedTuple):
-    """What a statement selects.
-
-    Attributes
-    ----------
-    columns : tuple of str
-    rows : list of tuples
-    more : bool
-        Whether there are more than the limit of rows.
-    """
+    """The rows that a statement selects; `more`: there are more than the limit."""
 
     columns: tuple[str, ...]
     rows: list[tuple[Any, ...]]
@@ -61,13 +53,7 @@ class Rows(NamedTuple):
 
 @contextmanager
 def open_guarded(path: Path) -> Iterator[sqlite3.Connection]:
-    """Open an atlas for statements that only select.
-
-    Raises
-    ------
-    StoreError
-        If there is no such file, or it cannot be read as a database.
-    """
+    """Open an atlas for statements that only select; StoreError if it is missing, or is no database."""
     with reading(path) as connection:
         connection.execute("PRAGMA temp_store=MEMORY")
         connection.execute("PRAGMA trusted_schema=OFF")
@@ -93,26 +79,10 @@ def _authorized(action: int, first: str | None, second: str | None, *_: str | No
 def selected(
     connection: sqlite3.Connection, statement: str, values: Sequence[Any], *, limit: int, seconds: float
 ) -> Rows:
-    """Return what a statement selects, up to a number of rows.
+    """Return what a statement selects, up to a limit of rows and of seconds; `values` are for its placeholders.
 
-    Parameters
-    ----------
-    connection : sqlite3.Connection
-        From `open_guarded`.
-    statement : str
-    values : sequence
-        For its marks.
-    limit : int
-        Rows at most.
-    seconds : float
-        Time at most.
-
-    Raises
-    ------
-    InvariantError
-        If the statement is no SELECT on what an atlas holds, with what SQLite says of it.
-    UnsolvableError
-        If it takes longer.
+    The connection is from `open_guarded`. Raise InvariantError if the statement is no SELECT on what an atlas
+    holds, with the message of SQLite; UnsolvableError if it takes longer.
     """
     try:
         with _stopped_after(connection, seconds):

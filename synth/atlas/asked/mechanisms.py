@@ -20,12 +20,7 @@ __all__ = ["mechanism_file_of_type", "sheet_of_type"]
 def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
     """Return the native file of the mechanism of a row with ``kind`` and ``id``.
 
-    Raises
-    ------
-    InvariantError
-        If there can be no such type.
-    UnsolvableError
-        If it is an order, which has no angles.
+    Raise InvariantError if there can be no such type, UnsolvableError if it is an order, which has no angles.
     """
     kind, code = row["kind"], row["id"]
     if kind == "order":
@@ -35,17 +30,9 @@ def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
 
 
 def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
-    """Return the panels of a type, None where none were found.
+    """Return the panels of a type, from its values in an atlas by column; None if none were found.
 
-    Parameters
-    ----------
-    values : mapping
-        Column to value, of an atlas.
-
-    Raises
-    ------
-    FileError
-        If what is stored as its file is damaged.
+    Raise FileError if the stored file is damaged.
     """
     text, place = values.get("fold_file"), Path(f"fold_file of {values['id']}")
     if text is None:

@@ -35,15 +35,9 @@ _SHOWN = ("id", "kind", "name", "links", "joints", "dof", "centres", "all_explic
 
 @dataclass(frozen=True, slots=True)
 class AtlasRows(Printed):
-    """Types that a query selects.
+    """Types that a query selects: for each, a value for each column.
 
-    Attributes
-    ----------
-    columns : tuple of str
-    rows : list of dict
-        A value for each column; None where it is not known, or the kind of type has none.
-    more : bool
-        Whether there are more than were asked for.
+    A value is None if it is unknown, or the kind of type has none; `more`: there are more than the limit.
     """
 
     columns: tuple[str, ...]
@@ -61,13 +55,7 @@ class AtlasRows(Printed):
         return [{name: _plain_data(value) for name, value in row.items()} for row in self.rows]
 
     def to_frame(self) -> pandas.DataFrame:
-        """Return the rows as a data frame.
-
-        Raises
-        ------
-        UnsolvableError
-            If pandas is not installed.
-        """
+        """Return the rows as a data frame; UnsolvableError if pandas is not installed."""
         try:
             import pandas
         except ImportError:

@@ -21,16 +21,9 @@ _MOST, _PRINTED = 200, 12
 
 @dataclass(frozen=True, slots=True)
 class Neighbour:
-    """A type that another is related to.
+    """A type to which another is related; `relation` is such as ``has the chain``, or ``is the chain of``.
 
-    Attributes
-    ----------
-    relation : str
-        Such as ``has the chain``, or ``is the chain of``.
-    id : str
-    name : str or None
-    there : bool
-        Whether the atlas holds it.
+    `there`: the atlas holds it.
     """
 
     relation: str
@@ -45,17 +38,9 @@ class Neighbour:
 
 @dataclass(frozen=True, slots=True)
 class TypeReport(Printed):
-    """A type, and its neighbours.
+    """A type: its known values by column, its names, and its neighbours.
 
-    Attributes
-    ----------
-    values : dict
-        Column to value, those that are known.
-    named : tuple of NamedType
-        What it is called, and by whom.
-    neighbours : tuple of Neighbour
-    more : int
-        Neighbours that are not listed.
+    `more` counts the neighbours that are not listed.
     """
 
     values: dict[str, Any]
@@ -104,20 +89,9 @@ class TypeReport(Printed):
 
 
 def report_of(connection: sqlite3.Connection, code: str, path: Path) -> TypeReport | None:
-    """Return the report of a type by its id, or its name; None if there is none.
+    """Return the report of a type of an atlas by its id, or its name; None if there is none.
 
-    Parameters
-    ----------
-    connection : sqlite3.Connection
-        Of an atlas.
-    code : str
-    path : Path
-        Of the atlas.
-
-    Raises
-    ------
-    StoreError
-        If it is damaged.
+    Raise StoreError, with the path of the atlas, if it is damaged.
     """
     names = ", ".join(f'"{name}"' for name in COLUMNS)
     row = None

@@ -19,24 +19,10 @@ _NEVER_EMPTY = ("id", "kind")
 
 
 def value_of(path: Path, name: str, stored: Any) -> Any:
-    """Return the value of a column; None where it is not known, or the kind of type has none.
+    """Return the value of a column as stored by SQLite; None if it is unknown, or the kind of type has none.
 
-    Parameters
-    ----------
-    path : Path
-        Of the atlas.
-    name : str
-        Of the column.
-    stored : object
-        What SQLite gives.
+    Raise StoreError, with the path of the atlas, if it is no value of this column.
 
-    Raises
-    ------
-    StoreError
-        If it is no value of this column.
-
-    Examples
-    --------
     >>> value_of(Path("a.sqlite"), "assortment", "[4,2]"), value_of(Path("a.sqlite"), "planar", 1)
     ((4, 2), True)
     >>> value_of(Path("a.sqlite"), "links", "six")
@@ -61,10 +47,7 @@ def value_of(path: Path, name: str, stored: Any) -> Any:
 def text_values(path: Path, what: str, values: Iterable[Any]) -> None:
     """Check that values of the view of relations, or of a row of a statement, are texts.
 
-    Raises
-    ------
-    StoreError
-        If one is not.
+    Raise StoreError if one is not.
     """
     for value in values:
         if not isinstance(value, str):

@@ -29,32 +29,11 @@ _THROUGH_SINKS = (".csv", ".jsonl", ".parquet", "")
 
 
 def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> list[Path]:
-    """Write rows as their extension says; without one, a folder with a file for each mechanism.
+    """Write rows in the format of the extension; without one, a folder with a file for each mechanism.
 
-    Parameters
-    ----------
-    rows : AtlasRows
-        For pictures and folders with columns ``kind`` and ``id``.
-    path : str or Path
-        Ends in .csv, .json, .jsonl, .parquet, .svg, .png or .pdf.
-    force : bool, optional
-        Replace a file that is there.
-
-    Returns
-    -------
-    list of Path
-
-    Raises
-    ------
-    FileError
-        If the extension is another, or the file cannot be written.
-
-    Examples
-    --------
-    >>> write_rows(AtlasRows(("links",), [{"links": 4}], False), "a.xyz")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.xyz: the extension is not known; expected .csv, .json, .jsonl, .parquet, ...
+    Return the paths. The path ends in .csv, .json, .jsonl, .parquet, .svg, .png or .pdf; pictures and folders need
+    columns ``kind`` and ``id``. `force` overwrites a file. Raise FileError for another extension, or if the file
+    cannot be written.
     """
     place = Path(path)
     suffix = place.suffix.lower()

@@ -40,13 +40,7 @@ RELATIONS = {
 class AtlasSink(SqliteSink):
     """A store that becomes an atlas when all rows are there.
 
-    Parameters
-    ----------
-    path : str or Path
-    command : str
-        What is told of how it was made.
-    **options
-        Those of `SqliteSink`.
+    `command` is the recorded command that made it; the options are those of `SqliteSink`.
     """
 
     def __init__(self, path: str | Path, command: str, **options: Any) -> None:

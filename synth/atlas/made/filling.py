@@ -34,19 +34,11 @@ Values = dict[str, Any]
 
 
 def filled(kind: str, listed: Mapping[str, Any], *, realised: bool) -> Values:
-    """Return the values of a row of an atlas.
+    """Return the values of a row of an atlas, for a kind of `synth.atlas.columns.KINDS`.
 
-    Parameters
-    ----------
-    kind : str
-        One of `synth.atlas.columns.KINDS`.
-    listed : mapping
-        A row of the enumeration of that kind; of a string, the string.
-    realised : bool
-        Whether SCD graphs get coordinates, and are folded.
+    `listed` is a row of the enumeration of that kind (of a string, the string); with `realised`, SCD graphs get
+    coordinates, and are folded.
 
-    Examples
-    --------
     >>> from enumerate.strings.panel_strings import ChainString
     >>> row = filled("string", {"string": ChainString.parse("RR-R-RRR")}, realised=False)
     >>> row["id"], row["name"], row["stands_for"], row["dof"]
@@ -61,8 +53,6 @@ def filled(kind: str, listed: Mapping[str, Any], *, realised: bool) -> Values:
 def order_id(chain: str, order: tuple[str, ...]) -> str:
     """Return the id of a cyclic order of joints, which are numbered as in the chain of the id.
 
-    Examples
-    --------
     >>> order_id("k1:Cr", ("0", "2", "1", "3"))
     'k1:Cr:0-2-1-3'
     """

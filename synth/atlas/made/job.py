@@ -24,18 +24,7 @@ _REALISED = 1000
 
 @dataclass(frozen=True)
 class AtlasJob:
-    """All types of a plan, as rows of an atlas.
-
-    Attributes
-    ----------
-    plan : AtlasPlan
-
-    Examples
-    --------
-    >>> job = AtlasJob(AtlasPlan(4, creases=0, orders_of=(), realised=False))
-    >>> [(row[0], row[1]) for unit in job.units() for row in job.work(unit.payload)][:2]
-    [('k1:Cr', 'chain'), ('m1:ab.ac.bd.cd', 'sc')]
-    """
+    """All types of a plan, as rows of an atlas."""
 
     plan: AtlasPlan
 

@@ -22,15 +22,8 @@ _FRAMES = 24
 
 
 def thing_of(code: str) -> dict[str, Any]:
-    """Return what an atlas says of a type with coordinates; of one that was not realised, that it was not.
+    """Return what an atlas says of an SCD graph with coordinates, by its id; or that it was not realised.
 
-    Parameters
-    ----------
-    code : str
-        Id of an SCD graph.
-
-    Examples
-    --------
     >>> thing_of("m1:a-b.ac-.b-d.cd-")["flat"]
     True
     """

@@ -32,21 +32,9 @@ _DOCUMENT = """<!DOCTYPE html>
 
 
 def document(title: str, styles: Sequence[str], body: str) -> str:
-    """Return a page of a site.
+    """Return a page of a site with an HTML body.
 
-    Parameters
-    ----------
-    title : str
-        Plain text, escaped here.
-    styles : sequence of str
-        Where style sheets are, from the page.
-    body : str
-        HTML.
-
-    Examples
-    --------
-    >>> "<title>a &lt; b</title>" in document("a < b", [], "")
-    True
+    The title is plain text, escaped here; style sheets are paths from the page.
     """
     sheets = "\n".join(f'<link rel="stylesheet" href="{place}">' for place in styles)
     return _DOCUMENT.format(policy=_POLICY, title=escape(plain(title, 200)), styles=sheets, body=body)

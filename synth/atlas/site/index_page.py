@@ -32,15 +32,8 @@ _BODY = """<main id="gallery">
 
 
 def index_page(title: str, about: str) -> str:
-    """Return the HTML of the first page.
+    """Return the HTML of the first page: its title, and how it was made, both plain text.
 
-    Parameters
-    ----------
-    title, about : str
-        Plain text: what it is called, and how it was made.
-
-    Examples
-    --------
     >>> "<h1>a &lt; b</h1>" in index_page("a < b", "")
     True
     """
@@ -49,18 +42,10 @@ def index_page(title: str, about: str) -> str:
 
 
 def data_script(rows: Sequence[Mapping[str, Any]], title: str, about: str, digits: int) -> str:
-    """Return the script that holds the data of the first page: `AtlasData` of web/src/gallery/types.js.
+    """Return the script with the data of the first page: `AtlasData` of web/src/gallery/types.js.
 
-    Parameters
-    ----------
-    rows : sequence of mapping
-        With the columns `SEARCHED`.
-    title, about : str
-    digits : int
-        Of the numbers in names of files.
+    Rows have the columns `SEARCHED`; `digits` are those of the numbers in names of files.
 
-    Examples
-    --------
     >>> row = dict.fromkeys(SEARCHED) | {"id": "k1:Cr", "fold_deg": 90.0}
     >>> data_script([row], "atlas", "", 1)[:60]
     'window.atlasData = {"title":"atlas","about":"","digits":1,"c'

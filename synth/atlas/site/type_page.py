@@ -49,14 +49,10 @@ _THING = """<main id="page"></main>
 
 @dataclass(frozen=True, slots=True)
 class TypeFiles:
-    """The files of a type.
+    """The files of a type: its page (HTML), its picture and its graph (SVG).
 
-    Attributes
-    ----------
-    page, picture, graph : str
-        HTML; SVG for the list, of the crease pattern if there is one; SVG of the graph.
-    fold, template : str or None
-        The realised type (FOLD), and what is printed, cut out and folded (SVG).
+    The picture is for the list, of the crease pattern if there is one. `fold` is the realised type (FOLD),
+    `template` what is printed, cut out and folded (SVG).
     """
 
     page: str
@@ -67,15 +63,9 @@ class TypeFiles:
 
 
 def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> TypeFiles:
-    """Return the files of a type.
+    """Return the files of a type, with a name without extension.
 
-    Parameters
-    ----------
-    report : TypeReport
-    file : str
-        Name of its files, without ending.
-    places : mapping of id to str
-        Names of the files of the types that the site has.
+    `places` has the names of the files of each type of the site, by id.
     """
     values = report.values
     fold, sheet = values.get("fold_file"), sheet_of_type(values)

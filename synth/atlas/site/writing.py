@@ -34,15 +34,7 @@ _SCRIPTS = ("page.js", "page.css", "gallery.js", "gallery.css", "LICENSES.txt")
 
 @dataclass(frozen=True)
 class Site:
-    """The pages of some types of an atlas, as a job whose rows are files: name and text.
-
-    Attributes
-    ----------
-    atlas : str
-        Path of the atlas.
-    ids : tuple of str
-        Of the types, in the order of the site.
-    """
+    """The pages of types of an atlas, by its path and their ids, as a job whose rows are files: name and text."""
 
     atlas: str
     ids: tuple[str, ...]
@@ -94,26 +86,16 @@ class Site:
 
 
 class SiteSink(FolderSink):
-    """A sink that writes the files of a site into a new folder.
-
-    Parameters
-    ----------
-    path : str or Path
-    first : mapping of name to text
-        Files beside those of the types.
-    """
+    """A sink that writes the files of a site into a new folder; `first` are those that belong to no type."""
 
     def __init__(self, path: str | Path, first: Mapping[str, str]) -> None:
         super().__init__(Path(path))
         self._first = first
 
     def start(self, job: Job) -> Collection[int]:
-        """Make a folder beside the place of this one, with the files that are no types'.
+        """Make a folder beside its place, with the files that belong to no type.
 
-        Raises
-        ------
-        FileError
-            If there is something at its place, or it cannot be made.
+        Raise FileError if something is at its place, or it cannot be made.
         """
         there = super().start(job)
         assert self._folder is not None
@@ -133,19 +115,9 @@ class SiteSink(FolderSink):
 
 
 def site_of(atlas: Atlas, condition: str = "", title: str = "") -> tuple[Site, dict[str, str]]:
-    """Return the job of a site, and the files beside those of its types.
+    """Return the job of a site, for the types with a condition (by default all), and its other files.
 
-    Parameters
-    ----------
-    atlas : Atlas
-    condition : str, optional
-        Which types; by default all.
-    title : str, optional
-
-    Raises
-    ------
-    UnsolvableError
-        If there are no such types, or too many, or the scripts were not built.
+    Raise UnsolvableError if there are no such types, or too many, or the scripts were not built.
     """
     check_built()
     rows = atlas.query(condition, columns=SEARCHED, limit=_MOST)
@@ -171,32 +143,11 @@ def write_site(
     workers: int = 1,
     report: Callable[[Progress], None] | None = None,
 ) -> Path:
-    """Write a site of an atlas into a new folder.
+    """Write a site of an atlas into a new folder; return its first page.
 
-    Parameters
-    ----------
-    atlas : Atlas
-    path : str or Path
-        A folder that is not there yet.
-    condition : str, optional
-        Which types; by default all.
-    title : str, optional
-    workers : int, optional
-        Processes.
-    report : callable, optional
-        Called with the progress after some types each.
-
-    Returns
-    -------
-    Path
-        The first page.
-
-    Raises
-    ------
-    FileError
-        If there is something at the place, or it cannot be written.
-    UnsolvableError
-        If there are no such types, or too many, or the scripts were not built.
+    It has the types with a condition, by default all. It uses so many worker processes, and calls `report` with
+    the progress from time to time. Raise FileError if something is at the place, or it cannot be written;
+    UnsolvableError if there are no such types, or too many, or the scripts were not built.
     """
     site, first = site_of(atlas, condition, title)
     job: Job = site

@@ -27,15 +27,9 @@ MODE = click.option(
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """A mechanism as a command was given it.
+    """The mechanism of an argument, with its name there: a file, an id, a string.
 
-    Attributes
-    ----------
-    thing : Mechanism, ChainString or OrderOnCircle
-    name : str
-        What it was called: a file, an id, a string.
-    mode : str or None
-        Of an R/- string.
+    `mode` is that of an R/- string.
     """
 
     thing: Mechanism | ChainString | OrderOnCircle
@@ -44,26 +38,12 @@ class Given:
 
 
 def given(argument: str, row: int | None = None, mode: str | None = None) -> Given:
-    """Return what an argument names.
+    """Return what an argument names: a file, an id ``k1:...`` or ``m1:...``, an R/- string.
 
-    Parameters
-    ----------
-    argument : str
-        A file, an id ``k1:...`` or ``m1:...``, an R/- string; with a row a store, a list or a folder.
-    row : int, optional
-        Which one of many, from 1.
-    mode : str, optional
-        Of an R/- string; a row of a list of modes says its own.
+    With a row, from 1, it is one of a store, a list or a folder. The mode is that of an R/- string; a row of a
+    list of modes has its own. Raise click.UsageError if a row is required and missing, or the other way round;
+    FileError if the file cannot be read, or has no such row.
 
-    Raises
-    ------
-    click.UsageError
-        If one of many is to be named and is not, or the other way round.
-    FileError
-        If the file cannot be read, or has no such row.
-
-    Examples
-    --------
     >>> given("RR-R-RRR").thing
     ChainString(clusters=(2, 1, 3))
     """

@@ -20,15 +20,10 @@ __all__ = ["realise_many"]
 
 
 def realise_many(source: str, running: RunOptions, options: dict[str, Any], *, as_json: bool) -> None:
-    """Realise the types of a store, a list or a folder, and print what became of them.
+    """Realise the types of a store, a list or a folder, and print the results.
 
-    Parameters
-    ----------
-    source : str
-    running : RunOptions
-        ``output`` is a folder, or a store (.sqlite), which holds the files in its rows.
-    options : dict
-        Keyword arguments of `synth.realisation.realise`.
+    The output of `running` is a folder, or a store (.sqlite), which holds the files in its rows; the options are
+    those of `synth.realisation.realise`.
     """
     from enumerate.runner.columns import row_as_dict
     from enumerate.runner.store import read_rows

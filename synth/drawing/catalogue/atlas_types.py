@@ -15,21 +15,10 @@ __all__ = ["drawable_of_type"]
 
 
 def drawable_of_type(kind: str, code: str) -> Any:
-    """Return what `synth.draw` draws of a type.
+    """Return what `synth.draw` draws of the type with an id in an atlas.
 
-    Parameters
-    ----------
-    kind : str
-    code : str
-        Its id in an atlas.
+    Raise InvariantError if there can be no such type.
 
-    Raises
-    ------
-    InvariantError
-        If there can be no such type.
-
-    Examples
-    --------
     >>> drawable_of_type("sc", "m1:ab.ac.bd.cd")
     <SCGraph: 4 links, 4 joints, 1 centre>
     >>> drawable_of_type("order", "k1:Cr:0-2-1-3").names

@@ -50,10 +50,8 @@ class CatalogueEntry:
 
 
 def is_catalogue(path: str | Path) -> bool:
-    """Tell whether a path names many mechanisms: a store, a list or a folder.
+    """Say whether a path names many mechanisms: a store, a list or a folder.
 
-    Examples
-    --------
     >>> is_catalogue("chains.sqlite"), is_catalogue("watt.json")
     (True, False)
     """
@@ -111,17 +109,7 @@ def catalogue_entries(
 def entry_numbered(path: str | Path, number: int) -> CatalogueEntry:
     """Return one mechanism of a store, of rows, of a graph6 file or of a folder, by its place among all, from 1.
 
-    Raises
-    ------
-    FileError
-        If the file cannot be read, or holds fewer.
-
-    Examples
-    --------
-    >>> entry_numbered("nowhere.jsonl", 1)
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
+    Raise FileError if the file cannot be read, or holds fewer.
     """
     found = None
     for found in catalogue_entries(path):

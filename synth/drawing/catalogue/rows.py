@@ -27,26 +27,9 @@ _AT_ONCE = 1024
 
 
 def rows_of_file(place: Path) -> Iterator[Row]:
-    """Yield the rows of a file, in order; what was read is let go.
+    """Yield the rows of a file with an extension of `ROWS`, in order; none is kept in memory.
 
-    Parameters
-    ----------
-    place : Path
-        Its extension is one of `ROWS`.
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read.
-    UnsolvableError
-        If it is Parquet, and pyarrow is not installed.
-
-    Examples
-    --------
-    >>> list(rows_of_file(Path("nowhere.jsonl")))
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
+    Raise FileError if the file cannot be read, UnsolvableError if it is Parquet and pyarrow is not installed.
     """
     suffix = place.suffix.lower()
     if suffix in _STORES:
@@ -89,23 +72,11 @@ def order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
     """Return the order of joints of a row of conical candidates, at its azimuths, or evenly spaced.
 
     Names of joints are those of the file of the chain, which the id does not know: which of them a link has beside
-    each other is read from the loops.
+    each other is read from the loops. The row has ``order``, ``loops``, and ``azimuths_deg`` or ``slots``:
+    azimuths are in the order of the joints of the chain (that of the row's id), and ``order`` names joints as they
+    follow each other; a point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another
+    row.
 
-    Parameters
-    ----------
-    row : mapping
-        ``order``, ``loops``, and ``azimuths_deg`` or ``slots``: azimuths are in the order of the chain's joints,
-        and ``order`` names joints as they follow each other; a point opposite to one has a prime.
-    chain : SCGraph
-        The chain of the row's id.
-
-    Raises
-    ------
-    KeyError, TypeError, ValueError
-        If the row is of something else.
-
-    Examples
-    --------
     >>> from graphs.files.ids import mechanism_of_id
     >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
     >>> order = order_of_row(row, mechanism_of_id("k1:Cr"))

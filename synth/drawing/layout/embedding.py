@@ -16,8 +16,6 @@ Neighbours: TypeAlias = dict[Node, tuple[Node, ...]]
 def embedded(graph: nx.Graph) -> Neighbours | None:
     """Return some rotations that draw a simple graph without crossings; None if there are none.
 
-    Examples
-    --------
     >>> embedded(nx.complete_graph(5)) is None
     True
     >>> len(faces_of(embedded(nx.complete_graph(4))))
@@ -32,8 +30,6 @@ def embedded(graph: nx.Graph) -> Neighbours | None:
 def part_of(graph: nx.Graph, nodes: Collection[Node]) -> nx.Graph:
     """Return the graph of some nodes, in the order of the whole: that of a set differs from run to run.
 
-    Examples
-    --------
     >>> list(part_of(nx.path_graph(4), {3, 1, 2}).edges)
     [(1, 2), (2, 3)]
     """
@@ -46,8 +42,6 @@ def part_of(graph: nx.Graph, nodes: Collection[Node]) -> nx.Graph:
 def faces_of(around: Mapping[Node, Sequence[Node]]) -> list[tuple[Node, ...]]:
     """Return the faces, each walked round with the face on the left; bounded ones counter-clockwise.
 
-    Examples
-    --------
     >>> faces_of({0: (1, 2), 1: (2, 0), 2: (0, 1)})
     [(0, 1, 2), (0, 2, 1)]
     """
@@ -73,11 +67,9 @@ def faces_of(around: Mapping[Node, Sequence[Node]]) -> list[tuple[Node, ...]]:
 def made_biconnected(around: Mapping[Node, Sequence[Node]]) -> Neighbours:
     """Return rotations with further nodes, ``("fill", i)``, so that no node cuts the connected graph in two.
 
-    Where two neighbours that follow each other round a node are in different blocks, a node is put between
-    them and joined to both.
+    Where two neighbours that follow each other round a node are in different blocks, a node is put between them
+    and joined to both.
 
-    Examples
-    --------
     >>> path = {0: (1,), 1: (0, 2), 2: (1,)}
     >>> made_biconnected(path)[("fill", 0)]
     (0, 2)
@@ -112,10 +104,8 @@ def _parted(rotations: Mapping[Node, Sequence[Node]], graph: nx.Graph) -> tuple[
 
 
 def same_cycle(one: Sequence[Node], other: Sequence[Node]) -> bool:
-    """Tell whether two rows are one cycle, begun at any place, in either direction.
+    """Say whether two rows are one cycle, begun at any place, in either direction.
 
-    Examples
-    --------
     >>> same_cycle((0, 1, 2, 3), (2, 1, 0, 3)), same_cycle((0, 1, 2, 3), (0, 2, 1, 3))
     (True, False)
     """

@@ -48,8 +48,6 @@ class Springs:
 def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> Springs:
     """Return springs of edges, of length 1, and of bodies, whose corners would be regular polygons of sides 1.
 
-    Examples
-    --------
     >>> springs_of([(0, 1)], [(1, 2, 3, 4)]).lengths.round(3).tolist()
     [1.0, 1.0, 1.414, 1.0, 1.0, 1.414, 1.0]
     """
@@ -67,22 +65,11 @@ def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]
 def pulled(
     graph: PlaneGraph, places: Floats, springs: Springs, mirror: Mapping[Node, Node] | None = None
 ) -> Floats:
-    """Return places after the nodes moved under forces; the drawing keeps its faces and gets no crossing.
+    """Return places, float[n, 2] in side lengths, after the nodes moved under forces.
 
-    Parameters
-    ----------
-    graph : PlaneGraph
-    places : float[n, 2]
-        A drawing without crossings.
-    springs : Springs
-    mirror : mapping of node to node, optional
-        The symmetry of which the places are mirror images, upright: that is kept to the last digit, where rounding
-        alone would let what is under pressure bend to one side.
-
-    Returns
-    -------
-    float[n, 2]
-        In units of the length of a side.
+    The drawing has no crossings before, and the same faces and none after. `mirror` is the symmetry of which its
+    places are mirror images, upright: that is kept to the last digit, where rounding alone would let what is under
+    pressure bend to one side.
     """
     size = np.linalg.norm(places[graph.edges[:, 0]] - places[graph.edges[:, 1]], axis=1).mean()
     here: Floats = places / size

@@ -26,10 +26,8 @@ _MIRROR = ("mirror",)
 def swaps_of(links: Sequence[LinkId], joints: Joints) -> Iterator[dict[Node, Node]]:
     """Yield symmetries of order two of a link-joint graph, as moves of ``("link", id)`` and ``("joint", id)``.
 
-    Of large groups the first are looked at, those that are products of few generators.
+    For a large group the first are tried, those that are products of few generators.
 
-    Examples
-    --------
     >>> len(list(swaps_of([0, 1, 2, 3], {0: (0, 1), 1: (1, 2), 2: (2, 3), 3: (3, 0)})))
     5
     """
@@ -54,15 +52,8 @@ def swaps_of(links: Sequence[LinkId], joints: Joints) -> Iterator[dict[Node, Nod
 def mirrored(graph: nx.Graph, swap: Mapping[Node, Node]) -> Neighbours | None:
     """Return rotations of a connected graph that a symmetry of order two reverses; None if there are none.
 
-    Parameters
-    ----------
-    graph : networkx.Graph
-    swap : mapping of node to node
-        No edge has ends that are swapped with each other.
-
-    Examples
-    --------
-    A square mirrored in a diagonal, and turned by half, which is no mirror:
+    The symmetry swaps the ends of no edge. A square mirrored in a diagonal, and rotated by half a turn, which is
+    no mirror:
 
     >>> square = nx.cycle_graph(4)
     >>> mirrored(square, {0: 0, 1: 3, 2: 2, 3: 1}) is None, mirrored(square, {0: 2, 1: 3, 2: 0, 3: 1}) is None

@@ -29,24 +29,9 @@ _HUB_WEIGHT = 0.25
 class PlaneGraph:
     """A plane graph in numbers, with hubs in its inner faces.
 
-    Attributes
-    ----------
-    nodes : list of node
-        Those of the graph first, then one hub for each inner face of more than three corners.
-    own : int
-        How many are of the graph.
-    edges : int64[m, 2]
-        Of the graph, hubs left out.
-    spokes : int64[s, 2]
-        From corners to hubs.
-    triangles : int64[t, 3]
-        Counter-clockwise.
-    outer : int64[k]
-        The outer face, counter-clockwise.
-    faces : list of tuple of int
-        The inner faces.
-    hub_of : list of int or None
-        Of each inner face.
+    `nodes` has the `own` nodes of the graph first, then a hub for each inner face of more than three corners;
+    `hub_of` is that of each inner face. `edges`, int64[m, 2], leave out hubs; `spokes`, int64[s, 2], go from
+    corners to hubs. `triangles`, int64[t, 3], and the outer face, int64[k], are counter-clockwise.
     """
 
     nodes: list[Node]
@@ -60,16 +45,10 @@ class PlaneGraph:
 
 
 def plane_graph(around: Mapping[Node, Sequence[Node]], outer: Sequence[Node]) -> PlaneGraph:
-    """Return a biconnected plane graph with hubs.
+    """Return a biconnected plane graph with hubs, from the neighbours of each node, counter-clockwise.
 
-    Parameters
-    ----------
-    around : mapping of node to its neighbours, counter-clockwise
-    outer : sequence of node
-        One of the faces, as `faces_of` gives it: clockwise where it is drawn outside.
+    `outer` is one of the faces, as `faces_of` returns it: clockwise if it is drawn outside.
 
-    Examples
-    --------
     >>> square = {0: (1, 3), 1: (2, 0), 2: (3, 1), 3: (0, 2)}
     >>> graph = plane_graph(square, faces_of(square)[1])
     >>> len(graph.triangles), graph.outer.tolist()
@@ -106,20 +85,10 @@ def plane_graph(around: Mapping[Node, Sequence[Node]], outer: Sequence[Node]) ->
 
 
 def barycentric(graph: PlaneGraph, mirror: Mapping[Node, Node] | None = None) -> Floats:
-    """Return places with the outer face a regular polygon, weights chosen so that lengths are more even.
+    """Return places, float[n, 2], with the outer face a regular polygon, and weights that make lengths more even.
 
-    Parameters
-    ----------
-    graph : PlaneGraph
-    mirror : mapping of node to node, optional
-        A symmetry that reverses the graph and its outer face; its mirror is put upright.
+    `mirror` is a symmetry that reverses the graph and its outer face; its mirror line is upright.
 
-    Returns
-    -------
-    float[n, 2]
-
-    Examples
-    --------
     >>> square = {0: (1, 3), 1: (2, 0), 2: (3, 1), 3: (0, 2)}
     >>> places = barycentric(plane_graph(square, faces_of(square)[1]))
     >>> bool(abs(places[4]).max() < 1e-9)

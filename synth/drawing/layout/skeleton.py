@@ -17,16 +17,10 @@ __all__ = ["Skeleton", "bodies", "dots"]
 
 @dataclass(frozen=True, slots=True)
 class Skeleton:
-    """A plane graph to lay out.
+    """A plane graph to lay out. Nodes are ``("link", id)``, ``("joint", id)``, ``("side", link, {joint, joint})``.
 
-    Attributes
-    ----------
-    around : mapping of node to its neighbours, counter-clockwise
-        Nodes are ``("link", id)``, ``("joint", id)``, ``("side", link, {joint, joint})``.
-    outlines : mapping of link node to tuple of node
-        The corners of each body, counter-clockwise; empty for dots.
-    mirror : mapping of node to node, or None
-        A symmetry that reverses the rotations, of all links and joints too.
+    `around` has the neighbours of each node, and `outlines` the corners of each body (none for dots),
+    counter-clockwise; `mirror` is a symmetry that reverses the rotations, of all links and joints too.
     """
 
     around: Neighbours
@@ -37,8 +31,6 @@ class Skeleton:
 def dots(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> Skeleton:
     """Return links as nodes, from the rotations of links and joints.
 
-    Examples
-    --------
     >>> l0, l1, a, b = ("link", 0), ("link", 1), ("joint", "a"), ("joint", "b")
     >>> skeleton = dots({l0: (a, b), l1: (b, a), a: (l0, l1), b: (l1, l0)})
     >>> len(skeleton.around)  # the joints are parallel, and so stay
@@ -62,8 +54,6 @@ def dots(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> Sk
 def bodies(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> Skeleton:
     """Return joints as nodes and links as rings of sides, from the rotations of links and joints.
 
-    Examples
-    --------
     >>> l0, l1, l2, a, b, c = [("link", i) for i in range(3)] + [("joint", i) for i in "abc"]
     >>> rows = {l0: (a, c), l1: (b, a), l2: (c, b), a: (l0, l1), b: (l1, l2), c: (l2, l0)}
     >>> bodies(rows).around[a] == (c, b)

@@ -24,17 +24,7 @@ _BINARY = 3.4
 
 @dataclass(frozen=True, slots=True)
 class ChainLook:
-    """What of a chain is shown.
-
-    Attributes
-    ----------
-    link_numbers, joint_numbers : bool
-        Whether they are written.
-    size : float
-        Of the letters, points.
-    dot : float
-        Radius of joints, points.
-    """
+    """What a picture of a chain shows; the size of letters and the radius of joints are in points."""
 
     link_numbers: bool = True
     joint_numbers: bool = True

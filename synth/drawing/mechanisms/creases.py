@@ -134,24 +134,9 @@ def crease_scene(
 
 
 def places_on_page(sheet: Sheet, box: tuple[float, float] = (COLUMN, COLUMN)) -> list[Point]:
-    """Return where the vertices of a crease pattern are in its picture, where that has no lines below.
+    """Return where the vertices of a crease pattern are in its picture, if that has no lines of text below it.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    box : (width, height), optional
-        As of the picture.
-
-    Raises
-    ------
-    UnsolvableError
-        As `crease_scene` does.
-
-    Examples
-    --------
-    >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> places_on_page(square, (120.0, 120.0))
-    [(16.0, 104.0), (104.0, 104.0), (104.0, 16.0), (16.0, 16.0)]
+    The box, and the errors, are those of `crease_scene`.
     """
     return _framed(with_all_edges(sheet), box)[1]
 
@@ -273,8 +258,6 @@ def _middle_of_link(drawn: _Drawn, faces: Sequence[int]) -> Point:
 def inside(row: Sequence[Point]) -> Point:
     """Return a point inside a polygon: the middle of its area if that lies there, else one that does.
 
-    Examples
-    --------
     >>> inside([(0, 0), (2, 0), (2, 2), (0, 2)])
     (1.0, 1.0)
     """

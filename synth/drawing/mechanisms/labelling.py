@@ -21,26 +21,14 @@ _Box: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(slots=True)
 class Obstacles:
-    """What labels should not lie on.
-
-    Parameters
-    ----------
-    points : list of (x, y, radius)
-    lines : list of ((x, y), (x, y))
-    """
+    """What labels should not lie on: points, each (x, y, radius), and lines."""
 
     points: list[tuple[float, float, float]]
     lines: list[tuple[Point, Point]]
 
 
 def overlaps(one: Label, other: Label) -> bool:
-    """Tell whether the boxes of two labels have a point in common.
-
-    Examples
-    --------
-    >>> overlaps(Label((0, 0), "12"), Label((2, 2), "3")), overlaps(Label((0, 0), "12"), Label((9, 9), "3"))
-    (True, False)
-    """
+    """Say whether the boxes of two labels have a point in common."""
     a, b = one.box, other.box
     return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
@@ -48,8 +36,6 @@ def overlaps(one: Label, other: Label) -> bool:
 def beside(at: Point, distance: float, directions: int = 12, first: float = -pi / 2) -> list[Point]:
     """Return places round a point, nearer ones first.
 
-    Examples
-    --------
     >>> [(round(x, 6), round(y, 6)) for x, y in beside((0, 0), 2, 4)[:2]]
     [(0.0, -2.0), (2.0, 0.0)]
     """

@@ -25,14 +25,9 @@ Doing: TypeAlias = Literal["moves", "still", "unknown", "mountain", "valley", "l
 
 @dataclass(frozen=True, slots=True)
 class Motions:
-    """What joints do, and which panels move as one.
+    """What each joint does, and the clusters of panels that move as one.
 
-    Attributes
-    ----------
-    of : mapping of joint id to Doing
-    clusters : tuple of tuple of link ids
-    said : str
-        What colours mean, and how that is known.
+    `said` is what the colours mean, and the evidence.
     """
 
     of: Mapping[JointId, Doing] = field(default_factory=dict)
@@ -41,20 +36,11 @@ class Motions:
 
 
 def motions_by_verdict(sheet: Sheet | SheetConfiguration) -> Motions:
-    """Return what the verdict on a sheet says of its joints: that they move on some way, are still, or neither.
+    """Return the motions of the joints by the verdict on a sheet: moving on some branch, immobile, or unknown.
 
-    Parameters
-    ----------
-    sheet : Sheet or SheetConfiguration
-        With coordinates.
+    Raise UnsolvableError if the sheet has no coordinates, or its panels do not fit at its configuration. Three
+    creases that meet in a point hold each other in the flat state:
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, or its panels do not fit at its pose.
-
-    Examples
-    --------
     Three creases that meet in a point hold each other, flat as they lie:
 
     >>> tent = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), ((0, 0), (2, 0), (-1, 2), (-1, -2)))
@@ -94,30 +80,11 @@ def _said_of_verdict(of: Mapping[JointId, Doing], certainty: str) -> str:
 
 
 def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | None = None) -> Motions:
-    """Return how joints begin to move on a branch.
+    """Return the motions with which joints start on a branch.
 
-    Parameters
-    ----------
-    sheet : Sheet or SheetConfiguration
-        With coordinates.
-    branch : int or str, optional
-        Its number, as `synth fold --branches` lists them, or its signs; by default the one that agrees best with
-        the mountains and valleys of the sheet.
-
-    Raises
-    ------
-    UnsolvableError
-        If nothing moves, or panels do not fit at the pose of the sheet.
-    InvariantError
-        If there is no such branch.
-
-    Examples
-    --------
-    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> sheet = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", faces, corners)
-    >>> list(motions_on_branch(sheet).of.values())
-    ['mountain', 'valley', 'valley', 'valley']
+    A branch is its number, as `synth fold --branches` lists them, or its signs; by default the one that agrees
+    best with the mountains and valleys of the sheet. Raise UnsolvableError if the sheet has no coordinates,
+    nothing moves, or panels do not fit at its configuration; InvariantError if there is no such branch.
     """
     pattern = configuration_of(sheet)
     linkage, found = pattern.linkage, pattern.branches

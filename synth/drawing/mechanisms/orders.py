@@ -29,18 +29,9 @@ _SMALL = 200.0
 
 @dataclass(frozen=True, slots=True)
 class OrderOnCircle:
-    """Where joints lie round a cone.
+    """Joints round a cone, at azimuths in radians; the chain is drawn if the order is not shown.
 
-    Attributes
-    ----------
-    chain : SCGraph
-        What is drawn if the order is not to be seen.
-    names : sequence of str
-        Of the joints.
-    azimuths : sequence of float
-        Radians.
-    pairs : sequence of (int, int)
-        Places of the joints that a link has beside each other.
+    `pairs` are the indices of the joints that a link has beside each other.
     """
 
     chain: SCGraph
@@ -52,13 +43,8 @@ class OrderOnCircle:
 def order_of_linkage(linkage: ConicalLinkage) -> OrderOnCircle:
     """Return the order of a linkage that is given by steps between its axes.
 
-    Raises
-    ------
-    InvariantError
-        If the steps disagree, or do not lead to every joint.
+    Raise InvariantError if the steps disagree, or do not lead to every joint.
 
-    Examples
-    --------
     >>> ring = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])))
     >>> order = order_of_linkage(ConicalLinkage(ring, steps={("O", "A"): 1.0, ("A", "B"): 1.0, ("B", "C"): 1.0}))
     >>> order.azimuths, order.pairs
@@ -85,24 +71,10 @@ def order_scene(
     box: tuple[float, float] = (COLUMN, COLUMN),
     caption: str | None = "",
 ) -> Scene:
-    """Return a picture of an order of joints round a cone.
+    """Return a picture of an order of joints round a cone, at most as large as the box, (width, height) in points.
 
-    Parameters
-    ----------
-    order : OrderOnCircle
-    numbers : bool, optional
-        Write the names of joints.
-    box : (width, height), optional
-        Points there are at most.
-    caption : str, optional
-        Goes before the line that says what is seen; None: no line at all.
-
-    Examples
-    --------
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> order = OrderOnCircle(ring, "0123", [0, 1, 2, 3], [(0, 1), (1, 2), (2, 3), (0, 3)])
-    >>> [layer.name for layer in order_scene(order).layers]
-    ['circle', 'links', 'joints', 'labels', 'caption']
+    `numbers`: write the names of joints. The caption comes before the line that describes the picture; with None
+    there is neither.
     """
     size, dot = (5.0, 1.6) if min(box) < _SMALL else (SMALL, 2.1)
     frame = framed([(-1, -1), (1, 1)], _UNIT, box, margin=2 * size + dot)

@@ -43,22 +43,11 @@ _SMALL = 200.0
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What a picture shows.
+    """What a picture shows; at most as large as `box`, (width, height) in points.
 
-    Attributes
-    ----------
-    colour : str
-        What the colours of creases tell, one of `COLOURINGS`.
-    branch : int, str or None
-        With ``colour="branch"``, which one: its number or its signs; None: the one that suits the letters.
-    numbers : bool
-        Whether links and joints have their numbers.
-    graph : bool
-        Whether the SC graph lies over a crease pattern.
-    box : (width, height)
-        Points there are at most.
-    caption : str or None
-        A line that goes first below the picture; None: there is no line at all.
+    `colour` is one of `COLOURINGS`; `branch` goes with ``colour="branch"``: its number or its signs, or None for
+    the one that agrees best with the assignment. `numbers` are those of links and joints; `graph` puts the SC
+    graph over a crease pattern. `caption` is the first line below the picture; with None there are none.
     """
 
     colour: str = "letters"

@@ -22,30 +22,16 @@ _RIM = 1.45
 
 
 def taken_off(sc: SCGraph) -> Reduction:
-    """Return the reduction by ride-alongs, chains of them included, of an SC or SCD graph.
-
-    Examples
-    --------
-    >>> from graphs.files.ids import mechanism_of_id
-    >>> taken_off(mechanism_of_id("k1:Cr")).steps
-    ()
-    """
+    """Return the reduction by ride-alongs, chains of them included, of an SC or SCD graph."""
     return reduce(sc)
 
 
 def bands(
     reduction: Reduction, ways: Mapping[JointId, Sequence[Point]], links: Mapping[LinkId, Point], radius: float
 ) -> list[Shape]:
-    """Return bands below the joints and links that are taken off.
+    """Return bands below the joints and links that are removed.
 
-    Parameters
-    ----------
-    reduction : Reduction
-    ways : mapping of joint id to row of (x, y)
-        How joints are drawn.
-    links : mapping of link to (x, y)
-    radius : float
-        Of a link, points.
+    `ways` are the points of each joint as it is drawn; `radius` is that of a link, points.
     """
     found: list[Shape] = []
     for step in reduction.steps:
@@ -55,14 +41,7 @@ def bands(
 
 
 def said_of_ride_alongs(reduction: Reduction) -> list[str]:
-    """Return the line below the picture, if there is something to say.
-
-    Examples
-    --------
-    >>> from graphs.files.ids import mechanism_of_id
-    >>> said_of_ride_alongs(taken_off(mechanism_of_id("k1:Cr")))
-    []
-    """
+    """Return the line below the picture, if there is something to say."""
     if not reduction.steps:
         return []
     count = len(reduction.steps)

@@ -82,8 +82,6 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
 def class_numbers(sc: SCGraph) -> dict[int, int]:
     """Return the number of the centre class of each loop: independent loops first, then closing ones.
 
-    Examples
-    --------
     >>> class_numbers(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
     {0: 0}
     """

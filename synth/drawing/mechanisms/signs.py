@@ -17,8 +17,6 @@ SIGN = 4.2
 def centre_sign(at: Point, centre: Centre, colour: str, size: float = SIGN) -> list[Shape]:
     """Return the sign of a loop's centre.
 
-    Examples
-    --------
     >>> len(centre_sign((0, 0), Centre.FINITE, "ink")), len(centre_sign((0, 0), Centre.NONE, "ink"))
     (2, 0)
     """

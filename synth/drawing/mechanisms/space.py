@@ -84,23 +84,11 @@ def solids_scene(
     box: tuple[float, float] = (COLUMN, COLUMN),
     caption: str | None = "",
 ) -> Scene:
-    """Return a picture of solids hinged at edges, at their pose: each the hull of its hinges, these orange.
+    """Return a picture of solids hinged at edges: each the hull of its hinges, these orange.
 
-    Parameters
-    ----------
-    solids : HingedSolids
-    numbers : bool, optional
-        Write the numbers of links on what is seen of them, and those of joints beside their hinges.
-    box : (width, height), optional
-    caption : str, optional
+    `numbers` are those of links, on what is seen of them, and of joints, beside their hinges. Box and caption are
+    as in `order_scene`. Raise InvariantError if the axes of a loop do not meet in its centre.
 
-    Raises
-    ------
-    InvariantError
-        If the axes of a loop do not meet in its centre.
-
-    Examples
-    --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> axes = {0: ((0, 0, 0), (0, 0, 1)), 1: ((1, 0, 0), (0, 1, 1)),

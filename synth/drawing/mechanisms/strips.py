@@ -20,18 +20,8 @@ def strip_scene(
 ) -> Scene:
     """Return a picture of an R/- string: the bodies at its ends are grey, a fan meets at the lower edge.
 
-    Parameters
-    ----------
-    chain : ChainString
-    box : (width, height), optional
-        Points there are at most.
-    caption : str, optional
-        Goes before the line that says what is seen; None: no line at all.
-
-    Examples
-    --------
-    >>> [len(layer.shapes) for layer in strip_scene(ChainString((2, 1))).layers[:2]]
-    [4, 3]
+    It is at most as large as the box, in points. The caption comes before the line that describes the picture;
+    with None there is neither.
     """
     creases = _creases(chain)
     right = max(top for _, top in creases) + _BODY

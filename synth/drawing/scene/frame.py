@@ -22,18 +22,10 @@ _LETTERS, _LONGEST = 84, 336
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """How places of a layout, y upwards, come to lie on the page, y downwards.
+    """The map from places of a layout, y upwards, to the page, y downwards, in points; `scale` is points per unit.
 
-    Attributes
-    ----------
-    scale : float
-        Points a unit.
-    left, top : float
-        The layout's least x and greatest y.
-    across, down : float
-        Where they lie on the page, points.
-    width, height : float
-        Of the picture, points.
+    The layout's least x, `left`, and greatest y, `top`, lie at `across` and `down`; width and height are those of
+    the picture.
     """
 
     scale: float
@@ -62,20 +54,10 @@ def framed(
     box: tuple[float, float] = (COLUMN, COLUMN),
     margin: float = _MARGIN,
 ) -> Frame:
-    """Return a frame round places.
+    """Return a frame round places for a box, (width, height), and a margin on each side, all in points.
 
-    Parameters
-    ----------
-    places : iterable of (x, y)
-    unit : float
-        Points that a unit of the layout is long, if there is room.
-    box : (width, height), optional
-        Points there are.
-    margin : float, optional
-        Points left free on each side.
+    A unit of the layout is `unit` points long, if there is room.
 
-    Examples
-    --------
     >>> framed([(0, 0), (2, 1)], 30, margin=10).at((0, 1))
     (10, 10)
     """
@@ -91,10 +73,8 @@ def framed(
 
 
 def captions_of(caption: str | None, *said: str) -> list[str]:
-    """Return the lines below a picture: one that was given, if any, and those that say what is seen; None: none.
+    """Return the lines below a picture: the caption, if any, and those that describe it; with None there are none.
 
-    Examples
-    --------
     >>> captions_of("", "4 links"), captions_of("a", "4 links"), captions_of(None, "4 links")
     (['4 links'], ['a', '4 links'], [])
     """
@@ -104,8 +84,6 @@ def captions_of(caption: str | None, *said: str) -> list[str]:
 def page_of(frame: Frame, layers: Iterable[Layer], captions: Sequence[str] = (), title: str = "") -> Scene:
     """Return a scene as large as its frame, with lines of text below; long ones are broken.
 
-    Examples
-    --------
     >>> page_of(framed([(0, 0), (1, 1)], 30), [], ["a square"]).height
     71.75
     """

@@ -11,10 +11,8 @@ __all__ = ["moved", "put"]
 
 
 def moved(layer: Layer, right: float, down: float) -> Layer:
-    """Return a layer somewhere else on the page.
+    """Return a layer at another place on the page.
 
-    Examples
-    --------
     >>> from synth.drawing.scene.shapes import Line
     >>> moved(Layer("a", (Line([(0, 0), (1, 1)]),)), 2, 3).shapes[0].points
     [(2, 3), (3, 4)]
@@ -23,16 +21,8 @@ def moved(layer: Layer, right: float, down: float) -> Layer:
 
 
 def put(layer: Layer, there: Callable[[Point], Point]) -> Layer:
-    """Return a layer whose places are others; letters stay upright, discs as large.
+    """Return a layer with its places mapped by a function; letters stay upright, discs as large.
 
-    Parameters
-    ----------
-    layer : Layer
-    there : callable
-        From a place to where it comes to lie.
-
-    Examples
-    --------
     >>> put(Layer("a", (Disc((1, 2), 3),)), lambda place: (-place[0], place[1])).shapes[0].centre
     (-1, 2)
     """

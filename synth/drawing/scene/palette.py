@@ -77,15 +77,8 @@ PAPERS: Mapping[str, Mapping[str, str]] = MappingProxyType({"light": _LIGHT, "da
 
 
 def colour_of(name: str, paper: str) -> str:
-    """Return a colour as ``#rrggbb``.
+    """Return a colour as ``#rrggbb``; InvariantError if there is no such colour, or no such paper.
 
-    Raises
-    ------
-    InvariantError
-        If there is no such colour, or no such paper.
-
-    Examples
-    --------
     >>> colour_of("paper", "light"), colour_of("paper", "dark")
     ('#ffffff', '#14171a')
     """
@@ -100,8 +93,6 @@ def colour_of(name: str, paper: str) -> str:
 def colour_of_class(number: int) -> str:
     """Return the name of the colour of a class of joints, loops or links.
 
-    Examples
-    --------
     >>> colour_of_class(9)
     'class1'
     """

@@ -21,10 +21,7 @@ _HALO = 0.3
 def pdf_bytes(scene: Scene, *, paper: str = "light") -> bytes:
     """Return a scene as a PDF file of one page, as large as the scene.
 
-    Raises
-    ------
-    UnsolvableError
-        If reportlab is not installed.
+    Raise UnsolvableError if reportlab is not installed.
     """
     stream = BytesIO()
     write_pdf([scene], stream, paper=paper)
@@ -32,18 +29,9 @@ def pdf_bytes(scene: Scene, *, paper: str = "light") -> bytes:
 
 
 def write_pdf(scenes: Iterable[Scene], stream: IO[bytes], *, paper: str = "light") -> None:
-    """Write scenes as the pages of a PDF file; a scene is let go when its page is made.
+    """Write scenes as the pages of a PDF file; a scene is released when its page is written.
 
-    Parameters
-    ----------
-    scenes : iterable of Scene
-    stream : binary stream
-    paper : {"light", "dark"}, optional
-
-    Raises
-    ------
-    UnsolvableError
-        If reportlab is not installed.
+    Raise UnsolvableError if reportlab is not installed.
     """
     try:
         from reportlab.pdfgen.canvas import Canvas
@@ -79,15 +67,7 @@ def _finish_page(canvas: Any) -> None:
 
 
 class Painter:
-    """Shapes on a page of reportlab, whose y goes upwards.
-
-    Parameters
-    ----------
-    canvas : reportlab canvas
-    paper : {"light", "dark"}
-    height : float
-        Of the scene, points.
-    """
+    """Shapes on a page of a reportlab canvas, whose y goes upwards; the height is that of the scene, points."""
 
     def __init__(self, canvas: Any, paper: str, height: float) -> None:
         self._canvas, self._paper, self._height = canvas, paper, height

@@ -18,14 +18,9 @@ _STEPS = (1.0, 2.0, 5.0, 10.0)
 
 @dataclass(frozen=True, slots=True)
 class Plot:
-    """A rectangle of the page on which numbers are drawn against each other.
+    """A rectangle of the page, in points, on which numbers are drawn against each other.
 
-    Attributes
-    ----------
-    left, top, width, height : float
-        Of the rectangle, points.
-    x, y : (float, float)
-        The numbers at its edges: left and right, below and above.
+    `x` and `y` are the numbers at its edges: left and right, below and above.
     """
 
     left: float
@@ -42,10 +37,8 @@ class Plot:
         return self.left + across * self.width, self.top + (1 - up) * self.height
 
     def row(self, x: Floats, y: Floats) -> list[Point]:
-        """Return where the points of a curve lie.
+        """Return the points of a curve on the page.
 
-        Examples
-        --------
         >>> import numpy as np
         >>> Plot(0, 0, 10, 10, (0, 1), (0, 2)).row(np.array([0, 1]), np.array([0, 1]))
         [(0.0, 10.0), (10.0, 5.0)]
@@ -76,16 +69,8 @@ class Plot:
 
 
 def round_steps(low: float, high: float, most: int = 7) -> list[float]:
-    """Return round numbers from low to high, at most so many, equally far from each other.
+    """Return at most so many round numbers from low to high (not equal), equally far from each other.
 
-    Parameters
-    ----------
-    low, high : float
-        Not equal.
-    most : int, optional
-
-    Examples
-    --------
     >>> round_steps(0, 30.2), round_steps(2.51, 3.74)
     ([0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0], [2.6, 2.8, 3.0, 3.2, 3.4, 3.6])
     """
@@ -99,8 +84,6 @@ def round_steps(low: float, high: float, most: int = 7) -> list[float]:
 def signed(number: float) -> str:
     """Return a number as axes and legends show it, with a minus as long as a plus.
 
-    Examples
-    --------
     >>> signed(-180.0), signed(2.5)
     ('−180', '2.5')
     """

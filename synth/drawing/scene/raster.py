@@ -29,12 +29,9 @@ _MIDDLE = 0.36
 
 
 def check_matplotlib() -> None:
-    """Refuse where there is no matplotlib, before a picture is computed.
+    """Raise UnsolvableError if matplotlib is missing, or has no folder to write to.
 
-    Raises
-    ------
-    UnsolvableError
-        If it is not installed, or finds no folder that it can write to.
+    This is checked before a picture is computed.
     """
     try:
         import matplotlib.font_manager as _  # noqa: F401
@@ -45,24 +42,9 @@ def check_matplotlib() -> None:
 
 
 def png_bytes(scene: Scene, *, paper: str = "light", dots: float = 200) -> bytes:
-    r"""Return a scene as a PNG file.
+    """Return a scene as a PNG file, with so many dots per inch.
 
-    Parameters
-    ----------
-    scene : Scene
-    paper : {"light", "dark"}, optional
-    dots : float, optional
-        Pixels an inch.
-
-    Raises
-    ------
-    UnsolvableError
-        If matplotlib is not installed.
-
-    Examples
-    --------
-    >>> png_bytes(Scene(72, 36, ()))[:4]
-    b'\x89PNG'
+    Raise UnsolvableError if matplotlib is not installed.
     """
     found = pixels(scene, paper=paper, dots=dots)
     from PIL import Image
@@ -73,17 +55,9 @@ def png_bytes(scene: Scene, *, paper: str = "light", dots: float = 200) -> bytes
 
 
 def pixels(scene: Scene, *, paper: str = "light", dots: float = 200) -> npt.NDArray[np.uint8]:
-    """Return a scene as pixels: uint8[height, width, 3], red, green and blue.
+    """Return a scene as pixels: uint8[height, width, 3], red, green and blue, with so many dots per inch.
 
-    Raises
-    ------
-    UnsolvableError
-        If matplotlib is not installed.
-
-    Examples
-    --------
-    >>> pixels(Scene(72, 36, ()), dots=50).shape
-    (25, 50, 3)
+    Raise UnsolvableError if matplotlib is not installed.
     """
     check_matplotlib()
     from matplotlib.backends.backend_agg import RendererAgg

@@ -187,10 +187,8 @@ class Scene:
 
 
 def text_width(text: str, size: float) -> float:
-    """Return how wide text is at most, in points: fonts differ, and the widest that is used counts.
+    """Return the largest width of text, in points: fonts differ, and the widest in use counts.
 
-    Examples
-    --------
     >>> text_width("12", 10)
     12.4
     """
@@ -198,17 +196,10 @@ def text_width(text: str, size: float) -> float:
 
 
 def arc_points(centre: Point, radius: float, start: float, stop: float) -> list[Point]:
-    """Return points along an arc, near enough to each other to look round.
+    """Return points along an arc, close enough to each other to look round.
 
-    Parameters
-    ----------
-    centre : (x, y)
-    radius : float
-    start, stop : float
-        Radians; from the x axis towards the y axis.
+    Angles are in radians, from the x axis towards the y axis.
 
-    Examples
-    --------
     >>> [round(x, 3) for x, _ in arc_points((0, 0), 1, 0, pi)][::30]
     [1.0, 0.0, -1.0]
     """

@@ -55,8 +55,6 @@ def svg_text(scene: Scene, *, paper: str = "light") -> str:
 def svg_group(scene: Scene, *, paper: str = "light") -> str:
     r"""Return the layers of a scene as SVG groups, without a document round them.
 
-    Examples
-    --------
     >>> from synth.drawing.scene.shapes import Layer
     >>> svg_group(Scene(9, 9, (Layer("a", (Line([(0, 0), (1, 0.5)]),)),)))
     '<g class="a">\n<path d="M0 0L1 .5" fill="none" stroke="#1a1a1a" stroke-width="1"/>\n</g>'

@@ -31,21 +31,6 @@ def bodies_of(linkage: PosedLinkage) -> tuple[Panels, Floats]:
     """Return the faces of all links, their front outside, and the corners at the pose: float[2 J, 3].
 
     Corners 2 j and 2 j + 1 are the ends of hinge j, in units of the extent. A link with one hinge has no body.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
-
-    Examples
-    --------
-    A ring of three tetrahedra, with four faces each:
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> axes = {0: ((0, 0, 0), (1, 0, 0)), 1: ((0, 0, 1), (0, 1, 0)), 2: ((3, 1, 0), (0, 1, 2))}
-    >>> panels, corners = bodies_of(linkage_of_axes(SCGraph(3, [(2, 0), (0, 1), (1, 2)]), axes))
-    >>> len(panels.faces), corners.shape, sorted(map(sorted, panels.joint_of))
-    (12, (6, 3), [[0, 1], [2, 3], [4, 5]])
     """
     corners = hinge_ends(linkage).reshape(-1, 3)
     faces: list[tuple[int, ...]] = []
@@ -60,13 +45,9 @@ def bodies_of(linkage: PosedLinkage) -> tuple[Panels, Floats]:
 
 
 def places_of_hinges(linkage: PosedLinkage, angles: Floats) -> Floats:
-    """Return where the ends of hinges are in many poses: float[F, 2 J, 3], as `bodies_of` counts them.
+    """Return the ends of hinges in many configurations, float[F, 2 J, 3], numbered as in `bodies_of`.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    angles : float[F, J]
-        Joint angles, radians.
+    Joint angles are float[F, J], radians.
     """
     motions = link_motions(linkage, angles)
     found = [
@@ -80,10 +61,6 @@ def hinge_ends(linkage: PosedLinkage) -> Floats:
     """Return the ends of the piece of each axis that is drawn: float[J, 2, 3].
 
     Its middle is that of the feet of the common perpendiculars to the other axes of the two links.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
     """
     neighbours = _neighbours(linkage)
     middles = np.array(

@@ -31,17 +31,11 @@ _DARKEST = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Panels:
-    """What of a sheet, or of solids, is drawn in space, at whatever pose.
+    """What is drawn of a sheet, or of solids, in space, at any configuration.
 
-    Attributes
-    ----------
-    faces : sequence of sequence of int
-        Vertices round each panel, the front of all on one side of the paper.
-    link_of : mapping of face to link
-    joint_of : mapping of two vertices to joint id
-    letters : mapping of two vertices to letter
-    solid : bool
-        Whether faces are those of solids, their front outside: what looks away from the eye is hidden.
+    `faces` are the vertices round each panel, the front of all on one side of the paper; a set of two vertices has
+    its joint and its letter. `solid`: faces are those of solids, their front outside, and those that look away
+    from the eye are hidden.
     """
 
     faces: Sequence[Sequence[int]]
@@ -85,8 +79,6 @@ def same_side_up(faces: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
     The first of each piece stays as it is. A strip that is twisted into itself has one side only: somewhere on it
     the colours change.
 
-    Examples
-    --------
     >>> same_side_up([(0, 1, 2), (0, 1, 3)])
     [(0, 1, 2), (3, 1, 0)]
     """
@@ -114,8 +106,6 @@ def same_side_up(faces: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
 def front_up(panels: Panels, points: Floats, view: View) -> Panels:
     """Return panels with the sides exchanged if more of the backs than of the fronts would be seen.
 
-    Examples
-    --------
     >>> from synth.drawing.space.view import view_of_motion
     >>> corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.0]])
     >>> panels = panels_of(Sheet(3, (), "", ((0, 2, 1),)))

@@ -44,15 +44,8 @@ class View:
 
 
 def view_from(towards: Floats, upright: Floats) -> View:
-    """Return the view from a direction, another one being upwards.
+    """Return the view from a direction, another one being upwards: float[3] of any length, not parallel.
 
-    Parameters
-    ----------
-    towards, upright : float[3]
-        Of any length, not parallel.
-
-    Examples
-    --------
     >>> view_from(np.array([0, 0, 1.0]), np.array([0, 2.0, 0])).right.tolist()
     [1.0, 0.0, 0.0]
     """
@@ -108,23 +101,9 @@ def view_of_motion(points: Floats) -> View:
 
 
 def drawn_order(places: Floats, near: Floats, faces: Sequence[Sequence[int]]) -> list[int]:
-    """Return the faces in the order in which they are drawn: what is behind first.
+    """Return faces (vertex cycles) in the order in which they are drawn: those behind first.
 
-    Parameters
-    ----------
-    places : float[n, 2]
-        The vertices as they are seen.
-    near : float[n]
-        How near each is to the eye.
-    faces : sequence of vertex cycles
-
-    Examples
-    --------
-    Two squares, the second nearer:
-
-    >>> places = np.array([[0, 0], [1, 0], [1, 1], [0, 1]] * 2, dtype=float)
-    >>> drawn_order(places, np.array([5.0] * 4 + [7.0] * 4), [(4, 5, 6, 7), (0, 1, 2, 3)])
-    [1, 0]
+    `places`, float[n, 2], are the vertices as they are seen, `near`, float[n], how near each is to the eye.
     """
     from shapely import STRtree
     from shapely.geometry import Polygon as Area

@@ -17,17 +17,7 @@ __all__ = ["bird_base", "fan", "preliminary_base", "waterbomb_base"]
 def fan(directions: Sequence[float], letters: str = "", title: str = "") -> Sheet:
     """Return a flat vertex with creases of length 1 in given directions, radians, rising.
 
-    Parameters
-    ----------
-    directions : sequence of float
-    letters : str, optional
-        One a crease; all unassigned if there are none.
-    title : str, optional
-
-    Examples
-    --------
-    >>> fan([0.0, 1.5, 3.0, 4.5], "MVVV").assignments
-    'MVVV'
+    There is one letter per crease; without letters all are unassigned.
     """
     n = len(directions)
     places = ((0.0, 0.0), *((cos(t), sin(t)) for t in directions))

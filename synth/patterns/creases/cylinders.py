@@ -25,8 +25,6 @@ def sectors_of_ride_alongs(pleats: int, slack: float) -> tuple[float, float]:
     the sector. Round the cylinder the angles at inner creases, seen from without, are together 360 degrees more
     than those at outer ones: both kinds are straight at once, with walls at inner creases ``2 slack`` from flat.
 
-    Examples
-    --------
     >>> [round(degrees(sector), 6) for sector in sectors_of_ride_alongs(4, 0.0)]
     [45.0, 90.0]
     """

@@ -57,26 +57,10 @@ def folded_miura(
     zigzag: float = 1.0,
     title: str = "",
 ) -> Sheet:
-    """Return a Miura sheet folded so far that its panels stand at an angle to the base plane.
+    """Return a Miura sheet folded until its panels are at an angle, the tilt (radians), to the base plane.
 
-    Parameters
-    ----------
-    rows, columns : int
-        Panels along the zigzags' normal and along the zigzags.
-    tilt : float
-        Angle between a panel and the base plane, radians.
-    sector, straight, zigzag : float
-        As of `miura`; the sides of the panels across the zigzag lines and along them.
-    title : str, optional
-
-    Notes
-    -----
+    Rows count panels along the zigzags' normal, columns along the zigzags; sector and sides are those of `miura`.
     Lengths of the unit cell as in M. Schenk and S. D. Guest, "Geometry of Miura-folded metamaterials" (2013).
-
-    Examples
-    --------
-    >>> folded_miura(2, 2, 0.7, 1.1)
-    <Sheet: 4 faces, 4 creases, 9 vertices, in space>
     """
     height = straight * sin(tilt) * sin(sector)
     wide = cos(tilt) ** 2 * tan(sector) ** 2

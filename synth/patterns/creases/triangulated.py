@@ -17,8 +17,6 @@ def freedoms_of_triangles(sheet: Sheet) -> int:
 
     Each triangle more adds a border vertex and a freedom, or closes a vertex with three equations.
 
-    Examples
-    --------
     >>> freedoms_of_triangles(waterbomb(1, 1))
     3
     """

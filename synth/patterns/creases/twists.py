@@ -17,22 +17,9 @@ __all__ = ["hexagon_twist", "polygon_twist", "square_twist"]
 def polygon_twist(sides: int, twist: float, radius: float = 0.35, letters: str = "", title: str = "") -> Sheet:
     """Return a twist: a regular polygon in the middle of another, and a straight pleat from each of its sides.
 
-    Parameters
-    ----------
-    sides : int
-    twist : float
-        Angle by which the middle polygon is turned against the sheet, radians.
-    radius : float, optional
-        Of the middle polygon's corners; the sheet's sides are at distance 1 from the middle.
-    letters : str, optional
-        Of each side of the middle polygon, then for each its pleat's first and second crease; one letter each.
-        By default sides and second creases are mountains, first creases valleys.
-    title : str, optional
-
-    Examples
-    --------
-    >>> polygon_twist(4, 0.4)
-    <Sheet: 9 faces, 12 creases, 16 vertices, flat>
+    `twist` is the angle of the middle polygon to the sheet, radians; `radius` is that of its corners (the sheet's
+    sides are at distance 1 from the middle). `letters` has one for each side of the middle polygon, then two for
+    the creases of each pleat; by default sides and second creases are mountains, first creases valleys.
     """
     step = 2 * pi / sides
     inner = [

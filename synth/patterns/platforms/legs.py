@@ -34,27 +34,12 @@ def platform(
 ) -> JointedLinkage:
     """Return a base and a top above it, joined by three or six legs that are alike.
 
-    Parameters
-    ----------
-    legs : {"UPS", "RUS", "UUU", "SPS", "RPS", "UPU"}
-        The joints of a leg from the base on. P lies along the leg, U beside it holds one axis across it.
-    number : {3, 6}
-        Of legs. Six stand in three pairs at the base, and in three others at the top.
-    base, top : float
-        Radius of the circle on which feet or heads lie.
-    height : float
-    gap : float, optional
-        Angle between the two legs of a pair, radians; of six legs only.
-    out : float, optional
-        How far the knees of legs without P are outside.
+    `legs` are the joints of a leg from the base on: UPS, RUS, UUU, SPS, RPS or UPU; P lies along the leg, U beside
+    it holds one axis across it. Six legs stand in three pairs at the base, and in three others at the top, with an
+    angle `gap` (radians) between the two of a pair. `base` and `top` are the radii of the circles of feet and
+    heads; the knees of legs without P are `out` outside. Raise InvariantError if three legs are upright, so that
+    their level axes have no direction.
 
-    Raises
-    ------
-    InvariantError
-        If three legs stand upright: nothing says which way their level axes are.
-
-    Examples
-    --------
     >>> stewart = platform("UPS", 6, 1.0, 0.6, 1.0, gap=0.5)
     >>> stewart, stewart.mobility
     (<JointedLinkage: 14 links, 18 joints: 6P 6S 6U, placed>, 6)

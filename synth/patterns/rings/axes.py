@@ -25,10 +25,8 @@ DIGITS = 14
 
 
 def ring(lines: Sequence[Line], digits: int = DIGITS) -> HingedSolids:
-    """Return a ring of solids with the given axes: joint i turns solid i against solid i - 1.
+    """Return a ring of solids with the given axes: joint i connects solids i - 1 and i.
 
-    Examples
-    --------
     >>> ring([((x, 0, 0), (0, x - 1, 1)) for x in range(3)])
     <HingedSolids: <SCGraph: 3 links, 3 joints, 0 centres>>
     """
@@ -41,21 +39,12 @@ def ring(lines: Sequence[Line], digits: int = DIGITS) -> HingedSolids:
 
 
 def chain_frames(lengths: Sequence[float], twists: Sequence[float], angles: Sequence[float]) -> Floats:
-    """Return frames of a chain of joints, each about z, then along and about x; the last one is that of the end.
+    """Return frames, float[n + 1, 4, 4], of a chain of joints and its end: each about z, then along and about x.
 
-    Parameters
-    ----------
-    lengths, twists, angles : sequence of float
-        Of each solid: common normal of its axes and the angle between them; and the angle of the joint before it.
-        Radians.
+    Each solid has the length of the common normal of its axes, the twist between them and the angle of the joint
+    before it, radians. If the ring closes the last frame is the identity. Source: J. Denavit and R. S. Hartenberg
+    (1955).
 
-    Returns
-    -------
-    float[n + 1, 4, 4]
-        If the ring closes the last is the identity. Source: J. Denavit and R. S. Hartenberg (1955).
-
-    Examples
-    --------
     >>> from math import pi
     >>> chain_frames([1, 1, 1, 1], [0, 0, 0, 0], [pi / 2] * 4)[-1].round(12).tolist() == np.eye(4).tolist()
     True
@@ -76,15 +65,9 @@ def lines_of(frames: Floats) -> list[Line]:
 def ring_of_sides(across: Floats, lengths: Floats) -> HingedSolids:
     """Return a ring without offsets: axis i along a direction, solid i square to its two axes, of a length.
 
-    Parameters
-    ----------
-    across : float[n, 3]
-        Unit vectors, each square to the next.
-    lengths : float[n]
-        Signed, along the product of a direction and the next.
+    `across` has unit vectors, float[n, 3], each square to the next; lengths, float[n], are signed along the
+    product of a direction and the next.
 
-    Examples
-    --------
     >>> square = np.array([[0, 0, 1], [1, 0, 0], [0, 0, 1], [1, 0, 0.]])
     >>> ring_of_sides(square, np.ones(4)).axes[1][0]
     (0.0, 1.0, 0.0)
@@ -98,8 +81,6 @@ def ring_of_sides(across: Floats, lengths: Floats) -> HingedSolids:
 def turned(angle: float, axis: int) -> Floats:
     """Return a rotation about a coordinate axis, float[4, 4].
 
-    Examples
-    --------
     >>> turned(0.0, 2).tolist() == np.eye(4).tolist()
     True
     """

@@ -27,27 +27,9 @@ _NUDGE = 1e-6
 
 
 def closed_chain(solids: int) -> Floats:
-    """Return the frames of a closed ring of solids with right twists and lengths 1.
+    """Return the frames, as in `chain_frames`, of a closed ring with right twists and lengths 1.
 
-    Parameters
-    ----------
-    solids : int
-        Seven or more.
-
-    Returns
-    -------
-    float[solids + 1, 4, 4]
-        As of `chain_frames`.
-
-    Raises
-    ------
-    UnsolvableError
-        If none was found.
-
-    Examples
-    --------
-    >>> bool(np.abs(closed_chain(7)[-1] - np.eye(4)).max() < 1e-12)
-    True
+    It has seven or more solids. Raise UnsolvableError if none was found.
     """
     rings: list[Floats] = []
     for start in range(_TRIES):

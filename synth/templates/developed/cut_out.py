@@ -29,15 +29,7 @@ _Corner = tuple[float, float]
 
 @dataclass(frozen=True)
 class _Unrolled:
-    """The plane of a piece.
-
-    Attributes
-    ----------
-    linkage : LayeredLinkage
-    layer : float
-    middle : float
-        Azimuth that points upwards.
-    """
+    """The plane of a piece; `middle` is the azimuth that points upwards."""
 
     linkage: LayeredLinkage
     layer: float

@@ -38,21 +38,10 @@ _LONGEST_NAME = 16
 
 @dataclass(frozen=True)
 class Dimensions:
-    """What a linkage on a surface is made of, millimetres.
+    """Dimensions of a linkage on a surface, millimetres; InvariantError unless all are positive.
 
-    Parameters
-    ----------
-    size : float
-        Length of the ruling lines, from the apex of a cone on.
-    tab : float
-        Width of tabs.
-    thickness : float
-        Of the material; layers are three of it apart, which leaves room for tabs between them.
-
-    Raises
-    ------
-    InvariantError
-        If one of them is no positive number.
+    `size` is the length of the ruling lines (from the apex of a cone), `tab` the width of tabs. Layers are three
+    times `thickness` apart, which leaves room for tabs between them.
     """
 
     size: float = 100.0
@@ -91,19 +80,10 @@ class Dimensions:
 
 @dataclass(frozen=True)
 class LayeredLink:
-    """A link as a part of a surface.
+    """A link as a part of a surface. Layers count from 0, the innermost.
 
-    Attributes
-    ----------
-    name : str
-    layer : int
-        From 0 on, the innermost.
-    start, width : float
-        Azimuth where it begins, and how far it goes, radians.
-    joints : tuple of (name, float)
-        Of its joints, how far from its begin, from 0 to the width.
-    slots : tuple of (name, float)
-        Of joints of others that pass through it, the same.
+    Azimuths are in radians: where the link starts, how wide it is, and how far from its start (0 to the width)
+    each of its joints is, and each slot, through which a joint of other links passes.
     """
 
     name: str
@@ -128,15 +108,9 @@ class LayeredLink:
 class Joining:
     """How two links hold together at a joint.
 
-    Attributes
-    ----------
-    joint : str
-    tabbed, other : int
-        Places of the link that has a tab there, if one has, and of that on which it is glued.
-    side : int
-        To which side of the joint the tab lies unfolded: -1 or 1; 0 where neither link ends, and there is no tab.
-    folded : bool
-        Whether it is folded back, the other link lying over or under the first.
+    `tabbed` and `other` are the indices of the link that has a tab there, if one has, and of the one on which it
+    is glued. `side` is the side of the joint on which the unfolded tab lies, -1 or 1; 0 without a tab, where
+    neither link ends. `folded`: the tab is folded back, as the other link lies over or under the first.
     """
 
     joint: str
@@ -148,19 +122,10 @@ class Joining:
 
 @dataclass(frozen=True)
 class LayeredLinkage:
-    """Links of a linkage in layers on a surface.
+    """The links of a linkage in layers on a surface, with one joining for each joint.
 
-    Attributes
-    ----------
-    surface : Cone or Cylinder
-    dimensions : Dimensions
-    links : tuple of LayeredLink
-    joinings : tuple of Joining
-        One for each joint.
-    places : dict of name to float
-        Azimuths of the joints, radians.
-    tab, slot : float
-        Width of tabs, and half that of slots, radians of azimuth.
+    `places` are the azimuths of the joints; `tab` is the width of tabs and `slot` half that of slots, all in
+    radians.
     """
 
     surface: Surface
@@ -177,22 +142,10 @@ class LayeredLinkage:
 
 
 def layered(linkage: OnCone, surface: Surface, dimensions: Dimensions) -> LayeredLinkage:
-    """Return the links of a linkage in the fewest layers.
+    """Return the links of a linkage in the fewest layers; only its chain and its azimuths matter.
 
-    Parameters
-    ----------
-    linkage : OnCone
-        Only its chain and its azimuths matter.
-    surface : Cone or Cylinder
-    dimensions : Dimensions
+    Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
 
-    Raises
-    ------
-    UnsolvableError
-        If two joints are on one ruling line, or a link has one joint only.
-
-    Examples
-    --------
     >>> from synth.conformed.linkages import loop_of_steps
     >>> from synth.templates.developed.surfaces import Cone
     >>> made = layered(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())

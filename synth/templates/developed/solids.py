@@ -22,16 +22,8 @@ _STEP = np.radians(3.0)
 def solids_on_surface(linkage: LayeredLinkage, gap: float) -> list[Mesh]:
     """Return the surface and each link as a closed shell of the material's thickness.
 
-    Parameters
-    ----------
-    linkage : LayeredLinkage
-    gap : float
-        At the inner edge of links, between one that ends at a joint and its neighbour there, millimetres.
-
-    Raises
-    ------
-    UnsolvableError
-        If a link is narrower than the gap.
+    `gap` is that between a link that ends at a joint and its neighbour, at the inner edge, millimetres. Raise
+    UnsolvableError if a link is narrower than the gap.
     """
     ends = linkage.dimensions.ends
     off = gap / 2 / linkage.surface.width(ends[0])
@@ -73,11 +65,8 @@ def _shell(
 ) -> Mesh:
     """Return the closed mesh of the cells that are there, about the middle of a layer.
 
-    Parameters
-    ----------
-    azimuths : float[columns + 1], or float[columns] where it is closed
-    lengths : float[rows + 1]
-    there : bool[columns, rows]
+    `there` is bool[columns, rows], `lengths` float[rows + 1], `azimuths` float[columns + 1] (float[columns] if
+    closed).
     """
     half = linkage.dimensions.thickness / 2
     heights = np.array([linkage.height(layer) - half, linkage.height(layer) + half])

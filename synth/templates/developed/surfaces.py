@@ -21,13 +21,7 @@ __all__ = ["Cone", "Cylinder", "Surface"]
 
 @dataclass(frozen=True)
 class Cone:
-    """A right cone, apex at the origin, in the frame of `synth.conformed.pose`.
-
-    Attributes
-    ----------
-    angle : float
-        lambda, radians.
-    """
+    """A right cone, apex at the origin, in the frame of `synth.conformed.pose`; `angle` is lambda, radians."""
 
     angle: float
 
@@ -37,8 +31,6 @@ class Cone:
     def place(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: npt.ArrayLike) -> Floats:
         """Return points in space, float[..., 3]: on the ruling line, and outward from it.
 
-        Examples
-        --------
         >>> Cone(0.0).place(0.0, 2.0, 1.0).tolist()
         [0.0, 1.0, 2.0]
         """
@@ -54,8 +46,6 @@ class Cone:
 
         The surface at a height is a cone whose apex is height / cos(lambda) higher.
 
-        Examples
-        --------
         >>> (Cone(np.radians(60)).flat(np.pi, 2.0, 0.0).round(9) + 0.0).tolist()
         [-2.0, 0.0]
         """
@@ -68,15 +58,7 @@ class Cone:
         return along * cos(self.angle)
 
     def chords(self, width: float, along: float, height: float, off: float) -> int:
-        """Return into how many chords an unrolled arc is cut that are so far off it at most.
-
-        Parameters
-        ----------
-        width : float
-            Of the arc, radians of azimuth.
-        along, height, off : float
-            Millimetres.
-        """
+        """Return the number of chords, at most `off` millimetres away, for an unrolled arc of `width` radians."""
         radius = along + height * tan(self.angle)
         if radius <= off:
             return 1
@@ -88,15 +70,7 @@ class Cone:
 class Cylinder:
     """A right circular cylinder, its axis the y axis.
 
-    Attributes
-    ----------
-    radius : float
-        Millimetres.
-
-    Raises
-    ------
-    InvariantError
-        If the radius is no positive number.
+    Raise InvariantError unless the radius (millimetres) is positive.
     """
 
     radius: float
@@ -108,8 +82,6 @@ class Cylinder:
     def place(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: npt.ArrayLike) -> Floats:
         """Return points in space, float[..., 3], as `Cone.place` does.
 
-        Examples
-        --------
         >>> Cylinder(5.0).place(0.0, 2.0, 1.0).tolist()
         [0.0, -2.0, 6.0]
         """
@@ -119,8 +91,6 @@ class Cylinder:
     def flat(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: float) -> Floats:
         """Return points of the surface unrolled and seen from outside, float[..., 2].
 
-        Examples
-        --------
         >>> Cylinder(5.0).flat(2.0, 3.0, 1.0).tolist()
         [12.0, -3.0]
         """

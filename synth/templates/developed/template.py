@@ -27,24 +27,10 @@ _SIDE = 420.0
 
 
 def surface_of(linkage: OnCone, radius: float | None = None) -> Surface:
-    """Return the cone of a linkage, or a cylinder of a radius.
+    """Return the cone of a linkage, or a cylinder of a radius in millimetres.
 
-    Parameters
-    ----------
-    linkage : OnCone
-    radius : float, optional
-        Of a cylinder, millimetres: a linkage that is given by its azimuths fits every cone and cylinder.
-
-    Raises
-    ------
-    UnsolvableError
-        If there is neither a cone angle nor a radius.
-
-    Examples
-    --------
-    >>> from synth.conformed.linkages import loop_of_steps
-    >>> surface_of(loop_of_steps([1.0, 1.5, 2.0], 0.5))
-    Cone(angle=0.5)
+    A linkage given by its azimuths fits every cone and cylinder. Raise UnsolvableError without a cone angle or a
+    radius.
     """
     if radius is not None:
         return Cylinder(radius)
@@ -58,23 +44,7 @@ def template_on_surface(
 ) -> Template:
     """Return the template of a linkage on a cone or a cylinder: the surface, and each link as a piece.
 
-    Parameters
-    ----------
-    linkage : OnCone
-    surface : Cone or Cylinder
-    dimensions : Dimensions, optional
-    title : str, optional
-
-    Raises
-    ------
-    UnsolvableError
-        If two joints are on one ruling line, or a link has one joint only.
-
-    Examples
-    --------
-    >>> from synth.conformed.linkages import loop_of_steps
-    >>> len(template_on_surface(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5)).pieces)
-    5
+    Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
     """
     made = layered(linkage, surface, dimensions or Dimensions())
     picture = _picture(linkage, surface)

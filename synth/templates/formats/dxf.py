@@ -20,16 +20,7 @@ _LAYERS = [DxfLayer(kind, look.number) for kind, look in LOOKS.items()]
 
 
 def dxf_of_template(template: Template) -> str:
-    """Return a template as DXF R12 in millimetres.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.templates.template import template_of
-    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> dxf_of_template(template_of(square, size=100)).splitlines()[:4]
-    ['999', 'millimetres', '0', 'SECTION']
-    """
+    """Return a template as DXF R12 in millimetres."""
     pieces = [piece.at_origin() for piece in template.pieces]
     strokes, texts = _side_by_side(pieces)
     ruler, words = gauge((0.0, _BELOW))

@@ -19,12 +19,7 @@ _BASELINE = 0.35
 
 
 def check_reportlab() -> None:
-    """Refuse where what writes PDF is not installed.
-
-    Raises
-    ------
-    UnsolvableError
-    """
+    """Raise UnsolvableError if reportlab, which writes PDF, is not installed."""
     try:
         import reportlab  # noqa: F401
     except ImportError:
@@ -34,16 +29,7 @@ def check_reportlab() -> None:
 def pdf_of_pages(pages: Sequence[Page], title: str = "") -> bytes:
     """Return a PDF file of pages, each as large as its paper.
 
-    Raises
-    ------
-    UnsolvableError
-        If reportlab is not installed.
-
-    Examples
-    --------
-    >>> from synth.templates.paper import Paper
-    >>> pdf_of_pages([Page(Paper(200, 300), (), ())])[:5]
-    b'%PDF-'
+    Raise UnsolvableError if reportlab is not installed.
     """
     check_reportlab()
     from reportlab.pdfgen.canvas import Canvas

@@ -17,8 +17,6 @@ _DIGITS = 6
 def svg_of_page(page: Page) -> str:
     """Return a page as SVG; a unit of its coordinates is a millimetre.
 
-    Examples
-    --------
     >>> from synth.templates.paper import Paper
     >>> print(svg_of_page(Page(Paper(200, 300), (Stroke("CUT", (10, 10), (60, 10)),), ())).splitlines()[2])
     <line x1="10" y1="290" x2="60" y2="290"/>

@@ -25,18 +25,9 @@ _BOX = (420.0, 420.0)
 
 
 def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
-    """Return a picture of a thing with panels as it is folded, and what is seen, or why there is none.
+    """Return a picture of a folded sheet and its caption, or None and why there is no picture.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates; it may have frames.
-
-    Examples
-    --------
-    >>> square = Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> folded_picture(square)[1]
-    'folded half way; the printed side is grey, its back blue'
+    The sheet has coordinates; it may have frames.
     """
     pose, seen = folded_pose(sheet)
     if pose is None:

@@ -21,18 +21,8 @@ _LARGEST = 140.0
 
 
 def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | None) -> Page:
-    """Return the page that says how a template is put together.
+    """Return the page that says how a template is put together; the steps are numbered here.
 
-    Parameters
-    ----------
-    paper : Paper
-    title : str
-    steps : sequence of str
-        Numbered here.
-    picture : Scene or None
-
-    Examples
-    --------
     >>> page = note_page(Paper(210, 297), "bird base", ["Cut it out.", "Fold it."], None)
     >>> [text.words for text in page.texts]
     ['bird base', '1. Cut it out.', '2. Fold it.']

@@ -26,10 +26,8 @@ _LETTER = 0.5
 
 
 def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
-    """Return what is to be cut and folded.
+    """Return the steps that cut and fold.
 
-    Examples
-    --------
     >>> from synth.templates.lines import Stroke
     >>> steps_of_folds([Piece((Stroke("CUT", (0, 0), (9, 0)), Stroke("VALLEY", (0, 5), (9, 5))), (), None)])[1]
     'Fold 1 valley (blue, dashes: towards you). You see the printed side.'
@@ -41,14 +39,9 @@ def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
 
 
 def steps_of_joins(edges: int, without: int, *, slotted: bool = False) -> list[str]:
-    """Return how edges that meet are joined.
+    """Return the steps that join edges: how many meet another, and how many of these have no tab.
 
-    Parameters
-    ----------
-    edges, without : int
-        How many meet another, and how many of these have no tab.
-    slotted : bool, optional
-        Whether tabs go through slots; else they are glued.
+    Tabs are glued unless slotted.
     """
     if not edges:
         return []
@@ -69,13 +62,7 @@ def steps_of_joins(edges: int, without: int, *, slotted: bool = False) -> list[s
 
 
 def steps_of_hinges(hinges: Hinges | None) -> list[str]:
-    """Return what becomes of folds in thick material.
-
-    Examples
-    --------
-    >>> steps_of_hinges(None)
-    []
-    """
+    """Return the steps for folds in thick material."""
     if hinges is None:
         return []
     wide = f"{hinges.width:g} mm"
@@ -91,13 +78,7 @@ def steps_of_hinges(hinges: Hinges | None) -> list[str]:
 def written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
     """Return steps as lines of text, and the height that they take.
 
-    Parameters
-    ----------
-    steps : sequence of str
-    corner : (left, top)
-        Millimetres.
-    width : float
-        Millimetres that a line may be long.
+    `corner` is (left, top) and `width` the longest line; all in millimetres.
     """
     letters = int(width / (_LETTER * _SIZE))
     lines: list[str] = []

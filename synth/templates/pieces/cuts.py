@@ -16,12 +16,10 @@ _NEAR = 1e-6
 
 
 def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
-    """Return strokes, of cuts only what no cut before them covers.
+    """Return strokes; of cuts, only the parts that no cut before them covers.
 
     A machine that cuts twice burns; knives tear.
 
-    Examples
-    --------
     >>> cut_once([Stroke("CUT", (0, 0), (30, 0)), Stroke("CUT", (50, 0), (10, 0)), Stroke("CUT", (30, 0), (0, 0))])
     [Stroke(kind='CUT', start=(0, 0), end=(30, 0)), Stroke(kind='CUT', start=(50.0, 0.0), end=(30.0, 0.0))]
     """
@@ -37,15 +35,8 @@ def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
 
 
 def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
-    """Return the parts of a stroke that no line covers, those of any length.
+    """Return the parts of a stroke, those of some length, that no line covers; the lines are float[lines, 2, 2].
 
-    Parameters
-    ----------
-    stroke : Stroke
-    ends : float[lines, 2, 2]
-
-    Examples
-    --------
     >>> uncovered(Stroke("CUT", (0, 0), (9, 0)), np.array([[[4, 0], [20, 0.0]]]))
     [Stroke(kind='CUT', start=(0.0, 0.0), end=(4.0, 0.0))]
     """
@@ -61,13 +52,9 @@ def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
 
 
 def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, float]]:
-    """Return from where to where lines lie on a line, in millimetres from its start, in order.
+    """Return where lines lie on a line, as spans in millimetres from its start, in order.
 
-    Parameters
-    ----------
-    start, along : float[2]
-        A place, and a unit vector.
-    ends : float[lines, 2, 2]
+    `start` and the unit vector `along` are float[2], the ends of the lines float[lines, 2, 2].
     """
     arms = ends - start
     off = np.abs(arms @ np.array([-along[1], along[0]])).max(axis=1, initial=0.0)
@@ -78,10 +65,8 @@ def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, fl
 def common_spans(
     first: Sequence[tuple[float, float]], second: Sequence[tuple[float, float]]
 ) -> list[tuple[float, float]]:
-    """Return where spans of both lists are, in order.
+    """Return the spans that are in both lists, in order.
 
-    Examples
-    --------
     >>> common_spans([(0, 5), (8, 12)], [(3, 10)])
     [(3, 5), (8, 10)]
     """

@@ -31,15 +31,8 @@ FOLDS: dict[str, Kind] = {"M": "MOUNTAIN", "V": "VALLEY", "U": "CREASE"}
 
 
 def is_laid_out(sheet: Sheet, places: Floats) -> bool:
-    """Tell whether the panels of a sheet lie side by side, none over another.
+    """Say whether the panels of a sheet, at places float[vertices, 2], lie side by side, none over another.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    places : float[vertices, 2]
-
-    Examples
-    --------
     >>> import numpy as np
     >>> folded = Sheet(4, (), "", ((0, 1, 2), (2, 1, 3)))
     >>> is_laid_out(folded, np.array([[0, 0], [1, 0], [0, 1], [1, 1.0]]))
@@ -56,12 +49,7 @@ def is_laid_out(sheet: Sheet, places: Floats) -> bool:
 def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str, ...]]:
     """Return a sheet as one piece, and what its strokes do not show.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With all edges listed.
-    places : float[vertices, 2]
-        Millimetres.
+    All edges of the sheet are listed; the places are float[vertices, 2], millimetres.
     """
     faces = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
     strokes, flat, loose, seen = [], 0, 0, set()
@@ -98,8 +86,6 @@ def put_together(polygons: Iterable[Any]) -> Any:
     corner of two polygons can be rounded two ways. Nor would making all wider and the whole narrower again: there
     GEOS now and then leaves nothing.
 
-    Examples
-    --------
     >>> put_together([shapely.box(0, 0, 9, 9), shapely.box(9 + 1e-12, 0, 20, 9)]).geom_type
     'Polygon'
     """

@@ -38,23 +38,9 @@ _LETTERS: dict[Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
 
 @dataclass(frozen=True)
 class Hinges:
-    """What is made of folds.
+    """The kind of the hinges made of folds, and their width in millimetres.
 
-    Parameters
-    ----------
-    kind : {"offset", "living", "gap"}
-    width : float
-        Millimetres.
-
-    Raises
-    ------
-    InvariantError
-        If the kind is none, or the width no positive number.
-
-    Examples
-    --------
-    >>> Hinges("gap", 3).width
-    3
+    Raise InvariantError if the kind is unknown, or the width is not positive.
     """
 
     kind: HingeKind
@@ -104,20 +90,9 @@ class _Strip:
 def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
     """Return a piece with strips in the place of its folds.
 
-    Parameters
-    ----------
-    piece : Piece
-    met : sequence of Stroke
-        Edges that meet others when it is put together; a gap is left there too.
-    hinges : Hinges
+    `met` are the edges that meet others when it is put together; a gap is left there too. Raise UnsolvableError if
+    a panel is narrower than the hinges, or a fold too short for one.
 
-    Raises
-    ------
-    UnsolvableError
-        If a panel is narrower than the hinges, or a fold too short for one.
-
-    Examples
-    --------
     >>> outline = [(0, 0), (50, 0), (100, 0), (100, 40), (50, 40), (0, 40)]
     >>> cuts = [Stroke("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
     >>> card = Piece((*cuts, Stroke("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))

@@ -45,15 +45,9 @@ class _Work:
 
 @dataclass
 class _Glue:
-    """What has been glued so far.
+    """The edges glued so far: `numbers` of them, `missing` of these without a tab.
 
-    Attributes
-    ----------
-    joins : Joins
-    on_panel : dict of face to list of float[4, 2]
-        Tabs on a panel, and what surrounds slots, in the panel's own plane.
-    numbers, missing : int
-        Edges that are glued, and those of them without a tab.
+    `on_panel` has the tabs on each panel, and what surrounds its slots, float[4, 2] in the panel's own plane.
     """
 
     joins: Joins
@@ -95,18 +89,8 @@ class CutNets(NamedTuple):
 def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
     """Return the pieces of panels that stand in space, or lie over each other.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With all edges listed.
-    places : float[vertices, 3]
-        Millimetres.
-    joins : Joins
-
-    Raises
-    ------
-    UnsolvableError
-        If a panel is not plane, or more than two meet in an edge.
+    All edges of the sheet are listed; the places are float[vertices, 3], millimetres. Raise UnsolvableError if a
+    panel is not planar, or more than two meet in an edge.
     """
     panels = panels_of(sheet, places)
     works = [_Work(net) for net in nets_of(panels)]

@@ -22,27 +22,13 @@ _INSIDE = 1e-4
 
 
 def united(shapes: Sequence[Any]) -> Any:
-    """Return the area that shapes cover, its corners rounded to the grid.
-
-    Examples
-    --------
-    >>> united([shapely.box(0, 0, 9, 9), shapely.box(9, 0, 20, 9)]).area
-    180.0
-    """
+    """Return the area that shapes cover, its corners rounded to the grid."""
     return shapely.union_all(shapely.set_precision(list(shapes), GRID), grid_size=GRID)
 
 
 def lies_over(shape: Any, others: Sequence[Any]) -> bool:
-    """Tell whether a shape shares more than an edge with one of others.
+    """Say whether a shapely polygon (millimetres) shares more than an edge with one of others.
 
-    Parameters
-    ----------
-    shape : shapely polygon
-        Millimetres.
-    others : sequence of shapely polygon
-
-    Examples
-    --------
     >>> square = shapely.box(0, 0, 9, 9)
     >>> lies_over(square, [shapely.box(9, 0, 20, 9)]), lies_over(square, [shapely.box(8.9, 0, 20, 9)])
     (False, True)
@@ -51,10 +37,8 @@ def lies_over(shape: Any, others: Sequence[Any]) -> bool:
 
 
 def lies_within(shape: Any, area: Any) -> bool:
-    """Tell whether a shape lies within an area, up to its edge.
+    """Say whether a shape lies within an area, up to its edge.
 
-    Examples
-    --------
     >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 9, 20))
     True
     >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 8.9, 20))

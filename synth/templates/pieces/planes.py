@@ -19,16 +19,10 @@ __all__ = ["Plane", "plane_of_panel"]
 
 @dataclass(frozen=True)
 class Plane:
-    """A frame in the plane of a panel.
+    """A frame in the plane of a panel; its origin is the mean of the corners.
 
-    Attributes
-    ----------
-    origin : float[3]
-        The mean of the corners.
-    axes : float[3, 3]
-        Its columns: two axes in the plane, and the normal, round which the corners go counter-clockwise.
-    flat : float[corners, 2]
-        The corners in the frame.
+    The columns of `axes`, float[3, 3], are two axes in the plane and the normal, round which the corners go
+    counter-clockwise; `flat`, float[corners, 2], are the corners in the frame.
     """
 
     origin: Floats
@@ -43,21 +37,10 @@ class Plane:
 
 
 def plane_of_panel(corners: Floats, face: int) -> Plane:
-    """Return the plane of a panel.
+    """Return the plane of a panel with corners float[corners, 3]; messages name its number, the face.
 
-    Parameters
-    ----------
-    corners : float[corners, 3]
-    face : int
-        Its number, for messages.
+    Raise UnsolvableError if the corners lie in no plane or in a line, a side has no length, or sides cross.
 
-    Raises
-    ------
-    UnsolvableError
-        If the corners lie in no plane or in a line, a side has no length, or sides cross.
-
-    Examples
-    --------
     >>> plane_of_panel(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist()
     [0.0, 0.0, 1.0]
     """

@@ -38,19 +38,9 @@ _RIM = 1.5
 
 @dataclass(frozen=True)
 class Joins:
-    """How edges are joined.
+    """How edges are joined: by tabs of a depth in millimetres (0 for none), glued, or put through slots.
 
-    Parameters
-    ----------
-    depth : float
-        Of tabs, millimetres; 0 for none.
-    slotted : bool
-        Whether tabs go through slots; else they are glued.
-
-    Raises
-    ------
-    InvariantError
-        If the depth is no number from 0 on.
+    Raise InvariantError if the depth is negative or no number.
     """
 
     depth: float
@@ -62,21 +52,10 @@ class Joins:
 
 
 def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
-    """Yield tabs at an edge to try, the best ones first: to the right of it, its first two corners the ends.
+    """Yield tabs, float[4, 2], to try at an edge, the best first: to its right, the ends their first two corners.
 
-    Parameters
-    ----------
-    start, end : float[2]
-        Millimetres.
-    depth : float
-        That is asked for.
+    The ends are float[2] and `depth` is the desired one, millimetres.
 
-    Yields
-    ------
-    float[4, 2]
-
-    Examples
-    --------
     >>> next(tab_shapes(np.array([0, 0.0]), np.array([0, 40.0]), 8)).tolist()
     [[0.0, 0.0], [0.0, 40.0], [8.0, 35.2], [8.0, 4.8]]
     """
@@ -97,8 +76,6 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
 def slot_of(shape: Floats) -> Floats:
     """Return the slot that a tab goes through half its depth from its fold, as the ends of a cut, float[2, 2].
 
-    Examples
-    --------
     >>> slot_of(np.array([[0.0, 0.0], [0.0, 40.0], [8.0, 36.0], [8.0, 4.0]])).tolist()
     [[4.0, 38.5], [4.0, 1.5]]
     """
@@ -118,22 +95,11 @@ def tab_at(
     taken: Sequence[Any] = (),
     slotted: bool = False,
 ) -> Floats | None:
-    """Return the tab at an edge of a net, None if there is no room.
+    """Return the tab, float[4, 2], at an edge of a net; None if there is no room.
 
-    Parameters
-    ----------
-    start, end : float[2]
-        The panel lies to the left.
-    depth : float
-        That is asked for, millimetres.
-    material : sequence of shapely polygon
-        The net's panels and tabs.
-    panel : shapely polygon
-        Where the panel across the edge would lie.
-    taken : sequence of shapely polygon, optional
-        What is on that panel already.
-    slotted : bool, optional
-        Whether the tab goes through a slot of that panel.
+    The panel lies to the left of the edge; `depth` is the desired one, millimetres. `material` are the net's
+    panels and tabs, `panel` is where the panel across the edge would lie, `taken` are the areas in use on that
+    panel (all shapely polygons); `slotted`: the tab goes through a slot of that panel.
     """
     for shape in tab_shapes(start, end, depth):
         polygon = shapely.Polygon(shape)

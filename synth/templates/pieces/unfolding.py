@@ -30,19 +30,9 @@ _CUT = "BC"
 
 @dataclass(frozen=True)
 class Panels:
-    """The panels of a sheet, each in its own plane, and where they join.
+    """The panels of a sheet with all edges listed, each in its own plane, at places float[vertices, 3].
 
-    Attributes
-    ----------
-    sheet : Sheet
-        With all edges listed.
-    planes : tuple of Plane
-        One for each face.
-    joins : dict of edge to (face, face)
-        Edges at which two panels hang together.
-    slits : dict of edge to (face, face)
-        Edges between two panels that are cut.
-    places : float[vertices, 3]
+    `joins` maps each edge at which two panels hang together to these, `slits` each edge between two that is cut.
     """
 
     sheet: Sheet
@@ -74,14 +64,9 @@ class Panels:
 
 @dataclass(frozen=True)
 class Net:
-    """Panels laid out beside each other.
+    """Panels laid out beside each other: the corners, float[corners, 2], of each face.
 
-    Attributes
-    ----------
-    corners : dict of face to float[corners, 2]
-        Where the corners of each face are.
-    turned : dict of face to bool
-        Whether a face is seen from behind, as one whose corners go round the other way than its neighbour's.
+    `turned`: the face is seen from behind, as one whose corners go round the other way than its neighbour's.
     """
 
     corners: Mapping[int, Floats]
@@ -138,14 +123,6 @@ def nets_of(panels: Panels) -> list[Net]:
 
     A panel that would lie over another waits for another of its edges, and else begins a net of its own. Panels
     that hang together flat are laid first, so that no rigid part is cut where that can be helped.
-
-    Examples
-    --------
-    >>> corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1.0)])
-    >>> faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-    >>> from graphs.mechanism.sheet import with_all_edges
-    >>> [len(net.corners) for net in nets_of(panels_of(with_all_edges(Sheet(8, (), "", faces)), corners))]
-    [6]
     """
     edges_at: dict[int, list[int]] = defaultdict(list)
     for edge, faces in panels.joins.items():
@@ -203,16 +180,7 @@ def _other(pair: Edge, face: int) -> int:
 def across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
     """Return where the panel across an edge comes to lie, and whether it is seen from behind.
 
-    Parameters
-    ----------
-    panels : Panels
-    edge : int
-    face : int
-        The panel that lies.
-    laid : float[corners, 2]
-        Where its corners are.
-    turned : bool
-        Whether it is seen from behind.
+    `face` is the panel already laid, `laid` its corners, float[corners, 2]; `turned`: it is seen from behind.
     """
     other = _other(panels.joins[edge], face)
     a, b = panels.ends(face, edge)

@@ -55,16 +55,9 @@ class Presence:
 
 
 def application(place: Place, text: str, presence: Presence, sources: Sequence[bytes | None] = ()) -> ASGIApp:
-    """Return the workbench as an ASGI application.
+    """Return the workbench as an ASGI application; `text` is its page.
 
-    Parameters
-    ----------
-    place : Place
-    text : str
-        The page.
-    presence : Presence
-    sources : sequence of bytes or None
-        The files that what it shows was read from, where they were files; it asks for them to have them edited.
+    `sources` are the files, if any, of what it shows at first; the page requests them to have them edited.
     """
     engine = Engine()
 

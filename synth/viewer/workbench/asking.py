@@ -29,8 +29,6 @@ _FAILED = "it could not be read: the engine failed"
 def file_name(given: str) -> str:
     r"""Return a name that is safe for a file: its last part, its extension kept.
 
-    Examples
-    --------
     >>> file_name("../../etc/pass\x00wd.fold"), file_name("C:\\a b.cp"), file_name("..")
     ('pass_wd.fold', 'a b.cp', 'file')
     """

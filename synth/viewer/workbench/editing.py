@@ -27,10 +27,8 @@ _RIDE_ALONGS = "ride-alongs"
 
 
 def are_edits(given: Sequence[str]) -> bool:
-    """Tell whether edits are of the kinds that are known, and not too many.
+    """Say whether edits are of known kinds, and not too many.
 
-    Examples
-    --------
     >>> are_edits(["lock:3", "crease:12~0.5,-1e-3", "ride-alongs"]), are_edits(["lock:-1"]), are_edits(["rm:1"])
     (True, False, False)
     """
@@ -40,25 +38,9 @@ def are_edits(given: Sequence[str]) -> bool:
 def edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
     """Return a mechanism after edits, one after the other, each with the ids that the last one left.
 
-    Parameters
-    ----------
-    thing : Mechanism
-        Of a sheet with several frames the first that has coordinates.
-    edits : sequence of str
-        Of the kinds that `are_edits` knows.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such joint, vertex or point.
-    UnsolvableError
-        If an edit cannot be made, or not of such a thing.
-
-    Examples
-    --------
-    >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> edited(square, ["crease:0~2", "crease:1~0.5,0.5"]).faces
-    ((1, 2, 4), (2, 3, 0, 4), (4, 0, 1))
+    `are_edits` knows their kinds. Of a sheet with several frames the first that has coordinates is edited. Raise
+    InvariantError if there is no such joint, vertex or point; UnsolvableError if an edit cannot be made, or not on
+    such a mechanism.
     """
     for edit in edits:
         thing = _without_ride_alongs(thing) if edit == _RIDE_ALONGS else _edited(thing, edit)

@@ -31,14 +31,7 @@ HEADERS = {
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a workbench is.
-
-    Attributes
-    ----------
-    port : int
-    token : str
-        Known to its own page alone.
-    """
+    """The port of a workbench, and its token, known to its own page alone."""
 
     port: int
     token: str
@@ -50,10 +43,8 @@ class Place:
 
     @property
     def address(self) -> str:
-        """What is opened.
+        """The address that a browser opens.
 
-        Examples
-        --------
         >>> Place(8000, "secret").address
         'http://127.0.0.1:8000/secret/'
         """
@@ -61,14 +52,7 @@ class Place:
 
 
 class Guard:
-    """An application behind checks of who asks.
-
-    Parameters
-    ----------
-    app : ASGI application
-        Sees paths after the token.
-    place : Place
-    """
+    """An ASGI application behind checks of who asks; it sees paths after the token."""
 
     def __init__(self, app: ASGIApp, place: Place) -> None:
         self._app, self._place = app, place

@@ -31,29 +31,10 @@ REFUSED = 2
 
 
 def printed(name: str, content: bytes, size: float, kind: str, edits: Sequence[str] = ()) -> tuple[str, bytes]:
-    r"""Return the template of a file: its extension, and what is in it.
+    """Return the template of a file after edits: its extension, and its content.
 
-    Parameters
-    ----------
-    name : str
-        Without folders.
-    content : bytes
-    size : float
-        Millimetres of the longer side.
-    kind : {"pdf", "svg", "dxf"}
-    edits : sequence of str
-
-    Raises
-    ------
-    SynthedraError
-        If it cannot be read or edited, has no panels, or would need too many pages.
-
-    Examples
-    --------
-    >>> square = b"1 0 0 1 0\n1 1 0 1 1\n1 1 1 0 1\n1 0 1 0 0\n2 0 0 1 1\n"
-    >>> kind, made = printed("a.cp", square, 150.0, "svg")
-    >>> kind, made[:4]
-    ('svg', b'<svg')
+    The name is without folders; `size` is the longer side in millimetres. Raise SynthedraError if it cannot be
+    read or edited, has no panels, or would need too many pages.
     """
     sheet = sheet_of(read_and_edited(name, content, edits))
     if sheet is not None and sheet.frames is not None:

@@ -36,29 +36,10 @@ def answered(
     motion: bool | None = None,
     report: Report = lambda _what, _step, _of: None,
 ) -> dict[str, Any]:
-    """Return what a page shows of a file, or why it shows nothing.
+    """Return what a page shows of a file after edits.
 
-    Parameters
-    ----------
-    name : str
-        Without folders.
-    content : bytes
-    edits : sequence of str
-        Of the kinds of `synth.viewer.workbench.editing`.
-    motion : bool, optional
-        Look for the motion, however large it is.
-    report : callable, optional
-        Called before each step.
-
-    Returns
-    -------
-    dict
-        ``shown``: the data of the page; or ``error``: a line, as commands print it.
-
-    Examples
-    --------
-    >>> answered("a.fold", b"{")["error"][:14]
-    'a.fold: line 1'
+    It is ``shown``, the data of the page, or ``error``, a line as commands print it. The name is without folders.
+    With `motion` the motion is computed however large the mechanism is; `report` is called before each step.
     """
     report("reading", 0, 4)
     return refusal(
@@ -70,12 +51,10 @@ def answered(
 
 
 def read_and_edited(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
-    """Return what a file holds, after edits. Readers take files by their names: it is put into a private folder.
+    """Return the mechanism of a file after edits.
 
-    Raises
-    ------
-    SynthedraError
-        As readers and edits do; messages name the file alone.
+    Readers take files by their names: it is put into a private folder. The SynthedraErrors of readers and edits
+    name the file alone.
     """
     with _private_folder():
         Path(name).write_bytes(content)

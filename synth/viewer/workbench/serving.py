@@ -21,23 +21,10 @@ _LINGER = 1
 
 
 def serve(shown: Sequence[Shown], sources: Sequence[bytes | None], opened: Callable[[str], object]) -> None:
-    """Serve a workbench on this machine, until it is stopped or its last page is closed.
+    """Serve a workbench on this machine, until it is stopped (KeyboardInterrupt) or its last page is closed.
 
-    Parameters
-    ----------
-    shown : sequence of Shown
-        What is there when it is opened.
-    sources : sequence of bytes or None
-        The files that these were read from, where they were files.
-    opened : callable
-        Called with its address when it answers.
-
-    Raises
-    ------
-    UnsolvableError
-        If the script of the page was not built.
-    KeyboardInterrupt
-        If it was stopped.
+    `shown` is there when it is opened, read from the files `sources`, if there were any; `opened` is called with
+    its address when it answers. Raise UnsolvableError if the script of the page was not built.
     """
     text = page(shown, "workbench", workbench=True)
     with interruptible() as look, socket.create_server(("127.0.0.1", 0)) as listening:

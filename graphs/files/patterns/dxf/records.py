@@ -23,16 +23,8 @@ _BREAK = re.compile(r"\r\n|\n|\r")
 class Record:
     """A record of a DXF file.
 
-    Attributes
-    ----------
-    section : str
-        ``ENTITIES``, ``TABLES``, ...
-    name : str
-        ``LINE``, ``LAYER``, ...
-    groups : tuple of (code, value)
-    path : Path
-    line : int
-        Where it begins, for messages.
+    A section is ``ENTITIES``, ``TABLES``, ..., a name ``LINE``, ``LAYER``, ..., a group (code, value); path and
+    line, where the record starts, are for messages.
     """
 
     section: str
@@ -48,10 +40,7 @@ class Record:
     def number(self, code: int, default: str | None = None) -> float:
         """Return the first value of a group code as a number.
 
-        Raises
-        ------
-        FileError
-            If there is none and no default, or it is no coordinate.
+        Raise FileError if there is none and no default, or it is no coordinate.
         """
         value = self.word(code, "" if default is None else default)
         if not value:
@@ -81,15 +70,8 @@ class Record:
 
 
 def records(text: str, path: Path) -> Iterator[Record]:
-    r"""Yield the records of a DXF text that are in sections.
+    r"""Yield the records of a DXF text that are in sections; a FileError names the line if it is not DXF.
 
-    Raises
-    ------
-    FileError
-        With the line, if it is not DXF.
-
-    Examples
-    --------
     >>> text = "\n".join("0 SECTION 2 ENTITIES 0 POINT 8 CUT 10 1.5 0 ENDSEC 0 EOF".split())
     >>> [(one.section, one.name, one.number(10)) for one in records(text, Path("a.dxf"))]
     [('ENTITIES', 'POINT', 1.5)]

@@ -24,20 +24,10 @@ _Corner = tuple[Point, float]
 
 
 def drawn_shapes(records: Sequence[Record]) -> Iterator[Drawn]:
-    """Yield the shapes among the entities of a file.
+    """Yield the shapes among the records of the section ``ENTITIES``.
 
-    Parameters
-    ----------
-    records : sequence of Record
-        Of the section ``ENTITIES``.
+    A FileError names the record if a number is missing or invalid, or points are at several heights.
 
-    Raises
-    ------
-    FileError
-        With the record, if a number is missing or none, or points are at several heights.
-
-    Examples
-    --------
     >>> from pathlib import Path
     >>> groups = ((10, "0"), (20, "0"), (11, "3"), (21, "4"))
     >>> [pieces for _, pieces in drawn_shapes([Record("ENTITIES", "LINE", groups, Path("a.dxf"), 1)])]

@@ -68,10 +68,7 @@ _PLAIN = _Layer(7, "CONTINUOUS")
 def sheet_from_dxf(path: Path) -> Sheet:
     """Read the lines of a DXF file and trace its faces.
 
-    Raises
-    ------
-    FileError
-        With the record; or if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
+    A FileError names the record, or why the lines make no pattern (:mod:`graphs.files.patterns.traced`).
     """
     held = list(records(read_text(path), path))
     layers = {
@@ -142,13 +139,8 @@ def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
 def dxf_text(sheet: Sheet) -> str:
     """Return the DXF text (R12) of a flat sheet, a layer for each assignment.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, does not lie in a plane, or has no line.
+    Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
 
-    Examples
-    --------
     >>> text = dxf_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
     >>> text.split("ENTITIES")[1].split()[:4]
     ['0', 'LINE', '8', 'MOUNTAIN']

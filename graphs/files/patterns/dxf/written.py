@@ -47,20 +47,10 @@ class DxfWord:
 def dxf_of(
     layers: Sequence[DxfLayer], lines: Sequence[DxfLine], words: Iterable[DxfWord] = (), *, remark: str = ""
 ) -> str:
-    """Return the DXF text of lines and words.
+    """Return the DXF text of lines and words on given layers; the remark is the first line of the file.
 
-    Parameters
-    ----------
-    layers : sequence of DxfLayer
-        Those that lines and words name.
-    lines : sequence of DxfLine
-        Coordinates are written so that they are read back to the last digit.
-    words : iterable of DxfWord, optional
-    remark : str, optional
-        The first line of the file, for people.
+    Coordinates are written so that they are read back to the last digit.
 
-    Examples
-    --------
     >>> text = dxf_of([DxfLayer("CUT", 7)], [DxfLine("CUT", (0.0, 0.0), (30.5, 0.0))])
     >>> text.split("ENTITIES")[1].split()[:10]
     ['0', 'LINE', '8', 'CUT', '10', '0.0', '20', '0.0', '30', '0.0']
