@@ -41,9 +41,9 @@ class FlatVertices:
     def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
         """Return in which mode each vertex begins to fold.
 
-        A mode is the places of the opposite creases that fold the same way. Rates are general ones of a branch, the
-        largest 1 or -1. None for a vertex that does not move, for loops that are no flat vertices, and for those
-        with other than four creases.
+        A mode is the places of the opposite creases that fold the same way. Rates are general ones of a branch,
+        the largest 1 or -1. None for a vertex that does not move, for loops that are no flat vertices, and for
+        those with other than four creases.
         """
         return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 
