@@ -62,16 +62,8 @@ class Diagonal:
 def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[Diagonal]:
     """Return the diagonals of all panels that are one face, and are not protected.
 
-    A diagonal joins two corners, inside the panel and past its other corners. Those that would part the pieces
-    of a hinge are left out: they would make two joints of it.
-
-    Examples
-    --------
-    >>> from synth.advice.general_pose import general_pose
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns.creases.tessellations import miura
-    >>> len(diagonals_of(general_pose(configuration_of(miura(3, 3, 1.0))), protected={4}))
-    16
+    A diagonal joins two corners, inside the panel and past its other corners. Those that would part the pieces of
+    a hinge are left out: they would make two joints of it.
     """
     if pose.sheet is None or pose.mechanism is None:
         return []
@@ -92,36 +84,11 @@ def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[
 def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple[Floats, list[bool]]:
     """Return what creases along diagonals do to each self-stress, and which of them are in no loop.
 
-    A set of creases brings as many rates as it has creases, less the rank of its columns.
-
-    Parameters
-    ----------
-    pose : GeneralPose
-        Of a sheet.
-    diagonals : sequence of Diagonal
-
-    Returns
-    -------
-    loads : float[s, D]
-        Zero of a crease that brings a rate by itself. All loops close by six equations here, so that no crease
-        has to pass through a centre.
-    flaps : list of bool
-        Whether a crease only cuts a corner off, which hangs on it.
-
-    Raises
-    ------
-    NumericalError
-        If the rank of the closure equations is not that of the equations about centres.
-
-    Examples
-    --------
-    >>> from synth.advice.general_pose import general_pose
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns.creases.tessellations import miura
-    >>> pose = general_pose(configuration_of(miura(3, 3, 1.0)))
-    >>> loads, flaps = loads_on_stresses(pose, diagonals_of(pose))
-    >>> sum(flaps), int((abs(loads).max(axis=0) < 1e-8).sum())
-    (4, 10)
+    A set of creases brings as many rates as it has creases, less the rank of its columns. Returns the loads,
+    float[s, D], zero for a crease that brings a rate by itself, and for each diagonal whether its crease only cuts
+    a corner off, which hangs on it. All loops close by six equations here, so that no crease has to pass through a
+    centre. Raises `NumericalError` if the rank of the closure equations is not that of the equations about
+    centres.
     """
     linkage = pose.linkage
     matrix = np.zeros((6 * len(linkage.loops), len(linkage.angles)))

@@ -71,39 +71,11 @@ class GeneralPose:
 
 
 def general_pose(configuration: Configuration, branch: int | str | None = None) -> GeneralPose:
-    """Return a mechanism at a general pose.
+    """Return a mechanism at a regular configuration near its own, which may be singular.
 
-    Parameters
-    ----------
-    configuration : Configuration
-        Flat or not.
-    branch : int or str, optional
-        The way to move from a singular pose, by its number or signs; by default that which the assignment chooses.
-
-    Raises
-    ------
-    UnsolvableError
-        If nothing that moves was found though that is not proved, or it has too many joints or none.
-    NumericalError
-        If the pose that was reached is singular too.
-
-    Examples
-    --------
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns.creases.tessellations import miura
-    >>> general_pose(configuration_of(miura(3, 3, 1.0)))
-    <GeneralPose: 1 freedoms of <PosedLinkage: 9 links, 12 joints, 4 loops>>
-
-    A square four-bar in the plane has two ways to leave the pose; the first is taken:
-
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> square = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3), "infinite")])
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
-    >>> posed = linkage_of_axes(square, {j: (corners[j], (0, 0, 1)) for j in range(4)})
-    >>> general_pose(configuration_of(posed)).freedoms
-    1
+    The branch is given by its number or signs; by default the assignment chooses it. Raises `UnsolvableError` if
+    no motion was found though that is not proved, or if there are too many joints or none, `NumericalError` if the
+    configuration reached is singular too.
     """
     linkage, found = configuration.linkage, configuration.branches
     if not configuration.joints:

@@ -35,18 +35,9 @@ class _Choices:
 
 
 def held(rates: Floats, joints: Collection[int]) -> int:
-    """Return how many freedoms a set of joints takes when it is locked.
+    """Return how many freedoms a set of joints (rows of the rates) takes when it is locked.
 
-    Parameters
-    ----------
-    rates : float[J, M]
-        Columns span the rates of all motions, orthonormal.
-    joints : collection of int
-        Rows.
-
-    Examples
-    --------
-    Two joints that turn alike, and one by itself:
+    The columns of the rates, float[J, M], are an orthonormal basis of all motions.
 
     >>> rates = np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]])
     >>> held(rates, (0, 1)), held(rates, (1, 2))

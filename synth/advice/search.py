@@ -30,31 +30,14 @@ MOST_FOLDED = 100
 
 @dataclass(frozen=True, slots=True)
 class Candidates:
-    """Diagonals to choose of.
-
-    Attributes
-    ----------
-    diagonals : sequence of Diagonal
-    loads : float[s, D]
-        What each does to the self-stresses.
-    allowance : Allowance
-        Diagonals that may be added to sets: there are no more sets where it is used up.
-    """
+    """Diagonals to choose from, what each does to the self-stresses (float[s, D]), and how many may be added."""
 
     diagonals: Sequence[Diagonal]
     loads: Floats
     allowance: Allowance
 
     def dependent(self, size: int, wanted: int) -> Iterator[tuple[int, ...]]:
-        """Yield the sets of a size, no two crossing, that bring so many rates or more.
-
-        Examples
-        --------
-        >>> few = [Diagonal(panel, panel, (0, 2), (0, 2)) for panel in range(3)]
-        >>> loads = np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 1.0]])
-        >>> list(Candidates(few, loads, Allowance(100)).dependent(2, 1))
-        [(0, 1)]
-        """
+        """Yield the sets of a size, no two crossing, that bring so many rates or more."""
         yield from self._grown((), self.loads, size - wanted, size)
 
     def _grown(self, chosen: tuple[int, ...], loads: Floats, rank: int, size: int) -> Iterator[tuple[int, ...]]:
@@ -87,20 +70,10 @@ class Bounds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What a search found.
+    """The smallest sets that have the freedoms when folded, and the largest size that was searched.
 
-    Attributes
-    ----------
-    sets : tuple of tuple of int
-        The smallest that have the freedoms when they are folded.
-    searched : int
-        The largest size that was looked through.
-    more : bool
-        Whether there may be more of that size: a limit was reached.
-    refused : int
-        Sets that have the rates and, folded, have not the freedoms.
-    used_up : bool
-        Whether the search ended because its allowance was used up.
+    `more`: there may be more sets of that size, since a limit was reached; `refused` counts sets that have the
+    rates but, folded, not the freedoms; `used_up`: the search ended because its allowance was used up.
     """
 
     sets: tuple[tuple[int, ...], ...]
@@ -111,17 +84,7 @@ class Found:
 
 
 def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: int) -> Found:
-    """Return the smallest sets of diagonals that give a sheet its freedoms.
-
-    Parameters
-    ----------
-    sheet : Sheet
-        At a general pose.
-    candidates : Candidates
-    bounds : Bounds
-    limit : int
-        So many sets are returned at most.
-    """
+    """Return the smallest sets of diagonals, up to a limit, that give a sheet at a general pose its freedoms."""
     refused = 0
     for size in range(bounds.wanted - bounds.freedoms, bounds.largest + 1):
         sets: list[tuple[int, ...]] = []
@@ -144,14 +107,6 @@ def freedoms_when_creased(sheet: Sheet, diagonals: Sequence[Diagonal]) -> int | 
     """Return the freedoms of a sheet with creases along diagonals, on its freest way; None if not known.
 
     The ways are those from the pose of the sheet.
-
-    Examples
-    --------
-    A square of paper, creased once:
-
-    >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> freedoms_when_creased(square, [Diagonal(0, 0, (0, 2), (0, 2))])
-    1
     """
     for diagonal in diagonals:
         sheet = crease_sheet(sheet, *diagonal.ends).sheet
@@ -160,10 +115,6 @@ def freedoms_when_creased(sheet: Sheet, diagonals: Sequence[Diagonal]) -> int | 
 
 def freedoms_when_left_out(sheet: Sheet, joints: Sequence[int]) -> int | None:
     """Return the freedoms of a sheet without some creases, on its freest way from its pose; None if not known.
-
-    Examples
-    --------
-    A strip of three panels, flat, without its first crease:
 
     >>> corners = ((0, 0), (1, 0), (2, 0), (3, 0), (3, 1), (2, 1), (1, 1), (0, 1))
     >>> strip = Sheet(8, ((1, 6), (2, 5)), "VM", ((0, 1, 6, 7), (1, 2, 5, 6), (2, 3, 4, 5)), corners)

@@ -39,18 +39,8 @@ class Members:
 def members_of_circuits(closure: ClosureEquations, positions: Sequence[Floats], driver: int) -> Members:
     """Return which positions of a linkage of one freedom are on one circuit, and on one branch of it.
 
-    Parameters
-    ----------
-    closure : ClosureEquations
-    positions : sequence of float[J]
-        Closed ones, radians.
-    driver : int
-        Place of the driven joint.
-
-    Raises
-    ------
-    UnsolvableError
-        If a position has not just one infinitesimal freedom.
+    Positions are closed, float[J], radians; the driver is the place of the driven joint. Raises `UnsolvableError`
+    if a position has not exactly one infinitesimal freedom.
     """
     places: dict[int, tuple[int, int]] = {}
     notes: list[str] = []

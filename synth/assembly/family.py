@@ -30,18 +30,10 @@ SMALL = 3e-3
 class Family:
     """Linkages of one type with joints driven.
 
-    Parameters of a member: two angles of each axis, and the angle of each driven joint.
-
-    Attributes
-    ----------
-    loops : int[L, K]
-        Joints of each loop in order, filled up with -1.
-    signs : float[L, K]
-        1 or -1, the way they are passed.
-    joints : tuple of joint ids
-        All that are in loops.
-    column : int[J]
-        The place of each joint among the unknown ones; of a driven one -1 - (its place among the driven).
+    Parameters of a member: two angles of each axis, and the angle of each driven joint. Rows of `loops`, int[L,
+    K], are the joints of each loop in order, filled up with -1; `signs` says which way they are passed, 1 or -1.
+    `joints` are all that are in loops; `column` is the place of each among the unknown ones, and for a driven one
+    -1 - (its place among the driven).
     """
 
     loops: Ints
@@ -62,14 +54,9 @@ class Family:
     def followed(self, curves: Curves, values: Complexes, small: float = SMALL) -> Followed:
         """Follow solutions from members of the family to others.
 
-        Parameters
-        ----------
-        curves : tuple of three complex[P, parameters]
-            Start, end and bend of the parameters: at s, start + s (end - start) + s (1 - s) bend.
-        values : complex[P, U]
-            Solutions at the starts.
-        small : float, optional
-            Of corrections, radians: the less, the surer is it that no path changes for another.
+        Curves are three complex[P, parameters], start, end and bend of the parameters: at s, start + s (end -
+        start) + s (1 - s) bend. Values are the solutions at the starts, complex[P, U]. The smaller the corrections
+        that are allowed (`small`, radians), the less likely a path changes for another.
         """
         found = values.astype(complex)
         ends = followed_all(self.loops, self.signs, self.column, curves, found, small)
@@ -90,13 +77,9 @@ class Family:
 
 @dataclass(frozen=True, slots=True)
 class Followed:
-    """Where paths came to.
+    """Where paths came to: values, complex[P, U], and which arrived at the end or are far, gone to infinity.
 
-    Attributes
-    ----------
-    values : complex[P, U]
-    arrived, far : bool[P]
-        At the end; gone to infinity. What is neither stopped on its way.
+    The others stopped on their way.
     """
 
     values: Complexes
@@ -107,33 +90,9 @@ class Followed:
 def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family, Floats]:
     """Return the family of a spherical linkage with joints driven, and the angles of the axes of this member.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        All loops about finite centres; joints in no loop are left out.
-    driven : sequence of joint ids
-
-    Returns
-    -------
-    (Family, float[2 J])
-
-    Raises
-    ------
-    UnsolvableError
-        If a loop has no finite centre, or so many joints do not determine the others by count.
-    InvariantError
-        If a driven joint is in no loop, or named twice.
-
-    Examples
-    --------
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))])
-    >>> axes = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 2)]
-    >>> family, _ = family_of(linkage_of_axes(ring, {i: ((0, 0, 0), axis) for i, axis in enumerate(axes)}), [0])
-    >>> family.unknowns, family.driven, family.column.tolist()
-    (3, 1, [-1, 0, 1, 2])
+    The angles are float[2 J]; joints in no loop are left out. Raises `UnsolvableError` if a loop has no finite
+    centre, or if so many driven joints do not determine the others by count, `InvariantError` if a driven joint is
+    in no loop, or named twice.
     """
     names = list(linkage.graph.joints)
     for loop in linkage.loops:

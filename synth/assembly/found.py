@@ -98,19 +98,8 @@ def solutions(
 ) -> tuple[Complexes, int, int]:
     """Return all positions of one member, real or not, by following those of a general one.
 
-    Parameters
-    ----------
-    family : Family
-    general : GeneralPositions
-    member : float[parameters]
-    seed : int, optional
-        Of the curve of parameters.
-
-    Returns
-    -------
-    (complex[N, U], int, int)
-        Positions, each once; how many have gone to infinity; how many are not known: they were lost on the way,
-        or have come together with others.
+    Returns the positions, complex[N, U], each once; how many have gone to infinity; and how many are not known,
+    since they were lost on the way or have come together with others. The seed is for the curve of parameters.
     """
     random = np.random.default_rng(seed)
     count = len(general.values)

@@ -29,15 +29,7 @@ _WIDE = 0.7
 
 @dataclass(frozen=True, slots=True)
 class GeneralPositions:
-    """All positions of a general member.
-
-    Attributes
-    ----------
-    parameters : complex[parameters]
-    values : complex[N, U]
-    curves : int
-        Closed curves that were walked.
-    """
+    """All positions (complex[N, U]) of a general member, and how many closed curves were walked to find them."""
 
     parameters: Complexes
     values: Complexes
@@ -91,8 +83,6 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
 def apart(values: Complexes, same: float = DOUBLE.same_configuration) -> Complexes:
     """Return solutions each once; angles are alike if they are so but for whole turns.
 
-    Examples
-    --------
     >>> apart(np.array([[0.0], [2 * np.pi], [1.0]])).tolist()
     [[0.0], [1.0]]
     """

@@ -31,13 +31,7 @@ _OTHER_QUESTION = "states asks of each set of active members which freedoms it h
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """A change of state that makes a mechanism one of a class.
-
-    Attributes
-    ----------
-    name : {"compliant mechanism", "compliant locking", "variable mobility"}
-    before, after : State
-    """
+    """A change of state that makes a mechanism one of a class, by the class's name."""
 
     name: str
     before: State
@@ -54,13 +48,7 @@ class Transition:
 
 @dataclass(frozen=True, slots=True)
 class PathPose:
-    """A pose of the load path, and the state of the mechanism there.
-
-    Attributes
-    ----------
-    pose : Equilibrium
-    state : State
-    """
+    """A pose of the load path, and the state of the mechanism there."""
 
     pose: Equilibrium
     state: State
@@ -70,11 +58,7 @@ class PathPose:
 class RestPassed:
     """A compliant joint that comes to its rest angle between two poses of the load path, or at one.
 
-    Attributes
-    ----------
-    joint : joint id
-    driven : float
-        Angle of the driven joint there, radians.
+    `driven` is the angle of the driven joint there, radians.
     """
 
     joint: JointId
@@ -83,22 +67,10 @@ class RestPassed:
 
 @dataclass(frozen=True, slots=True)
 class Elastic:
-    """What springs do.
+    """What springs do: the pose at which they and moments are in balance, and a path that begins there.
 
-    Attributes
-    ----------
-    joints : tuple of joint ids
-        Columns of angles and rates.
-    pose : Equilibrium
-        Where springs and moments are in balance.
-    driver : joint id or None
-    path : tuple of PathPose
-        While the joint is driven from there.
-    passed : tuple of RestPassed
-    stopped : str
-        Why the path ended before its goal.
-    modes : tuple of SmallMotion or None
-        About the equilibrium; None where no masses were given.
+    `joints` are the columns of angles and rates; `path` holds the poses while the driver is driven, `stopped` says
+    why they end before the goal. `modes` are those about the equilibrium; None where no masses were given.
     """
 
     joints: tuple[JointId, ...]

@@ -34,23 +34,11 @@ _DOWN = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """A pose at which springs and moments are in balance.
+    """A pose (angles in radians) at which springs and moments are in balance, and their energy.
 
-    Attributes
-    ----------
-    angles : float[J]
-        Radians.
-    energy : float
-        Of springs and moments.
-    held : float[D]
-        Moments that keep driven joints at their angles; none where no joint is driven.
-    least : float or None
-        The least curvature of the energy along motions that leave driven joints still, per squared radian; None
-        where there are none.
-    unbalanced : float
-        The slope of the energy that is left.
-    error : float
-        By how much loops do not close.
+    `held`, float[D], are the moments that keep driven joints at their angles. `least` is the least curvature of
+    the energy along motions that leave driven joints where they are, per squared radian; None where there are
+    none. `unbalanced` is the slope of the energy that is left, `error` the loop-closure residual.
     """
 
     angles: Floats
@@ -68,16 +56,9 @@ class Equilibrium:
 
 @dataclass(frozen=True, slots=True)
 class LoadPath:
-    """Equilibria while one joint is driven.
+    """Equilibria while one joint, at place `driver`, is driven; the first is where it began.
 
-    Attributes
-    ----------
-    driver : int
-        The place of the joint.
-    poses : tuple of Equilibrium
-        The first is where it began, with the joint held there.
-    stopped : str
-        Why it ended before its goal; empty if it reached it.
+    `stopped` says why the path ended before its goal; it is empty if it reached it.
     """
 
     driver: int
@@ -99,36 +80,8 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
     """Return the equilibrium that the energy falls to from a closed pose.
 
     Newton's method on the closed poses, with the curvature made positive, and steps halved until the energy falls
-    as its slope foretells.
-
-    Parameters
-    ----------
-    elastic : ElasticLinkage
-    start : float[J], optional
-        Radians; by default the pose of the linkage.
-    held : tuple of int, optional
-        Places of joints that keep their angles.
-
-    Raises
-    ------
-    NumericalError
-        If a singular pose is met, or balance is not reached.
-
-    Examples
-    --------
-    Two equal springs in series share an angle: a spring of 1 that is at rest at 1 pulls a parallelogram against
-    one at its opposite joint.
-
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.compliance.springs import Springs
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2.5, 1, 0), (0.5, 1, 0)]
-    >>> linkage = linkage_of_axes(ring, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
-    >>> found = equilibrium(ElasticLinkage(linkage, Springs({0: 1.0, 2: 1.0}, {0: 1.0})))
-    >>> found.angles.round(9).tolist(), found.stable
-    ([0.5, -0.5, 0.5, -0.5], True)
+    as its slope foretells. The start, radians, is by default the pose of the linkage; joints at the places `held`
+    keep their angles. Raises `NumericalError` if a singular pose is met, or balance is not reached.
     """
     angles = elastic.linkage.angles if start is None else start
     values = angles[list(held)]
@@ -145,22 +98,9 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
 
 
 def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.ArrayLike) -> LoadPath:
-    """Return the equilibria while a joint is driven to one angle after the other.
+    """Return the equilibria while the joint at place `driver` is driven to one angle after the other, radians.
 
-    Parameters
-    ----------
-    elastic : ElasticLinkage
-    start : float[J]
-        A closed pose, radians.
-    driver : int
-        The place of the joint.
-    values : float[F]
-        Its angles, radians.
-
-    Raises
-    ------
-    NumericalError
-        As :func:`equilibrium`.
+    It starts from a closed pose. Raises `NumericalError` as :func:`equilibrium` does.
     """
     poses, stopped = [equilibrium(elastic, start, (driver,))], ""
     for value in np.asarray(values, dtype=float).tolist():

@@ -74,28 +74,8 @@ class State:
 def state_of(linkage: PosedLinkage, compliant: Members, active: Members) -> State:
     """Return the state of a linkage at its pose with some of its compliant members active.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        Closed at its pose.
-    compliant, active : Members
-        The active ones are among the compliant.
-
-    Raises
-    ------
-    UnsolvableError
-        If equations depend on each other and there are too many joints to look for ways to move.
-
-    Examples
-    --------
-    A four-bar in the plane, one joint of which is a flexure:
-
-    >>> from synth.compliance.members import NONE
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns import generate
-    >>> four_bar = configuration_of(generate("four-bar").mechanism).linkage
-    >>> [state_of(four_bar, Members((0,)), active).kind for active in (NONE, Members((0,)))]
-    ['rigid immobile', 'compliant mobile']
+    The linkage is closed at its pose. Raises `UnsolvableError` if equations depend on each other and there are too
+    many joints to search for branches.
     """
     left = released(linkage, compliant, active)
     apart = _OF_A_BODY * (nx.number_connected_components(left.graph) - 1)
@@ -106,10 +86,7 @@ def state_of(linkage: PosedLinkage, compliant: Members, active: Members) -> Stat
 def states_of_sets(linkage: PosedLinkage, compliant: Members) -> list[State]:
     """Return the state for each set of active members, smaller sets first.
 
-    Raises
-    ------
-    UnsolvableError
-        If there are more than `MOST_MEMBERS`, or as :func:`state_of`.
+    Raises `UnsolvableError` if there are more than `MOST_MEMBERS`, or as :func:`state_of` does.
     """
     if len(compliant) > MOST_MEMBERS:
         told = numbered(len(compliant), "compliant member")

@@ -66,25 +66,9 @@ class Corner:
 def angles_left(corner: Corner, angle: float) -> tuple[End | None, End | None]:
     """Return the ends of the range of the angle between two links that a ride-along on them leaves.
 
-    Parameters
-    ----------
-    corner : Corner
-    angle : float
-        Between the base links now, radians from 0 to 2 pi: from the first axis to the second about the joint.
-
-    Returns
-    -------
-    (End or None, End or None)
-        The lower and the upper, with angles less than a turn from that given; None where it leaves a full turn.
-
-    Examples
-    --------
-    Links at right angles to the joint, ride-along links of 40 degrees: it is stretched at 80 degrees, either way.
-
-    >>> from math import degrees, radians
-    >>> corner = Corner((pi / 2, pi / 2), (radians(40), radians(40)))
-    >>> [(end.how, round(degrees(end.angle), 6)) for end in angles_left(corner, radians(30))]
-    [('stretched', -80.0), ('stretched', 80.0)]
+    The angle is that between the base links now, radians from 0 to 2 pi: from the first axis to the second about
+    the joint. Returns the lower and the upper end, with angles less than a turn from it; None where a full turn is
+    left.
     """
     low, high = corner.cosines()
     if low <= -1.0 + DOUBLE.parallel and high >= 1.0 - DOUBLE.parallel:

@@ -20,14 +20,9 @@ _OTHER_QUESTION = "limits looks at ride-alongs, each with the links that it sits
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """An end of a range of angles.
+    """An end of a range of angles, radians: the links of a ride-along are in line there.
 
-    Attributes
-    ----------
-    angle : float
-        Radians.
-    how : {"stretched", "folded"}
-        The links of the ride-along are in line there: one beyond the other, or one on the other.
+    One is beyond the other ("stretched"), or on it ("folded").
     """
 
     angle: float
@@ -42,18 +37,9 @@ class End:
 class RideAlong:
     """A ride-along, and the angles it leaves to the joint it sits on.
 
-    Attributes
-    ----------
-    joints : (joint, joint, joint)
-        Its own; the second is between its links.
-    joint : joint id
-        That it sits on.
-    angle : float
-        Of this at the pose, radians.
-    lower, upper : End or None
-        Of the range of this that holds the pose; None where it may turn round.
-    freedoms : int or None
-        Of the mechanism with the ride-along rigid; None where it is not known.
+    The second of its own `joints` is between its links. `angle`, radians, is that of `joint` at the pose; `lower`
+    and `upper` end the range of this that holds the pose, None where it may turn round. `freedoms` are those of
+    the mechanism with the ride-along rigid; None where they are not known.
     """
 
     joints: tuple[JointId, JointId, JointId]
@@ -77,20 +63,10 @@ class RideAlong:
 
 @dataclass(frozen=True, slots=True)
 class Truss:
-    """What remains with all ride-alongs rigid.
+    """What remains with all ride-alongs rigid: `locked` are the joints between their links.
 
-    Attributes
-    ----------
-    locked : tuple of joint ids
-        Between the links of the ride-alongs.
-    links, joints : int
-        Of what remains.
-    rank : int or None
-        Of its closure equations at the pose; None where singular values do not tell.
-    redundant : int or None
-        Equations that follow from others: self-stresses.
-    freedoms : int or None
-        Of finite motion; None where they are not known.
+    Rank is that of the closure equations at the pose, `redundant` counts those that follow from others, `freedoms`
+    are those of finite motion; None where they are not known.
     """
 
     locked: tuple[JointId, ...]

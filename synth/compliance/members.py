@@ -100,29 +100,8 @@ def released(linkage: PosedLinkage, compliant: Members, active: Members) -> Pose
     """Return the linkage at its pose in which resting members are rigid and active ones give way.
 
     A resting joint makes its two links one, a resting link stays as it is. An active joint turns; an active link
-    gives way in any manner, as if it and its joints were not there.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    compliant, active : Members
-        The active ones are among the compliant.
-
-    Returns
-    -------
-    PosedLinkage
-        Loops may pass a link twice. It may be in several parts, if active links were all between them.
-
-    Examples
-    --------
-    A pentagon in the plane is a four-bar while one of its joints is at rest:
-
-    >>> from math import cos, pi, sin
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> ring = SCGraph(5, [(k, (k + 1) % 5) for k in range(5)], [Loop(range(5), "infinite")])
-    >>> axes = {k: ((cos(k * pi / 2.5), sin(k * pi / 2.5), 0.0), (0.0, 0.0, 1.0)) for k in range(5)}
-    >>> released(linkage_of_axes(ring, axes), Members((0,)), NONE)
-    <PosedLinkage: 4 links, 4 joints, 1 loops>
+    gives way in any manner, as if it and its joints were not there. The active ones are among the compliant. Loops
+    of the answer may pass a link twice; it may be in several parts, if active links were all between them.
     """
     left = _without(linkage, active.links) if active.links else linkage
     held = {joint for joint in compliant.joints if joint in left.graph.joints} - set(active.joints)

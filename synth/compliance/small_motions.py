@@ -96,16 +96,10 @@ class Masses:
 
 @dataclass(frozen=True, slots=True)
 class SmallMotion:
-    """A mode of small motions.
+    """A mode of small motions: rates of the joints, the largest 1, and cycles per unit of time.
 
-    Attributes
-    ----------
-    frequency : float or None
-        Cycles in a unit of time; None where the equilibrium is unstable along it.
-    growth : float or None
-        Where it is unstable: the rate at which the motion grows, per unit of time.
-    rates : float[J]
-        Of the joints; the largest is 1.
+    Where the equilibrium is unstable along it, the frequency is None and `growth` the rate at which the motion
+    grows, per unit of time.
     """
 
     frequency: float | None
@@ -116,32 +110,7 @@ class SmallMotion:
 def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> list[SmallMotion]:
     """Return the modes of small motions about an equilibrium without driven joints, slowest first.
 
-    Parameters
-    ----------
-    elastic : ElasticLinkage
-    at : Equilibrium
-    masses : Masses
-
-    Raises
-    ------
-    InvariantError
-        As :meth:`Masses.checked`.
-    UnsolvableError
-        If some motion moves no mass.
-
-    Examples
-    --------
-    A door with its mass a unit from the hinge:
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.compliance.equilibrium import equilibrium
-    >>> from synth.compliance.springs import Springs
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> door = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
-    >>> elastic = ElasticLinkage(door, Springs({0: 4.0 * pi**2}))
-    >>> [mode] = small_motions(elastic, equilibrium(elastic), Masses((Mass(1, 1.0, (1.0, 0.0, 0.5)),)))
-    >>> round(mode.frequency, 12)
-    1.0
+    Raises `InvariantError` as :meth:`Masses.checked` does, `UnsolvableError` if some motion moves no mass.
     """
     masses.checked(elastic.linkage)
     tangent = elastic.tangent(at.angles)
@@ -158,14 +127,8 @@ def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> l
 def mass_matrix(linkage: PosedLinkage, angles: Floats, masses: Masses) -> Floats:
     """Return the inertia of a linkage at joint angles: float[J, J], mass times squared unit of the coordinates.
 
-    Half of r^T M r is the kinetic energy at joint rates r along which loops stay closed.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    angles : float[J]
-        A closed pose, radians.
-    masses : Masses
+    Half of r^T M r is the kinetic energy at joint rates r along which loops stay closed. Angles, radians, are
+    those of a closed pose.
     """
     motions = link_motions(linkage, angles[None])
     ground = linkage.graph.ground if masses.ground is None else masses.ground

@@ -72,14 +72,7 @@ class Springs:
 
 @dataclass(frozen=True, slots=True)
 class Tangent:
-    """Closed poses beside one.
-
-    Attributes
-    ----------
-    jacobian : float[rows, J]
-    rates : float[J, f]
-        Orthonormal: the motions.
-    """
+    """Closed poses beside one: the derivatives float[rows, J], and the motions float[J, f], orthonormal rates."""
 
     jacobian: Floats
     rates: Floats
@@ -87,14 +80,9 @@ class Tangent:
 
 @dataclass(frozen=True, slots=True)
 class Bent:
-    """Energy on the closed poses beside one, to second order along some rates.
+    """Energy on the closed poses beside one, to second order along n rates.
 
-    Attributes
-    ----------
-    slope : float[n]
-    curvature : float[n, n]
-    held : float[D]
-        Moments that keep held joints where they are.
+    `held` are the moments that keep held joints where they are.
     """
 
     slope: Floats
@@ -103,34 +91,10 @@ class Bent:
 
 
 class ElasticLinkage:
-    """A linkage with springs, from a regular pose.
+    """A linkage with springs, from a regular closed pose; `freedoms` are those of finite motion.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        Closed at its pose, with one way to move from it.
-    springs : Springs
-
-    Attributes
-    ----------
-    freedoms : int
-        Of finite motion.
-
-    Raises
-    ------
-    InvariantError
-        As :meth:`Springs.checked`.
-    UnsolvableError
-        If loops are not closed, nothing moves, or the pose is singular.
-
-    Examples
-    --------
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns import generate
-    >>> four_bar = configuration_of(generate("four-bar").mechanism).linkage
-    >>> bent = ElasticLinkage(four_bar, Springs({0: 2.0}, {0: 0.5}))
-    >>> bent.freedoms, bent.energy(bent.linkage.angles)
-    (1, 0.25)
+    Raises `InvariantError` as :meth:`Springs.checked` does, `UnsolvableError` if loops are not closed, nothing
+    moves, or the pose is singular.
     """
 
     def __init__(self, linkage: PosedLinkage, springs: Springs) -> None:
@@ -156,10 +120,7 @@ class ElasticLinkage:
     def tangent(self, angles: Floats) -> Tangent:
         """Return the closed poses beside one, to first order.
 
-        Raises
-        ------
-        NumericalError
-            If there are more rates than freedoms: the pose is singular.
+        Raises `NumericalError` if there are more rates than freedoms: the pose is singular.
         """
         jacobian = self.closure.at(angles)[1].toarray()
         if not len(jacobian):
@@ -173,18 +134,9 @@ class ElasticLinkage:
         """Return how the energy bends on the closed poses along some rates.
 
         The closure equations pull with moments -J^T w that hold the slopes of the energy in balance; second
-        derivatives of w . (closure) by rates along which loops stay closed are those of w . J.
-
-        Parameters
-        ----------
-        angles : float[J]
-            A closed pose, radians.
-        tangent : Tangent
-            There.
-        along : float[J, n]
-            Orthonormal rates, among those of the tangent.
-        held : tuple of int
-            Places of joints that do not move along them.
+        derivatives of w . (closure) by rates along which loops stay closed are those of w . J. Angles are those of
+        a closed pose, radians, the tangent is taken there; the rates float[J, n] are orthonormal and among those
+        of the tangent; joints at the places `held` do not move along them.
         """
         slopes = self.slopes(angles)
         places = list(held)

@@ -70,16 +70,8 @@ class Allowed(IntEnum):
 class RateFormulas:
     """A chain of one freedom with all that does not depend on the order of its joints.
 
-    Attributes
-    ----------
-    chain : ConformedChain
-    formulas : tuple of tuples of OutwardRate
-        Of the outward rate of each joint.
-    rates : tuple of tuples of OutwardRate
-        Of the rate of each joint.
-    relations : SignRelations
-    moving : tuple of tuples of int
-        Joints of each link that are not the ground's.
+    `formulas` are those of the outward rate of each joint, `rates` those of its rate; `moving` holds the joints of
+    each link that are not the ground's.
     """
 
     chain: ConformedChain
@@ -90,13 +82,7 @@ class RateFormulas:
 
     @classmethod
     def of(cls, chain: ConformedChain) -> RateFormulas:
-        """Prepare a chain.
-
-        Raises
-        ------
-        UnsolvableError
-            If it has not one freedom by its count.
-        """
+        """Prepare a chain; raises `UnsolvableError` if it has not one freedom by its count."""
         formulas = outward_rates(chain)
         moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
         return cls(chain, formulas, joint_rates(chain), SignRelations.of(chain), moving)
@@ -123,20 +109,10 @@ class OverAngles:
 
 
 def orders_with_opposites(order: npt.ArrayLike) -> Ints:
-    """Return all orders with opposites of cyclic orders, as places on 2 J slots.
+    """Return all orders with opposites of cyclic orders, as places on 2 J slots: int64[..., 2^(J - 1), J].
 
-    Parameters
-    ----------
-    order : int64[..., J]
-        Place of each joint in the cyclic order, 0 to J - 1.
+    An order is the place of each joint in the cycle, 0 to J - 1; the joint at place 0 stays there.
 
-    Returns
-    -------
-    int64[..., 2^(J - 1), J]
-        The joint at place 0 stays there.
-
-    Examples
-    --------
     >>> orders_with_opposites([0, 1, 2]).tolist()
     [[0, 1, 2], [0, 1, 5], [0, 2, 4], [0, 4, 5]]
     """
@@ -153,24 +129,10 @@ def _sorted_places(joints: int) -> Ints:
 
 
 def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Floats:
-    """Return azimuths at random that follow each other as orders with opposites say.
+    """Return azimuths at random that follow each other as orders with opposites, on 2 J slots, say.
 
-    Parameters
-    ----------
-    places : int64[..., J]
-        On 2 J slots.
-    samples : int
-    seed : int
-
-    Returns
-    -------
-    float[..., samples, J]
-        Azimuths between 0 and 2 pi, radians. The same random gaps for all orders; some even, some very uneven.
-
-    Examples
-    --------
-    >>> bool((np.argsort(sampled([0, 2, 4]), axis=-1) == [0, 1, 2]).all())
-    True
+    Radians between 0 and 2 pi, float[..., samples, J]; the same random gaps for all orders, some even, some very
+    uneven.
     """
     slots = np.asarray(places, dtype=np.int64)
     joints = slots.shape[-1]

@@ -290,27 +290,10 @@ def instant_centres(motions: npt.ArrayLike) -> Floats:
 def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     """Tell by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
 
-    The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the
-    circle lies in the one that holds ground and coupler, the linkage is transmobile; else it is not.
-
-    Parameters
-    ----------
-    places : float[..., 4]
-        Azimuths of O, A, B, C; the ground link is C O, the coupler A B.
-
-    Returns
-    -------
-    bool[...]
-
-    Raises
-    ------
-    InvariantError
-        Unless there are four azimuths.
-
-    Examples
-    --------
-    >>> shadow_allows(np.radians([[40, 90, 140, 0], [0, 90, 180, 270]])).tolist()
-    [True, False]
+    The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the circle
+    lies in the one that holds ground and coupler, the linkage is transmobile; else it is not. Azimuths, float[...,
+    4], are those of O, A, B, C; the ground link is C O, the coupler A B. Raises `InvariantError` unless there are
+    four.
     """
     t = np.asarray(places, dtype=float)
     if t.shape[-1:] != (4,):

@@ -95,20 +95,10 @@ def _signs(signs: Signs, sets: Ints) -> Signs:
 
 
 def arc_sets(slots: Ints) -> Ints:
-    """Return the sizes of fine gaps that the shorter arc between two joints covers, as masks.
+    """Return the sizes of fine gaps that the shorter arc between two joints covers, as masks int64[r, J, J].
 
-    Parameters
-    ----------
-    slots : int64[r, J]
-        Orders with opposites, on 2 J slots.
+    Orders with opposites are given on 2 J slots; bit g is the gap after a slot that is g modulo J.
 
-    Returns
-    -------
-    int64[r, J, J]
-        Bit g: the gap after a slot that is g modulo J.
-
-    Examples
-    --------
     >>> arc_sets(np.array([[0, 2, 4]]))[0].tolist()
     [[0, 3, 6], [3, 0, 5], [6, 5, 0]]
     """
@@ -122,18 +112,10 @@ def arc_sets(slots: Ints) -> Ints:
 
 
 def sign_of_sum(signs: Signs, sets: Ints) -> Signs:
-    """Return the signs of sums of products of chords, 0 where this does not tell.
+    """Return the signs of sums of products of chords, 0 where this does not decide.
 
-    Parameters
-    ----------
-    signs : int8[r, T]
-        Of the terms.
-    sets : int64[r, T, F]
-        The arcs of each term's chords.
-
-    Examples
-    --------
-    A chord less a shorter one within its arc, and less one elsewhere:
+    Signs, int8[r, T], are those of the terms, sets, int64[r, T, F], the arcs of each term's chords. In the
+    example, a chord less a shorter one within its arc, and less one elsewhere.
 
     >>> sets = np.array([[[0b011], [0b001]], [[0b011], [0b100]]])
     >>> sign_of_sum(np.array([[1, -1], [1, -1]], np.int8), sets).tolist()

@@ -25,26 +25,9 @@ _MOST_LOOPS = 8
 def signed_cycles(chain: ConformedChain) -> npt.NDArray[np.int64]:
     """Return all simple cycles of a chain as rows of +1, -1 and 0, short ones first.
 
-    Parameters
-    ----------
-    chain : ConformedChain
-
-    Returns
-    -------
-    int64[C, J]
-        +1 or -1 where a cycle passes a joint, by its direction; as `ConformedChain.loops`. Each cycle one way
-        round.
-
-    Raises
-    ------
-    UnsolvableError
-        If there are more than eight independent loops.
-
-    Examples
-    --------
-    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])
-    >>> np.abs(signed_cycles(ConformedChain.of(watt))).sum(axis=1).tolist()
-    [4, 4, 6]
+    Rows of the int64[C, J] are +1 or -1 where a cycle passes a joint, by its direction, as in
+    `ConformedChain.loops`; each cycle one way round. Raises `UnsolvableError` if there are more than eight
+    independent loops.
     """
     independent = chain.loops
     if len(independent) > _MOST_LOOPS:
@@ -82,20 +65,7 @@ def _is_simple(chain: ConformedChain, row: npt.NDArray[np.int64]) -> bool:
 
 
 def loops_of_chain(chain: SCGraph) -> tuple[tuple[JointId, ...], ...]:
-    """Return the joints of every loop of a chain, in loop order, short loops first.
-
-    Parameters
-    ----------
-    chain : SCGraph
-
-    Examples
-    --------
-    Of a Stephenson chain: its four-bar and two five-bars, whichever of them are named.
-
-    >>> chain = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 2)])
-    >>> loops_of_chain(chain)
-    ((0, 1, 2, 3), (0, 1, 6, 5, 4), (2, 3, 4, 5, 6))
-    """
+    """Return the joints of every loop of a chain, in loop order, short loops first."""
     joints = tuple(chain.joints)
     rows = signed_cycles(ConformedChain.of(chain))
     return tuple(

@@ -41,21 +41,10 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     """Return the arcs that links can take, as masks of the gaps between neighbouring joints.
 
     A link takes all the circle but one gap between its joints: the one that is half the circle or wider, either of
-    two halves, or, where none is so wide, any.
+    two halves, or, where none is so wide, any. Azimuths, float[r, J], are between 0 and 2 pi, all different. In
+    the int64[r, N, o], bit i is the gap after the joint that comes i-th from azimuth 0 on; 0 where a link has
+    fewer choices.
 
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[r, J]
-        Azimuths between 0 and 2 pi, all different.
-
-    Returns
-    -------
-    int64[r, N, o]
-        Bit i is the gap after the joint that comes i-th from azimuth 0 on; 0 where a link has fewer choices.
-
-    Examples
-    --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> arc_choices(chain, np.radians([[0, 40, 90, 140]]))[0].max(axis=-1).tolist()
@@ -82,27 +71,9 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
 
 
 def layers(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
-    """Return how many layers links need so that none overlaps another of its layer.
+    """Return how many layers links need so that none overlaps another of its layer: int64[r].
 
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[r, J]
-        Azimuths, radians, all different.
-
-    Returns
-    -------
-    int64[r]
-        The fewest, over the arcs that links can take (`arc_choices`).
-
-    Examples
-    --------
-    An open four-bar round the circle, and one on less than half of it, whose longest link lies over the rest:
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> layers(chain, np.radians([[0, 90, 180, 270], [0, 40, 90, 140]])).tolist()
-    [1, 2]
+    The fewest, over the arcs that links can take (`arc_choices`), at azimuths float[r, J], radians.
     """
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
     return fewest_layers(arc_choices(chain, t))

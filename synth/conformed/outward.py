@@ -144,15 +144,8 @@ class OutwardRate:
 
 
 def brackets(places: npt.ArrayLike) -> Floats:
-    """Return det(e_a, e_b, e_c) of three joints: twice the area of their triangle, + if they follow in this order.
+    """Return det(e_a, e_b, e_c) of three azimuths: twice the area of their triangle, + if they are in order.
 
-    Parameters
-    ----------
-    places : float[..., 3]
-        Azimuths, radians.
-
-    Examples
-    --------
     >>> from synth.conformed.rates import ring_axes
     >>> places = np.array([0.3, 2.0, 4.5])
     >>> bool(np.isclose(brackets(places), np.linalg.det(ring_axes(places))))

@@ -138,26 +138,9 @@ def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
 
 
 def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float], points: int = 24) -> Floats:
-    """Return points of a link that is a strip of the cone between two ruling lines.
+    """Return points of a link that is a strip of the cone between two ruling lines: float[2, points, 3].
 
-    Parameters
-    ----------
-    start, end : float
-        Azimuths of its ends, radians.
-    cone_angle : float
-    radii : (float, float)
-        Distances of its edges from the apex.
-    points : int, optional
-        How many along each edge.
-
-    Returns
-    -------
-    float[2, points, 3]
-
-    Examples
-    --------
-    >>> strip(0, 1, 0.3, (1, 2)).shape
-    (2, 24, 3)
+    Start and end are azimuths, radians; radii are the distances of its two edges from the apex.
     """
     axes = joint_axes(np.linspace(start, end, points), cone_angle)
     return np.stack([radii[0] * axes, radii[1] * axes])

@@ -151,13 +151,7 @@ class FirstOrder:
 
 
 def ring_axes(places: npt.ArrayLike) -> Floats:
-    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets.
-
-    Examples
-    --------
-    >>> ring_axes([0.0]).tolist()
-    [[0.0, 1.0, 1.0]]
-    """
+    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets."""
     t = np.asarray(places, dtype=float)
     return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
 
@@ -229,20 +223,7 @@ def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Float
 def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the angular velocities of links on cones, along their pole axes (Hyatt et al. 2020, section 4).
 
-    Parameters
-    ----------
-    motions : float[..., N, 3]
-        w; differences of two give relative pole axes.
-    cone_angle : float[...]
-
-    Returns
-    -------
-    float[..., N, 3]
-
-    Examples
-    --------
-    >>> pole_axes([[0.0, 1, 1]], np.radians(30)).round(4).tolist()
-    [[0.0, -0.5, 0.866]]
+    Motions are w, float[..., N, 3]; differences of two give relative pole axes.
     """
     lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis, np.newaxis]
     w = np.asarray(motions, dtype=float)

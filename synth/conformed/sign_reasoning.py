@@ -72,18 +72,10 @@ def _follow_all(
 
 @dataclass(frozen=True, slots=True)
 class SignRelations:
-    """What the rates of a chain obey.
+    """What the rates of a chain obey: R relations of three unknowns each.
 
-    Attributes
-    ----------
-    links, joints : int
-    zero : bool[N * J + J]
-        Unknowns that are always zero; rho(n, x) has number n J + x, q_i has N J + i.
-    unknowns : int64[R, 3]
-        Of each relation.
-    sines : int64[R, 3, 2]
-        Joints of the sine that each is multiplied with; -1: none.
-    factors : int64[R, 3]
+    An unknown is multiplied by a factor and the sine of two joints, none where these are -1. `zero` marks unknowns
+    that are always zero; rho(n, x) has number n J + x, q_i has N J + i.
     """
 
     links: int
@@ -95,14 +87,7 @@ class SignRelations:
 
     @classmethod
     def of(cls, chain: ConformedChain) -> SignRelations:
-        """Set up the relations of a chain.
-
-        Examples
-        --------
-        >>> from graphs.mechanism.sc import SCGraph
-        >>> len(SignRelations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
-        26
-        """
+        """Set up the relations of a chain."""
         links, joints = len(chain.links), len(chain.joints)
         zero = np.zeros(links * joints + joints, bool)
         zero[:joints] = True
@@ -153,18 +138,9 @@ class SignRelations:
         return self.links * self.joints + joint
 
     def follow(self, known: Signs, sine_signs: Signs) -> npt.NDArray[np.bool_]:
-        """Add all that follows; tell which sets of signs contradict themselves.
+        """Add all that follows to known signs, int8[r, N J + J]; return which sets contradict themselves, bool[r].
 
-        Parameters
-        ----------
-        known : int8[r, N J + J]
-            Is added to.
-        sine_signs : int8[r, J, J]
-            Signs of sin(t_x - t_y).
-
-        Returns
-        -------
-        bool[r]
+        The signs of sin(t_x - t_y) are int8[r, J, J].
         """
         return np.asarray(_follow_all(known, self.unknowns, self.sines, self.factors, sine_signs))
 

@@ -29,24 +29,10 @@ _BLOCK = 256
 
 
 class Panels:
-    """Panels as plane convex pieces.
+    """Panels as planar convex pieces, from the vertices round each face and the panel that each face is part of.
 
-    Parameters
-    ----------
-    faces : sequence of sequence of int
-        Vertices round each face.
-    panel_of : sequence of int
-        The panel that each face is part of.
-    flat : float[vertices, 3]
-        Places of the vertices in a pose in which faces are plane.
-    tolerances : Tolerances, optional
-        Of the coordinates: panels that go no deeper into each other than points are told apart touch.
-
-    Examples
-    --------
-    >>> flat = np.array([[0, 0, 0], [2, 0, 0], [0, 2, 0], [.5, .5, -1], [.6, .5, 1], [.5, .6, 1.0]])
-    >>> Panels([(0, 1, 2), (3, 4, 5)], [0, 1], flat).crossing(flat), Panels([(0, 1, 2)], [0], flat).crossing(flat)
-    ((0, 1), None)
+    `flat`, float[vertices, 3], are places of the vertices in a configuration in which faces are planar. Panels
+    that enter each other no deeper than the tolerances tell points apart touch.
     """
 
     def __init__(
@@ -108,11 +94,7 @@ class Panels:
         """Return the ends, along the line of both planes, of where pieces meet the other's plane.
 
         Pieces that lie on one side of it, or only touch it, have an empty stretch: from infinity to -infinity.
-
-        Parameters
-        ----------
-        heights, along : float[pairs, k]
-            Of the corners, over the other plane and along the line.
+        Heights over the other plane and places along the line are those of the corners, float[pairs, k].
         """
         after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
         passes = heights * after < 0.0
@@ -129,13 +111,8 @@ class Collision(Event):
     """Panels begin to pass through each other: a walk ends before, at its last frame.
 
     Configurations are looked at so that no joint turns by more than three degrees between two of them: panels that
-    pass through each other altogether in less are not seen.
-
-    Parameters
-    ----------
-    panels : Panels
-    places : callable
-        Gives the places of the vertices, float[F, vertices, 3], at joint angles float[F, J].
+    pass through each other altogether in less are not seen. `places` gives the places of the vertices, float[F,
+    vertices, 3], at joint angles float[F, J].
     """
 
     def __init__(self, panels: Panels, places: Callable[[Floats], Floats]) -> None:

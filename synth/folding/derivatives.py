@@ -28,21 +28,10 @@ __all__ = ["SheetChange", "SheetDerivatives", "SheetSensitivity", "axis_motions"
 
 
 def axis_motions(ends: Ints, corners: Floats) -> scipy.sparse.csr_matrix:
-    """Return how axes through two vertices each turn and shift with all vertices.
+    """Return how axes through two vertices each (ends: int[J, 2]) rotate and translate with all vertices.
 
-    Parameters
-    ----------
-    ends : int[J, 2]
-        The vertices of each axis.
-    corners : float[V, 3]
+    Sparse, float[6 J, 3 V]: rotation about the origin and translation of each axis.
 
-    Returns
-    -------
-    sparse float[6 J, 3 V]
-        Rotation about the origin and shift of each axis.
-
-    Examples
-    --------
     >>> corners = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
     >>> (axis_motions(np.array([[0, 1]]), corners) @ [0, 0, 0, 0, 1.0, 0]).tolist()
     [0.0, 0.0, 0.5, 0.0, 0.0, 0.0]
@@ -69,21 +58,8 @@ def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: Pos
     """Return how the linkage of a sheet depends on the coordinates of its vertices.
 
     Axes go with the ends of their creases; the fold angles that the coordinates have, with the normals of the
-    panels beside. Those of a flat sheet stay zero while it is flat.
-
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates.
-    mechanism : SheetMechanism
-        Of the sheet.
-    linkage : PosedLinkage
-        Of both.
-
-    Returns
-    -------
-    AxisDependence
-        By the coordinates in turn, two or three for each vertex as the sheet has them.
+    panels beside. Those of a flat sheet stay zero while it is flat. It is by the coordinates in turn, two or three
+    for each vertex as the sheet has them.
     """
     if sheet.coordinates is None:
         raise UnsolvableError("derivatives by vertices need coordinates, and the sheet has none")
@@ -128,16 +104,10 @@ def _fold_angles(creases: Creases, corners: Floats) -> scipy.sparse.csr_matrix:
 class SheetChange:
     """How a folded sheet follows a change of its vertices.
 
-    Attributes
-    ----------
-    angles : float[J]
-        Change of the fold angles, radians; zero for driven creases.
-    places : float[V, 3]
-        Change of the places of vertices, in the unit of the coordinates.
-    residual : float[rows]
-        The inconsistent part of the change, as of `synth.motion.derivatives.ConfigurationChange`.
-    rank_residual : float
-        By how much redundant equations cease to be redundant, as of `Sensitivity.rank_residual`.
+    Changes of the fold angles, radians, are zero for driven creases; those of places, float[V, 3], are in the unit
+    of the coordinates. `residual`, float[rows], is the inconsistent part of the change, as in
+    `synth.motion.derivatives.ConfigurationChange`; `rank_residual` says by how much redundant equations cease to
+    be redundant, as `Sensitivity.rank_residual` does.
     """
 
     angles: Floats
@@ -228,16 +198,7 @@ class SheetDerivatives:
 class SheetSensitivity:
     """The derivatives of a sheet by the coordinates of its vertices at one configuration.
 
-    Parameters
-    ----------
-    shape : SheetDerivatives
-    sensitivity : Sensitivity
-        By the axes of its creases.
-
-    Attributes
-    ----------
-    poses : BodyPoses
-        Where the panels are.
+    They rest on the sensitivity by the axes of its creases; `poses` are those of the panels.
     """
 
     def __init__(self, shape: SheetDerivatives, sensitivity: Sensitivity) -> None:
@@ -251,17 +212,9 @@ class SheetSensitivity:
         return self.sensitivity.degenerate
 
     def forward(self, change: Floats) -> SheetChange:
-        """Return how the folded sheet follows a change of the coordinates.
+        """Return how the folded sheet follows a change of the coordinates, float[V, 2 or 3] as the sheet has them.
 
-        Parameters
-        ----------
-        change : float[V, 2 or 3]
-            As many numbers for a vertex as the sheet has.
-
-        Raises
-        ------
-        UnsolvableError
-            If the configuration is degenerate.
+        Raises `UnsolvableError` if the configuration is degenerate.
         """
         shape = self.shape
         axes = shape.dependence.forward(np.ravel(change))
@@ -279,21 +232,9 @@ class SheetSensitivity:
     def adjoint(self, by_angles: Floats | None = None, by_places: Floats | None = None) -> Floats:
         """Return the gradient by all coordinates of a number that depends on fold angles and places of vertices.
 
-        Parameters
-        ----------
-        by_angles : float[J], optional
-            Its gradient by fold angles, per radian.
-        by_places : float[V, 3], optional
-            Its gradient by places of vertices, in the unit of the coordinates.
-
-        Returns
-        -------
-        float[V, 2 or 3]
-
-        Raises
-        ------
-        UnsolvableError
-            If the configuration is degenerate.
+        Its gradients are given by fold angles, float[J], per radian, and by places, float[V, 3], in the unit of
+        the coordinates; the answer is float[V, 2 or 3]. Raises `UnsolvableError` if the configuration is
+        degenerate.
         """
         shape = self.shape
         angles = np.zeros(len(shape.linkage.angles)) if by_angles is None else by_angles

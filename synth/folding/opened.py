@@ -22,17 +22,6 @@ def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
 
     Places in the list of edges stay as they are, and so do ids of joints; further edges come last.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With all its edges listed or not.
-    mechanism : SheetMechanism
-        Of the sheet.
-
-    Examples
-    --------
-    Two squares that a cut parts:
-
     >>> from graphs.convert.duality import mechanism_of_sheet
     >>> sheet = Sheet(6, ((0, 1),), "C", ((0, 1, 2, 3), (1, 0, 4, 5)))
     >>> apart = opened(sheet, mechanism_of_sheet(sheet))

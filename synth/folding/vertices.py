@@ -25,23 +25,9 @@ def vertex_places(
 ) -> tuple[Floats, Floats]:
     """Return where the vertices of a crease pattern are, and how far panels disagree on that.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates.
-    mechanism : SheetMechanism
-        Of the sheet.
-    linkage : PosedLinkage
-        Of both.
-    angles : float[F, J]
-        Fold angles of many poses, radians.
-
-    Returns
-    -------
-    places : float[F, vertices, 3]
-        In the unit of the coordinates. Vertices of no face stay.
-    apart : float[F]
-        Largest distance between two places of one vertex, by different panels, in units of the extent.
+    At fold angles float[F, J], radians: places float[F, vertices, 3] in the unit of the coordinates, where
+    vertices of no face stay, and the largest distance between two places of one vertex by different panels,
+    float[F], in units of the extent.
     """
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
@@ -62,11 +48,5 @@ def vertex_places(
 
 
 def largest_panel(panels: Sequence[Sequence[Any]]) -> int:
-    """Return the link of most faces: what a sheet is held by.
-
-    Examples
-    --------
-    >>> largest_panel([[0], [1, 2], [3]])
-    1
-    """
+    """Return the link of most faces: the panel by which a sheet is held."""
     return max(range(len(panels)), key=lambda link: len(panels[link]))

@@ -29,18 +29,11 @@ _DIGITS = 6
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """What is asked of the beginning of a motion.
+    """The options for the beginning of a motion.
 
-    Attributes
-    ----------
-    branch : int, str or None
-        Number or signs of a branch; by default that which the configuration chooses.
-    driven : sequence of int
-        Places of the joints that are driven.
-    turns : float[D]
-        How far each is to turn, radians.
-    along : bool
-        Whether the turns are rates: the branch that points along them best is taken.
+    The branch is given by its number or signs; by default the configuration chooses it. `turns` says how far each
+    driven joint (by its place) is to turn, radians; with `along` they are rates, and the branch that points along
+    them best is taken.
     """
 
     branch: int | str | None = None
@@ -60,17 +53,8 @@ class Wanted:
 def beginning(configuration: Configuration, wanted: Wanted) -> tuple[int | None, Floats]:
     """Return the branch to take, None where there is no choice, and rates on it, near to what is assigned.
 
-    Parameters
-    ----------
-    configuration : Configuration
-    wanted : Wanted
-
-    Raises
-    ------
-    UnsolvableError
-        If no motion begins there, or none with the driven joints.
-    InvariantError
-        If there is no such branch.
+    Raises `UnsolvableError` if no motion begins there, or none with the driven joints, `InvariantError` if there
+    is no such branch.
     """
     found, towards = configuration.branches, wanted.towards(configuration)
     if found is None:

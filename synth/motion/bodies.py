@@ -80,14 +80,7 @@ class BodyPoses:
     """Links at a configuration, as rigid motions from the pose of the linkage.
 
     Twists of links are (w, v), rotation about the origin and shift, where the links now are; places are in units
-    of the extent, about the middle.
-
-    Attributes
-    ----------
-    tree : BodyTree
-    rotations : float[L, 3, 3]
-    shifts : float[L, 3]
-        A point x of a link comes to R x + t.
+    of the extent, about the middle. A point x of a link comes to R x + t, with R of `rotations` and t of `shifts`.
     """
 
     tree: BodyTree
@@ -108,14 +101,7 @@ class BodyPoses:
         return np.asarray(moved[self.tree.near] - moved[self.tree.far])
 
     def forward(self, angles: Floats, axes: AxisChange) -> Floats:
-        """Return the twists of links with changes of joint angles and axes, the ground held: float[L, 6].
-
-        Parameters
-        ----------
-        angles : float[J]
-            Change of the joint angles, radians.
-        axes : AxisChange
-        """
+        """Return the twists of links with changes of joint angles and axes, the ground held: float[L, 6]."""
         tree = self.tree
         turned = (angles - axes.zeros)[tree.joints, None] * self._screws()
         steps = turned + np.einsum("eij,ej->ei", self._by_axes(), axes.twists.reshape(-1, 6)[tree.joints])
@@ -127,15 +113,7 @@ class BodyPoses:
     def adjoint(self, wrenches: Floats) -> tuple[Floats, AxisChange]:
         """Return the gradients by joint angles and by axes of a number that depends on the poses of links.
 
-        Parameters
-        ----------
-        wrenches : float[L, 6]
-            Its gradient by the twist of each link.
-
-        Returns
-        -------
-        (float[J], AxisChange)
-            The axes with the joint angles held.
+        Its gradient by the twists of links is float[L, 6]; that by axes is for joint angles held.
         """
         tree = self.tree
         borne = wrenches.copy()
@@ -155,29 +133,14 @@ class BodyPoses:
     def places_forward(self, links: Ints, points: Floats, twists: Floats, changes: Floats) -> Floats:
         """Return how places change with twists of links, and of the points themselves: float[N, 3].
 
-        Parameters
-        ----------
-        links : int[N]
-        points : float[N, 3]
-            At the pose.
-        twists : float[L, 6]
-        changes : float[N, 3]
-            Of the points, at the pose.
+        The points, float[N, 3], and their changes are at the pose of the linkage.
         """
         there, twist = self.places(links, points), twists[links]
         own = np.einsum("nij,nj->ni", self.rotations[links], changes)
         return np.asarray(np.cross(twist[:, :3], there) + twist[:, 3:] + own)
 
     def places_adjoint(self, links: Ints, points: Floats, by_places: Floats) -> tuple[Floats, Floats]:
-        """Return the gradients by twists of links, float[L, 6], and by the points at the pose, float[N, 3].
-
-        Parameters
-        ----------
-        links : int[N]
-        points : float[N, 3]
-        by_places : float[N, 3]
-            The gradient by places.
-        """
+        """Return the gradients by twists of links, float[L, 6], and by the points at the pose, float[N, 3]."""
         there = self.places(links, points)
         wrenches = np.zeros((len(self.shifts), 6))
         np.add.at(wrenches, links, np.concatenate([np.cross(there, by_places), by_places], axis=1))

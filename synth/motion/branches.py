@@ -398,8 +398,6 @@ class _Looking:
 def signs_of(rates: Floats) -> str:
     """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all.
 
-    Examples
-    --------
     >>> signs_of(np.array([1.0, -0.5, 1e-12]))
     '+-0'
     """

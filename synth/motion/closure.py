@@ -25,17 +25,9 @@ __all__ = ["ClosureEquations", "carried", "frames_of"]
 
 @dataclass(frozen=True, slots=True)
 class _Alike:
-    """Loops of one kind and length.
+    """Loops of one kind and length k, at the pose: joints and signs [L, k], axes and points float[L, k, 3].
 
-    Attributes
-    ----------
-    joints : int[L, k]
-    axes, points : float[L, k, 3]
-        At the pose.
-    signs : float[L, k]
-    centre : Centre
-    frames : float[L, 3, 3]
-        Of loops with parallel axes: two directions across the axes, and theirs.
+    Frames, float[L, 3, 3], are those of loops with parallel axes: two directions across the axes, and theirs.
     """
 
     joints: Ints
@@ -221,19 +213,6 @@ class ClosureEquations:
 def carried(rotations: Floats, shifts: Floats) -> Floats:
     """Return what rigid motions make of twists (w, v), rotation about the origin and shift: the adjoint matrices.
 
-    Parameters
-    ----------
-    rotations : float[L, 3, 3]
-    shifts : float[L, 3]
-
-    Returns
-    -------
-    float[L, 6, 6]
-
-    Examples
-    --------
-    A rotation about z, moved along x, shifts the origin along -y:
-
     >>> (carried(np.eye(3)[None], np.array([[2.0, 0.0, 0.0]]))[0] @ [0, 0, 1, 0, 0, 0]).tolist()
     [0.0, 0.0, 1.0, 0.0, -2.0, 0.0]
     """
@@ -258,23 +237,7 @@ def _grouped(linkage: PosedLinkage) -> list[_Alike]:
 
 
 def frames_of(axes: Floats) -> Floats:
-    """Return frames of loops whose axes are parallel: two directions across them, then theirs.
-
-    Parameters
-    ----------
-    axes : float[L, k, 3]
-        Unit vectors, of each loop parallel.
-
-    Returns
-    -------
-    float[L, 3, 3]
-        Rows are orthonormal.
-
-    Examples
-    --------
-    >>> abs(frames_of(np.array([[[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]))[0, 2]).round(12).tolist()
-    [0.0, 0.0, 1.0]
-    """
+    """Return orthonormal frames of loops with parallel axes: two directions across them, then theirs."""
     return frame_about(common_direction(axes))
 
 

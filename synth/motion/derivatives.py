@@ -73,13 +73,8 @@ class AxisChange:
 class ConfigurationChange:
     """How a configuration follows a change of its axes.
 
-    Attributes
-    ----------
-    angles : float[J]
-        Change of the joint angles, radians; zero for driven joints.
-    residual : float[rows]
-        The inconsistent part of the change: what the closure equations miss, whatever the angles are. Zero where
-        loops stay closed to first order.
+    Changes of joint angles, radians, are zero for driven joints. The residual, float[rows], is the inconsistent
+    part: what the closure equations miss whatever the angles are; zero where loops stay closed to first order.
     """
 
     angles: Floats
@@ -386,15 +381,9 @@ def spatial(linkage: PosedLinkage) -> PosedLinkage:
 
 @dataclass(frozen=True, slots=True)
 class ParameterDerivatives:
-    """Derivatives of a function of parameters.
+    """Derivatives of n numbers by m parameters, float[n, m], by "complex step" or "differences".
 
-    Attributes
-    ----------
-    matrix : float[n, m]
-        Of n numbers by m parameters.
-    method : {"complex step", "differences"}
-    error : float
-        Estimate of the largest error: what the last extrapolation changed; of a complex step, none but rounding.
+    The error estimates the largest one: what the last extrapolation changed; none but rounding for a complex step.
     """
 
     matrix: Floats

@@ -34,22 +34,12 @@ _STEPS, _STEPS_OF_FRAME = 1_000, 20
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What is asked of a motion.
+    """The options of a motion.
 
-    Attributes
-    ----------
-    drive : mapping of joint id to float
-        Angles of driven joints, radians. If there are none the joint that moves most goes as far as it goes.
-    along : mapping of joint id to float
-        In place of driven joints: rates to begin with. The path goes straight on.
-    branch : int, str or None
-        Number or signs of a branch.
-    frames : int
-        How many after the first.
-    report : callable or None
-        Called with the number of frames after each.
-    events : sequence of Event
-        What else is looked for on the way.
+    `drive` gives the angles of driven joints, radians; without any, the joint that moves most goes as far as it
+    can. `along` gives initial rates in their place, and the path goes straight on. The branch is a number or
+    signs; `frames` counts those after the first, `report` is called with their number after each; `events` are
+    looked for on the way.
     """
 
     drive: Mapping[JointId, float] = field(default_factory=dict)
@@ -62,17 +52,9 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Driven:
-    """A motion.
+    """A motion, with the branch taken (None where there was no choice).
 
-    Attributes
-    ----------
-    branch : int or None
-        The branch that was taken; None where there was no choice.
-    places : list of int
-        Of the driven joints.
-    goals : mapping of joint id to float
-        Their angles at the end, as they were asked for, radians.
-    path : Path
+    `places` are those of the driven joints, `goals` the final angles they were to reach, radians.
     """
 
     branch: int | None
@@ -82,13 +64,7 @@ class Driven:
 
 
 def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
-    """Refuse a pose at which loops do not close.
-
-    Raises
-    ------
-    UnsolvableError
-        If they miss by more than 1e-12, radians and units of the extent.
-    """
+    """Raise `UnsolvableError` if loops miss by more than 1e-12, in radians and units of the extent."""
     error = closure.error(linkage.angles)
     if error > DOUBLE.closed:
         raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {DOUBLE.closed:.0e}")
@@ -97,10 +73,7 @@ def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
 def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:
     """Return the places and the goals of driven joints, radians.
 
-    Raises
-    ------
-    InvariantError
-        If there is no such joint, or an angle is no number, or larger than the most.
+    Raises `InvariantError` if there is no such joint, or an angle is no number or larger than the most.
     """
     places = _places(joints, drive)
     for joint, angle in drive.items():
@@ -112,19 +85,10 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
 
 
 def driven_from(configuration: Configuration, asked: Asked) -> Driven:
-    """Drive joints from a configuration, on the branch that is asked for.
+    """Drive joints from a configuration, on the branch of the options.
 
-    Parameters
-    ----------
-    configuration : Configuration
-    asked : Asked
-
-    Raises
-    ------
-    UnsolvableError
-        If nothing moves, or not with the driven joints.
-    InvariantError
-        If there is no such joint or branch, or an angle is out of range.
+    Raises `UnsolvableError` if nothing moves, or not with the driven joints, `InvariantError` if there is no such
+    joint or branch, or an angle is out of range.
     """
     linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
     joints = configuration.joints

@@ -41,16 +41,10 @@ __all__ = [
 
 @dataclass(frozen=True, slots=True)
 class PosedLoop:
-    """A loop of a linkage at a pose.
+    """A loop of a linkage at a pose: places of its joints in loop order, and the centre of their axes.
 
-    Attributes
-    ----------
-    joints : tuple of int
-        Places in the list of joints, in loop order.
-    signs : tuple of int
-        1 where the loop goes from a joint's first link to its second.
-    centre : Centre
-        Finite: the axes meet in a point, and directions close. Infinite: they are parallel.
+    A sign is 1 where the loop goes from a joint's first link to its second. The axes meet in a finite centre, and
+    directions close; they are parallel for an infinite one.
     """
 
     joints: tuple[int, ...]
@@ -218,17 +212,9 @@ def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, a
 class Creases:
     """Where the creases of a sheet are between its panels: what fold angles are counted from.
 
-    Attributes
-    ----------
-    joints : tuple of joint id
-    ends : int[J, 2]
-        Vertices at the ends of each crease.
-    ways : float[J]
-        1 where the axis goes from the first end to the second, else -1.
-    sides : int[J, 2]
-        The faces beside it, that of the second link last.
-    faces : tuple of vertex cycles
-        Of the sheet, turned so that two that share a side pass it in opposite directions, where that is possible.
+    `ends`, int[J, 2], are vertices; `ways` is 1 where the axis goes from the first end to the second, else -1;
+    `sides`, int[J, 2], are the faces beside it, that of the second link last. `faces` are turned so that two that
+    share a side pass it in opposite directions, where that is possible.
     """
 
     joints: tuple[JointId, ...]
@@ -240,10 +226,7 @@ class Creases:
     def directions(self, corners: Floats) -> Floats:
         """Return the unit vectors along the axes with vertices at float[V, 3]: float[J, 3].
 
-        Raises
-        ------
-        InvariantError
-            If a crease has no length.
+        Raises `InvariantError` if a crease has no length.
         """
         along = corners[self.ends[:, 1]] - corners[self.ends[:, 0]]
         lengths = np.linalg.norm(along, axis=1)
@@ -270,14 +253,6 @@ class Creases:
 def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
     """Return where the creases of a sheet are between its panels.
 
-    Parameters
-    ----------
-    sheet : Sheet
-    mechanism : SheetMechanism
-        Of the sheet.
-
-    Examples
-    --------
     >>> book = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
     >>> creases_of(book, mechanism_of_sheet(book)).sides.tolist()
     [[0, 1]]

@@ -29,15 +29,10 @@ space, and on all together."""
 
 
 class MarkedWay(NamedTuple):
-    """The way that marks choose.
+    """The branch that the assignment chooses: of several that begin with it the freest, None if there is none.
 
-    Attributes
-    ----------
-    number : int or None
-        Among the branches; of several that begin as it is marked the freest. None if there is none.
-    marked : {"has", "none has", "none found"} or None
-        Whether there is one. None has: that is proved, by linear programming on the rates that close to first
-        order, or on all branches. None found: it is not. None where nothing is marked.
+    "none has" is proved, by linear programming on the rates that close to first order, or on all branches; "none
+    found" is not. `marked` is None where nothing is assigned.
     """
 
     number: int | None
@@ -47,23 +42,7 @@ class MarkedWay(NamedTuple):
 def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedWay:
     """Return the way that begins with all marked joints as they are marked, or all against it.
 
-    Parameters
-    ----------
-    found : Branches
-    linkage : PosedLinkage
-        At the pose from which they begin.
-    marks : float[J]
-        1 for valleys, -1 for mountains, 0 for what is not marked.
-
-    Examples
-    --------
-    >>> from synth.folding.configuration import configuration_of_sheet
-    >>> from synth.patterns.creases.tessellations import miura
-    >>> pattern = configuration_of_sheet(miura(2, 2, 1.0))
-    >>> marked_way(pattern.branches, pattern.linkage, pattern.marks)
-    MarkedWay(number=0, marked='has')
-    >>> marked_way(pattern.branches, pattern.linkage, abs(pattern.marks))
-    MarkedWay(number=None, marked='none has')
+    Marks are 1 for valleys, -1 for mountains, 0 for joints without; the branches begin at the linkage's pose.
     """
     if not marks.any() or not found.branches:
         return MarkedWay(None, None)

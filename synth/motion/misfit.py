@@ -36,24 +36,8 @@ def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> flo
     """Return by how much loops do not close, at most, at a pose where they do so least.
 
     One joint is held, turned by ten degrees; the others are moved to where the sum of squares of what does not
-    close is least (Levenberg, Marquardt).
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    start : float[J]
-        A pose, radians.
-    rates : float[J]
-        Which way to turn; the joint that moves most is held.
-
-    Returns
-    -------
-    float
-        Radians and units of the extent.
-
-    Examples
-    --------
-    Three creases about a vertex, one of them turned: the others cannot follow.
+    close is least (Levenberg, Marquardt). The joint that the rates move most is held. In radians and units of the
+    extent.
 
     >>> from graphs.mechanism.sheet import Sheet
     >>> from synth.motion.linkage import linkage_of_sheet
@@ -88,11 +72,7 @@ def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> flo
 def doubt_of(precision: Precision, misfit: float | None = None) -> str:
     """Return what rounded coordinates leave open where nothing moves; empty if they are exact.
 
-    Parameters
-    ----------
-    precision : Precision
-    misfit : float, optional
-        By how much loops stay open when something is turned all the same.
+    The misfit says by how much loops stay open when a joint is turned all the same.
     """
     if precision.size <= EXACT:
         return ""

@@ -42,13 +42,9 @@ singular value is too small to count and too large to be none."""
 
 
 class TangentSpace:
-    """Least-squares solutions with the derivatives of closure equations at one place.
+    """Least-squares solutions with the derivatives of closure equations at one place, sparse float[rows, J].
 
-    Parameters
-    ----------
-    jacobian : sparse float[rows, J]
-    regular : float, optional
-        Part of the largest diagonal entry of the normal equations that is added to all.
+    `regular` times the largest diagonal entry of the normal equations is added to all of them.
     """
 
     def __init__(self, jacobian: scipy.sparse.csr_matrix, regular: float = _REGULAR) -> None:
@@ -59,13 +55,9 @@ class TangentSpace:
         self._moves: dict[int, Floats] = {}
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
-        """Return the least change of joint angles that takes a residual away to first order.
+        """Return the least change of joint angles that takes a residual, float[rows], away to first order.
 
-        Parameters
-        ----------
-        residual : float[rows]
-        held : sequence of int
-            Places of joints that are not to move, if they need not.
+        Joints at the places `held` do not move, unless they must.
         """
         change = self._least_exactly(-residual)
         if not held:
@@ -97,22 +89,10 @@ class TangentSpace:
         return np.asarray(found / np.linalg.norm(found))
 
     def solution(self, off: Floats) -> tuple[Floats, Floats]:
-        """Return the least rates at which loops part as nearly as they can as asked, and what is left.
+        """Return the least rates that part loops as nearly as they can as given, and what is left of that.
 
-        Both to all digits that the condition of the derivatives leaves.
-
-        Parameters
-        ----------
-        off : float[rows]
-
-        Returns
-        -------
-        (float[J], float[rows])
-
-        Raises
-        ------
-        NumericalError
-            If the rank of the derivatives is not clear.
+        Both to all digits that the condition of the derivatives leaves. Raises `NumericalError` if their rank is
+        not clear.
         """
         left = self.beyond(off)
         within = off - left
@@ -231,18 +211,7 @@ def _solver(
 
 @dataclass(frozen=True)
 class Corrected:
-    """Where Newton's method came to.
-
-    Attributes
-    ----------
-    angles : float[J]
-        Radians.
-    error : float
-        By how much loops do not close, at most.
-    steps : int
-    jacobian : sparse float[rows, J]
-        Derivatives there.
-    """
+    """Where Newton's method came to: angles in radians, the loop-closure residual, and the derivatives there."""
 
     angles: Floats
     error: float
@@ -261,20 +230,11 @@ class Corrected:
 
 
 def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
-    """Return joint angles near given ones at which all loops close.
+    """Return joint angles near given ones at which all loops close, radians.
 
-    Parameters
-    ----------
-    closure : ClosureEquations
-    angles : float[J]
-        Radians.
-    held : sequence of int
-        Places of joints that stay as they are, if the others can follow.
-
-    Notes
-    -----
-    Matrices are factorised anew only where a step with the last one left too much. It ends when loops are closed
-    and a further step would not make them better, or steps do not make the error less.
+    Held joints (by their places) stay if the others can follow. Matrices are factorised anew only where a step
+    with the last one left too much. It ends when loops are closed and a further step would not make them better,
+    or steps do not make the error less.
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
@@ -301,17 +261,8 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
 def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int], values: Floats) -> Corrected:
     """Return a pose with held joints at their angles to the last digit; its error is that of the angles it has.
 
-    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    pose : Corrected
-        Found with the joints held.
-    held : sequence of int
-        Places of the joints.
-    values : float[H]
-        Their angles, radians.
+    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops. The pose
+    was found with the joints at these places held; values are their angles, radians.
     """
     places = list(held)
     for _ in range(_HOLDS):

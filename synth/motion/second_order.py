@@ -42,12 +42,7 @@ _LOST = 10.0
 class RateSpace:
     """Rates that agree to second order: a linear space, on which a few equations may be left.
 
-    Attributes
-    ----------
-    basis : float[J, s]
-        Orthonormal columns.
-    left : tuple of Quadric
-        Equations that are no products of linear ones on this space.
+    The basis, float[J, s], is orthonormal; the equations are no products of linear ones on this space.
     """
 
     basis: Floats
@@ -63,16 +58,8 @@ def rate_spaces(
 ) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, none part of another, and whether these are all.
 
-    Parameters
-    ----------
-    closure : ClosureEquations
-    angles : float[J]
-        The pose, radians.
-    quadrics : sequence of Quadric
-    most : int, optional
-        After so many the search ends.
-    zero : float, optional
-        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    The pose is given by angles in radians; the search ends after `most` spaces. Singular values and eigenvalues
+    below `zero` times the largest are zero: what coordinates can tell apart.
     """
     found = list(islice(spaces_within(rates_at(closure, angles, zero), quadrics, zero), most + 1))
     return largest_only(found[:most], zero), len(found) <= most
@@ -83,15 +70,8 @@ def spaces_within(
 ) -> Iterator[RateSpace]:
     """Yield spaces that hold all rates which agree to second order, depth first; some may be part of others.
 
-    Parameters
-    ----------
-    tangent : float[J, s]
-        The rates that agree to first order (`rates_at`).
-    quadrics : sequence of Quadric
-    zero : float, optional
-        Eigenvalues below this part of the largest are zero: what coordinates can tell apart.
-    allowance : Allowance, optional
-        Work that may be done, in products of numbers; where it is used up the search ends.
+    The tangent, float[J, s], holds the rates that agree to first order (`rates_at`). Eigenvalues below `zero`
+    times the largest are zero. The search ends where the allowance, counted in products of numbers, is used up.
     """
     quadrics = tuple(quadrics)
     case = _Case(tangent, quadrics, local_forms(tangent, quadrics), zero)
@@ -117,21 +97,8 @@ def rates_near(
 ) -> Floats | None:
     """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 
-    Parameters
-    ----------
-    closure : ClosureEquations
-    angles : float[J]
-        The pose, radians.
-    quadrics : sequence of Quadric
-    wanted : float[J]
-        Rates, or their signs.
-    zero : float, optional
-        What is left of the equations, at most.
-
-    Returns
-    -------
-    float[J] or None
-        As long as the wanted ones; None where none were found near these.
+    Wanted are rates or their signs, float[J]; the answer is as long as they are, and leaves at most `zero` of the
+    equations; None where none were found near them.
     """
     _, jacobian = closure.at(angles)
     size = float(np.linalg.norm(wanted))

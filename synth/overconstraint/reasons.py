@@ -22,22 +22,7 @@ __all__ = ["reasons_of"]
 
 
 def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE) -> list[str]:
-    """Say which special geometry a set of loops has; none where no reason that is known here fits.
-
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    loops : tuple of int
-    tolerances : Tolerances, optional
-        Of its coordinates.
-
-    Examples
-    --------
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns import generate
-    >>> reasons_of(configuration_of(generate("bricard-plane-symmetric").mechanism).linkage, (0,))
-    ['plane symmetry: a mirror takes the axes to each other']
-    """
+    """Return which special geometry a set of loops has; none where no reason that is known here fits."""
     chosen = [linkage.loops[loop] for loop in loops]
     turned = tolerances.parallel / axis_lengths(linkage)
     near = [float(turned[list(loop.joints)].sum()) for loop in chosen]  # what rounding of all its axes comes to

@@ -47,8 +47,6 @@ class Tolerance:
 def axis_tolerances(linkage: PosedLinkage, order: FirstOrder) -> list[Tolerance]:
     """Return how far each axis may err, least first; axes that may err alike in the order of the joints.
 
-    Examples
-    --------
     >>> from synth.moving.made import configuration_of
     >>> from synth.overconstraint.idle import first_order
     >>> from synth.patterns import generate

@@ -29,18 +29,9 @@ _APART = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A drawing.
+    """A drawing: places of the vertices, with edges about 1 long, and angles of the corners of panels, radians.
 
-    Attributes
-    ----------
-    places : float[V, 2]
-        Of the vertices; edges are about 1 long.
-    angles : float[K]
-        Of the corners of panels, radians.
-    convex : bool
-        Whether the border was kept convex.
-    number : int
-        Which try it is.
+    `convex` says whether the border was kept convex, `number` which try it is.
     """
 
     places: Floats
@@ -58,24 +49,8 @@ def drawings(
     """Yield drawings without crossings, each panel strictly convex where it can be, creases to their centres.
 
     The first is as even as possible, every other aims at random lengths. The border is convex; where creases point
-    to centres across holes every third drawing may have another.
-
-    Parameters
-    ----------
-    pattern : Pattern
-    seed, tries : int
-    wishes : Wishes, optional
-        What they are to be besides.
-    allowance : Allowance, optional
-        Steps of improvement, of all drawings together: there is no other drawing where it is used up.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> [drawn.convex for drawn in drawings(fan, 0, 2)]
-    [True, True]
+    to centres across holes every third drawing may have another. The allowance counts steps of improvement, of all
+    drawings together: where it is used up there is no other drawing.
     """
     conditions, symmetry = wishes.conditions(pattern), wishes.symmetry
     for number in range(tries):

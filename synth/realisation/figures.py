@@ -26,16 +26,9 @@ _SHARP, _RATIO = float(np.radians(15.0)), 0.15
 class ShapeFigures:
     """Shape of the panels.
 
-    Attributes
-    ----------
-    least_angle, greatest_angle : float
-        Of the corners of panels, radians; a corner that is bent inward has more than pi.
-    edge_ratio : float
-        The shortest side by the longest.
-    planarity : float
-        How far a vertex is off the plane of its panel at most, in units of the extent.
-    least_distance : float
-        Of two vertices, in units of the extent.
+    Angles are those of their corners, radians, more than pi where one is bent inward. The edge ratio is the
+    shortest side by the longest. Planarity says how far a vertex is off the plane of its panel at most,
+    `least_distance` is that of two vertices, both in units of the extent.
     """
 
     least_angle: float
@@ -61,15 +54,9 @@ class ShapeFigures:
 
 
 def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
-    """Return the figures of a placed pattern.
+    """Return the figures of a placed pattern, a sheet with coordinates.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    sheet : Sheet
-        Its panels with coordinates.
-    bent : float[K]
-        Angles of the corners in the drawing: which of them are bent inward.
+    The angles of the corners in the drawing, float[K], say which of them are bent inward.
     """
     points = np.zeros((sheet.vertices, 3))
     given = np.asarray(sheet.coordinates, dtype=float)
@@ -91,13 +78,7 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
 
 
 def crossings(pattern: Pattern, places: Floats) -> int:
-    """Return how many pairs of edges cross in a drawing, and how many vertices lie on edges that do not end there.
-
-    Parameters
-    ----------
-    pattern : Pattern
-    places : float[V, 2]
-    """
+    """Return how many pairs of edges cross in a drawing, and how many vertices lie on edges not ending there."""
     one, other = np.triu_indices(len(pattern.edges), 1)
     a, b = (places[ends] for ends in pattern.edges[one].T)
     c, d = (places[ends] for ends in pattern.edges[other].T)

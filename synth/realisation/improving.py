@@ -108,24 +108,10 @@ def improved(
 ) -> Floats | None:
     """Return a drawing of better shape in which creases point to their centres; None if none was found.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    start : float[V + C + B, 2]
-        With panels that are convex, or seen from their hubs.
-    convex : bool, optional
-        Keep the border convex.
-    aims : float[E], optional
-        Logarithm of the length that each edge is to have; without it 0, all alike.
-    conditions : sequence of Condition, optional
-        What is to be met exactly, besides that creases point to their centres.
-    allowance : Allowance, optional
-        Steps that may be tried: the shape that is reached with them is taken.
-
-    Returns
-    -------
-    float[V + C + B, 2] or None
-        Edges are 1 long in the mean, or as is aimed at.
+    Drawings are float[V + C + B, 2], the first one with panels that are convex, or seen from their hubs; edges of
+    the answer are 1 long in the mean, or as aimed at: aims, float[E], are logarithms of lengths, by default 0.
+    Conditions are met exactly, besides that creases point to their centres. The allowance counts steps: the shape
+    that is reached with them is taken.
     """
     exactly = together([partial(off_centres, pattern), *conditions])
     wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)

@@ -15,25 +15,10 @@ __all__ = ["corner_angles", "edge_lengths", "is_drawn", "opened_angles", "sums_a
 
 
 def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
-    """Return the angle of each corner, in (-pi, pi], and its derivatives.
+    """Return the angle of each corner, in (-pi, pi], and its derivatives, float[K, 2 V].
 
-    Parameters
-    ----------
-    places : float[V, 2]
-    corners : int64[K, 3]
-        Vertices before, at and after, counter-clockwise.
-
-    Returns
-    -------
-    angles : float[K]
-        Radians; negative where the corner is turned over.
-    derivatives : float[K, 2 V]
-
-    Examples
-    --------
-    >>> angles, by = corner_angles(np.array([[0.0, 1], [0, 0], [1, 0]]), np.array([[0, 1, 2]]))
-    >>> float(np.degrees(angles[0])), by.shape
-    (90.0, (1, 6))
+    Corners, int64[K, 3], are vertices before, at and after, counter-clockwise. The angle is negative where the
+    corner is turned over.
     """
     back, on = places[corners[:, 0]] - places[corners[:, 1]], places[corners[:, 2]] - places[corners[:, 1]]
     angles = np.arctan2(on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0], (on * back).sum(axis=1))
@@ -47,23 +32,7 @@ def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
 
 
 def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
-    """Return the logarithm of the length of each edge, and its derivatives.
-
-    Parameters
-    ----------
-    places : float[V, 2]
-    edges : int64[E, 2]
-
-    Returns
-    -------
-    logarithms : float[E]
-    derivatives : float[E, 2 V]
-
-    Examples
-    --------
-    >>> edge_lengths(np.array([[0.0, 0], [1, 0]]), np.array([[0, 1]]))[0].tolist()
-    [0.0]
-    """
+    """Return the logarithm of the length of each edge, float[E], and its derivatives, float[E, 2 V]."""
     along = places[edges[:, 1]] - places[edges[:, 0]]
     squares = (along**2).sum(axis=1)
     derivatives = np.zeros((len(edges), len(places), 2))
@@ -80,13 +49,9 @@ def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
 
 
 def is_drawn(pattern: Pattern, angles: Floats) -> bool:
-    """Tell whether panels are strictly convex where they can be, lie one way up, and go once round inner vertices.
+    """Return whether panels are strictly convex where they can be, lie one way up, and go once round vertices.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    angles : float[K]
-        Of its corners, as `opened_angles` gives them.
+    Those are the inner vertices; the angles of the corners are as `opened_angles` gives them.
     """
     if not (np.isfinite(angles).all() and angles.min() > 0.0 and (angles < pattern.widest).all()):
         return False
@@ -99,16 +64,7 @@ def is_drawn(pattern: Pattern, angles: Floats) -> bool:
 def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
     """Return the angles of all corners, up to 360 degrees in panels that cannot be convex, and derivatives.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    places : float[V, 2]
-
-    Returns
-    -------
-    angles : float[K]
-        Radians; negative where a corner is turned over.
-    derivatives : float[K, 2 V]
+    Radians, negative where a corner is turned over; derivatives are float[K, 2 V].
     """
     angles, by = corner_angles(places, pattern.corners)
     return np.where((angles < 0.0) & (pattern.widest > np.pi), angles + 2 * np.pi, angles), by

@@ -26,18 +26,10 @@ __all__ = ["Pattern", "Pointing", "pattern_of"]
 
 @dataclass(frozen=True, slots=True)
 class Pointing:
-    """Creases that point to a centre which they do not reach.
+    """Creases (places in ``Pattern.creases``) that point to a centre which they do not reach.
 
-    Attributes
-    ----------
-    creases : tuple of int
-        Places in ``Pattern.creases``.
-    infinite : bool
-        Whether they are parallel.
-    vertex : int or None
-        The vertex that the centre is, where another loop of its class has it explicit.
-    holes : tuple of int
-        Places in ``Pattern.holes`` of the holes that it lies across.
+    They are parallel if it is infinite. `vertex` is the vertex that the centre is, where another loop of its class
+    has it explicit; `holes` are the places in ``Pattern.holes`` of the holes that it lies across.
     """
 
     creases: tuple[int, ...]
@@ -50,20 +42,8 @@ class Pointing:
 class Pattern:
     """The panels of a type, without coordinates.
 
-    Attributes
-    ----------
-    links : tuple of link id
-    joints : tuple of joint id
-    panels : tuple of tuple of int
-        The vertices of each link, counter-clockwise.
-    vertices : int
-    creases : tuple of (vertex, vertex)
-        Of each joint.
-    outer : tuple of int
-        The border, counter-clockwise.
-    holes : tuple of tuple of int
-        The vertices round each hole, counter-clockwise.
-    pointings : tuple of Pointing
+    `panels` are the vertices of each link, `outer` those of the border and `holes` those round each hole, all
+    counter-clockwise; `creases` are the two vertices of each joint.
     """
 
     links: tuple[LinkId, ...]
@@ -143,17 +123,7 @@ class Pattern:
 def pattern_of(scd: SCDGraph) -> Pattern:
     """Return the pattern of a type.
 
-    Raises
-    ------
-    UnsolvableError
-        If the panels close to a surface without a border.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> len(fan.panels), len(fan.creases), len(fan.outer), fan.inner.size, fan.holes
-    (4, 4, 4, 1, ())
+    Raises `UnsolvableError` if the panels close to a surface without a border.
     """
     rings = _rings(scd)
     outer_vertex = _border_vertex(scd, scd.drawing.outer_face)

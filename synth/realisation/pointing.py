@@ -22,19 +22,8 @@ _LEFT, _RIGHT = np.array([-1.0, 1.0]), np.array([1.0, -1.0])
 def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels: Floats) -> Floats:
     """Return the unknowns of a drawing: vertices, a point for each centre that is no vertex, hubs of bent panels.
 
-    The point of an infinite centre is its direction, of length 1.
-
-    Parameters
-    ----------
-    pattern : Pattern
-    places : float[V, 2]
-    in_holes : float[H, 2]
-    in_panels : float[B, 2]
-        Hubs, as of `barycentric_start`.
-
-    Returns
-    -------
-    float[V + C + B, 2]
+    The point of an infinite centre is its direction, of length 1. Points in holes are float[H, 2]; hubs of panels,
+    float[B, 2], are those of `barycentric_start`. Returns float[V + C + B, 2].
     """
     free = [one for one in pattern.pointings if one.vertex is None]
     points = [
@@ -47,18 +36,9 @@ def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels
 def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the sine of the angle by which each crease misses its centre, and the derivatives.
 
-    Lengths are taken as constant in the derivatives, which are exact where nothing is off.
-
-    Parameters
-    ----------
-    pattern : Pattern
-    unknowns : float[V + C + B, 2]
-
-    Returns
-    -------
-    off : float[A + D]
-        For each row of ``Pattern.aims``; then by how much the direction of each infinite centre is longer than 1.
-    derivatives : float[A + D, 2 (V + C + B)]
+    Lengths are taken as constant in the derivatives, which are exact where nothing is off. A value for each row of
+    ``Pattern.aims``, then by how much the direction of each infinite centre is longer than 1: float[A + D], with
+    derivatives float[A + D, 2 (V + C + B)].
     """
     a, b, centre, infinite = pattern.aims.T
     along = unknowns[b] - unknowns[a]

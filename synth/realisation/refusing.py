@@ -16,26 +16,9 @@ __all__ = ["check_holes", "half_turns"]
 
 
 def check_holes(pattern: Pattern) -> None:
-    """Refuse a pattern with a hole round which creases cannot turn once, their centre being outside it.
+    """Raise `UnsolvableError` for a hole round which creases cannot turn once, their centre being outside it.
 
-    Parameters
-    ----------
-    pattern : Pattern
-
-    Raises
-    ------
-    UnsolvableError
-        With the panels round the hole and what each allows.
-
-    Examples
-    --------
-    >>> from graphs.identity.drawings import mechanism_from_map_id
-    >>> from synth.realisation.pattern import pattern_of
-    >>> check_holes(pattern_of(mechanism_from_map_id("m1:a-b-.a-c-.b-d-.c-d-;i")))
-    Traceback (most recent call last):
-    ...
-    graphs.errors.UnsolvableError: flat, the directions of creases would turn by 2 half turns round the hole \
-between panel(s) 0, 1, 2, 3, whose centre is outside it; they can turn by 0 there: by 0 + 0 + 0 + 0
+    The message names the panels round the hole and what each allows.
     """
     for one in pattern.pointings:
         known = [turns for turns in (half_turns(pattern, one, hole) for hole in one.holes) if turns is not None]
@@ -56,18 +39,8 @@ def _told(pattern: Pattern, turns: dict[int, int]) -> str:
 def half_turns(pattern: Pattern, one: Pointing, hole: int) -> dict[int, int] | None:
     """Return by how many half turns at most creases turn in each panel round a hole.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    one : Pointing
-        To a centre outside the hole.
-    hole : int
-        Place of a hole that it lies across.
-
-    Returns
-    -------
-    dict of int to int or None
-        None where something hangs into the hole: the panels round it are not just those between its creases.
+    The pointing is to a centre outside the hole, which is a place in ``pattern.holes``. None where something hangs
+    into the hole: the panels round it are not just those between its creases.
     """
     ring = pattern.holes[hole]
     inside = {panel: _sides_in(around, ring) for panel, around in enumerate(pattern.panels)}

@@ -22,22 +22,11 @@ _MORE_SIDES = 4
 def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
     """Return the SCD graph that something is, has, or, of an SC graph, the first of the fewest open edges.
 
-    Returns
-    -------
-    scd : SCDGraph
-    notes : tuple of str
-        What was chosen.
+    With it come notes on what was chosen. Raises `UnsolvableError` if it has no drawing, or no valid placement of
+    open edges.
 
-    Raises
-    ------
-    UnsolvableError
-        If it has no drawing, or no valid placement of open edges.
-
-    Examples
-    --------
     >>> from graphs.loops.loop import Loop
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> scd, notes = simplest_drawn(four_bar)
+    >>> scd, notes = simplest_drawn(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
     >>> scd.counts.open_edges, notes
     (4, ('an SCD graph of the fewest open edges was taken: 4 open edges',))
     """

@@ -23,29 +23,9 @@ _SPREAD = 0.5
 def barycentric_start(
     pattern: Pattern, random: np.random.Generator | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """Return places of the vertices and of the hubs; edges are about 1 long.
+    """Return places of the vertices, hubs of holes, and hubs of panels that cannot be convex.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    random : Generator, optional
-        Gives every edge a weight; without it all weigh alike.
-
-    Returns
-    -------
-    vertices : float[V, 2]
-    in_holes : float[H, 2]
-    in_panels : float[B, 2]
-        Of those that cannot be convex.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> places, _, _ = barycentric_start(pattern_of(fan))
-    >>> places.shape
-    (5, 2)
+    Edges are about 1 long. The generator gives every edge a weight; without it all weigh alike.
     """
     rings = [*pattern.holes, *(panel for place, panel in enumerate(pattern.panels) if pattern.bent[place])]
     spokes = [(v, pattern.vertices + hub) for hub, ring in enumerate(rings) for v in ring]

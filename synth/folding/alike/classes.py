@@ -34,15 +34,9 @@ _LARGEST_GROUP = 24
 class _Plane:
     """A flat pattern seen in its plane, in units of the extent.
 
-    Attributes
-    ----------
-    middles, directions : float[J, 2]
-        Of the creases.
-    marks : float[J]
-    sides : float[n, 2, 2]
-        Ends of the sides of the border.
-    same : float
-        Middles and directions of creases this close are one: both arms that a motion takes to each other may err.
+    Middles and directions are those of creases, float[J, 2], sides the ends of the sides of the border, float[n,
+    2, 2]. Middles and directions of creases closer than `same` are one: both arms that a motion takes to each
+    other may err.
     """
 
     middles: Floats

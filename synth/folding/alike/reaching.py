@@ -51,16 +51,8 @@ _STEPS = 1000
 class _Start:
     """A motion at its beginning.
 
-    Attributes
-    ----------
-    pattern : SheetConfiguration
-    closure : ClosureEquations
-        Of all motions, or of those that keep classes of joints alike.
-    rates : float[J]
-        The largest 1 or -1.
-    classes : int[J]
-        What moves alike.
-    branch : int or None
+    The equations are those of all motions, or of those that keep classes of joints alike; the largest of the
+    rates, float[J], is 1 or -1.
     """
 
     pattern: SheetConfiguration

@@ -48,14 +48,9 @@ class _Sector:
 
 
 class MeantAngles:
-    """Equations between the headings of creases.
+    """Equations between the headings of creases of a flat sheet; other sheets have none.
 
-    Parameters
-    ----------
-    places : VertexPlaces
-        Of a flat sheet; of others there are no equations.
-    precision : float
-        Of a coordinate, in units of the extent.
+    The precision is that of a coordinate, in units of the extent.
     """
 
     def __init__(self, places: VertexPlaces, precision: float) -> None:

@@ -53,20 +53,10 @@ class _State:
 
 
 class Fitting:
-    """Vertices that are moved, as little as may be, until motions close.
+    """Vertices that are moved, as little as may be, until motions close and the angles that are meant agree.
 
-    Parameters
-    ----------
-    places : VertexPlaces
-    angles : MeantAngles
-        That are made to agree.
-    start : float[J]
-        Joint angles of the pose that is given, radians.
-
-    Attributes
-    ----------
-    corners : float[V, 3]
-        In units of the extent, about the middle.
+    Motions start at joint angles `start`, radians; `corners`, float[V, 3], are in units of the extent, about the
+    middle.
     """
 
     def __init__(self, places: VertexPlaces, angles: MeantAngles, start: Floats) -> None:
@@ -94,11 +84,7 @@ class Fitting:
     def along(self, rates: Floats, most: float) -> bool:
         """Move the vertices so that a motion goes on that begins at rates float[J]; tell whether it does.
 
-        Parameters
-        ----------
-        rates : float[J]
-        most : float
-            How far a coordinate may be moved, in units of the extent.
+        A coordinate is moved by no more than `most`, in units of the extent.
         """
         driver = leading(rates)
         way = float(np.sign(rates[driver]))

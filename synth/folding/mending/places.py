@@ -26,29 +26,11 @@ __all__ = ["VertexPlaces"]
 
 
 class VertexPlaces:
-    """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept plane.
+    """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept planar.
 
-    Lengths are those of the linkage: in units of the extent, about the middle.
-
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates.
-    mechanism : SheetMechanism
-        Of the sheet.
-    linkage : PosedLinkage
-        Of both.
-
-    Attributes
-    ----------
-    given : float[V, 3]
-        As they are written.
-    ends : int[J, 2]
-        Vertices at the ends of each crease.
-    along : float[2 or 3, 3]
-        Directions in which vertices may be moved.
-    unknowns : int
-        So many for each vertex.
+    Lengths are those of the linkage: in units of the extent, about the middle. `given`, float[V, 3], are the
+    places as written, `ends`, int[J, 2], the vertices at the ends of each crease; `along`, float[2 or 3, 3], are
+    the directions in which vertices may be moved, `unknowns` their number.
     """
 
     def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:

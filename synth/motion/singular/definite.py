@@ -24,30 +24,10 @@ _NEAR, _GAINS = 1e-5, 1e-9
 
 
 def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None:
-    """Return multiples of forms whose sum is positive definite, and how clearly.
+    """Return multiples of symmetric forms, float[n, s, s], whose sum is positive definite, and how clearly.
 
-    Parameters
-    ----------
-    forms : float[n, s, s]
-        Symmetric.
-    clear : float
-        The smallest eigenvalue of the sum must be more than this part of the largest.
-
-    Returns
-    -------
-    (float[n], float) or None
-        The multiples, and the smallest eigenvalue as part of the largest; None where none were found.
-
-    Examples
-    --------
-    Neither is definite, their sum is:
-
-    >>> forms = np.array([np.diag([2.0, -1.0]), np.diag([-1.0, 2.0])])
-    >>> weights, smallest = definite_weights(forms, 1e-9)
-    >>> weights.round(6).tolist(), round(smallest, 6)
-    ([0.5, 0.5], 1.0)
-    >>> definite_weights(forms[:1], 1e-9) is None
-    True
+    How clearly is the smallest eigenvalue as part of the largest, which must be more than `clear`; None where no
+    such multiples were found.
     """
     if not len(forms) or not forms.shape[1]:
         return None

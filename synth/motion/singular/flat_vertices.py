@@ -25,25 +25,7 @@ __all__ = ["FlatVertices"]
 class FlatVertices:
     """The loops of a linkage that are flat vertices of four creases.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        At its pose.
-
-    Attributes
-    ----------
-    linear : bool
-        Whether every loop is one whose opposite sectors make 180 degrees, and all creases are flat.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> cross = FlatVertices(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
-    >>> cross.linear, cross.modes(np.array([0.0, 1.0, 0.0, 1.0])), cross.modes(np.zeros(4))
-    (True, ((1, 3),), (None,))
+    `linear` says whether every loop is one whose opposite sectors make 180 degrees, and all creases are flat.
     """
 
     def __init__(self, linkage: PosedLinkage) -> None:
@@ -59,16 +41,9 @@ class FlatVertices:
     def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
         """Return in which mode each vertex begins to fold.
 
-        Parameters
-        ----------
-        rates : float[J]
-            General ones of a branch, the largest 1 or -1.
-
-        Returns
-        -------
-        tuple of (int, int) or None
-            For each loop: the places of the opposite creases that fold the same way. None of a vertex that is
-            still, of loops that are no flat vertices, and of those with other than four creases.
+        A mode is the places of the opposite creases that fold the same way. Rates are general ones of a branch,
+        the largest 1 or -1. None for a vertex that does not move, for loops that are no flat vertices, and for
+        those with other than four creases.
         """
         return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 

@@ -32,14 +32,9 @@ _DEAD_ENDS = 200
 
 @dataclass(frozen=True, slots=True)
 class Begun:
-    """Whether a motion begins.
+    """Rates with which a motion begins, the largest 1 or -1; None where none were found.
 
-    Attributes
-    ----------
-    rates : float[J] or None
-        The largest 1 or -1; None where none were found.
-    rigid : bool
-        Whether all choices leave nothing: nothing moves.
+    `rigid` says that all choices leave nothing: nothing moves.
     """
 
     rates: Floats | None
@@ -52,16 +47,8 @@ def begun_near(
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
     By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
-    still, within the nearest space.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    linkage : PosedLinkage
-    wanted : float[J]
-        Rates, or signs of them.
-    zero : float, optional
-        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+    still, within the nearest space. Wanted are rates or signs of them; singular values and eigenvalues below
+    `zero` times the largest are zero.
     """
     quadrics = quadrics_of(linkage, zero)
     rates = rates_near(closure, linkage.angles, quadrics, wanted, zero)
@@ -89,29 +76,8 @@ def spaces_near(
     """Yield spaces of rates that agree to second order, those near to wanted ones first; None for what is empty.
 
     Equations of one sign are used up first. Of the products, that one is decided which the wanted rates decide
-    most clearly; its factor that is nearer to vanishing at them does.
-
-    Parameters
-    ----------
-    tangent : float[J, s]
-        The rates that close to first order: orthonormal columns.
-    quadrics : sequence of Quadric
-    wanted : float[J]
-    zero : float, optional
-        Eigenvalues below this part of the largest are zero.
-
-    Examples
-    --------
-    The creases of a flat vertex, two of them in line, and that line alone:
-
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
-    >>> linkage = linkage_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
-    >>> tangent = rates_at(ClosureEquations(linkage), linkage.angles)
-    >>> spaces = list(spaces_near(tangent, quadrics_of(linkage), np.array([1.0, 0.2, 1.0, 0.0])))
-    >>> abs(spaces[0].basis[:, 0] / spaces[0].basis[0, 0]).round(9).tolist(), len(spaces)
-    ([1.0, 0.0, 1.0, 0.0], 2)
+    most clearly; its factor that is nearer to vanishing at them does. The tangent, float[J, s], has orthonormal
+    columns: the rates that close to first order. Eigenvalues below `zero` times the largest are zero.
     """
     stack = _Stack(quadrics, zero)
     for basis, left in stack.split(tangent, np.arange(len(quadrics)), wanted):
@@ -179,13 +145,9 @@ class _Stack:
 def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tuple[Floats, Floats]:
     """Return the normals of the factors between which wanted rates decide most clearly, the nearer one first.
 
-    Parameters
-    ----------
-    values, axes : float[n, k], float[n, s, k]
-        Eigenvalues and eigenvectors of products: one value is positive, one negative.
-    wanted : float[s]
-    basis : float[J, s]
-        Of the space: where the wanted rates are as near to both factors, the order of the joints decides.
+    Values float[n, k] and axes float[n, s, k] are eigenvalues and eigenvectors of products: one value is positive,
+    one negative. Where the wanted rates are as near to both factors, the order of the joints, rows of the basis
+    float[J, s], decides.
     """
     each = np.arange(len(values))
     first, last = values.argmin(axis=1), values.argmax(axis=1)

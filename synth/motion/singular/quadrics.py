@@ -36,15 +36,7 @@ MOST_ROWS = 600
 
 @dataclass(frozen=True, slots=True)
 class Quadric:
-    """A quadratic equation between the rates of a few joints.
-
-    Attributes
-    ----------
-    joints : tuple of int
-        Places of the joints, k of them.
-    form : float[k, k]
-        Symmetric; ``r @ form @ r`` has to vanish.
-    """
+    """A quadratic equation between the rates r of k joints: ``r @ form @ r`` has to vanish, the form symmetric."""
 
     joints: tuple[int, ...]
     form: Floats
@@ -53,24 +45,7 @@ class Quadric:
 def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadric]:
     """Return what the self-stresses of each loop alone ask of the rates at the pose.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    zero : float, optional
-        Singular values below this part of the largest are zero, and forms whose entries are below it.
-
-    Examples
-    --------
-    Four creases at right angles: the lines fold one at a time.
-
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> [equation] = quadrics_of(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
-    >>> one_line, both = np.array([0, 1.0, 0, 1.0]), np.ones(4)
-    >>> bool(abs(one_line @ equation.form @ one_line) < 1e-12), bool(abs(both @ equation.form @ both) > 1)
-    (True, True)
+    Singular values below `zero` times the largest are zero, and forms whose entries are below it.
     """
     quadrics = []
     for loop in linkage.loops:
@@ -89,24 +64,9 @@ def shared_quadrics(
 ) -> list[Quadric]:
     """Return what self-stresses of several loops ask for beyond those of the loops alone.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    tangent : float[J, s]
-        The rates that agree to first order, orthonormal columns: the equations are written for these.
-    alone : sequence of Quadric
-        `quadrics_of` the linkage.
-    zero : float, optional
-        Values below this part of the largest are zero.
-
-    Returns
-    -------
-    list of Quadric
-        None of them a sum of others, or of those of the loops alone, on these rates.
-
-    Notes
-    -----
-    The matrix of all closure equations is dense here: for `rows_of` up to `MOST_ROWS`.
+    The equations are for the rates that agree to first order, orthonormal columns float[J, s]; none is a sum of
+    others, or of those of the loops alone (`quadrics_of`), on these rates. The matrix of all closure equations is
+    dense here: for `rows_of` up to `MOST_ROWS`.
     """
     size = tangent.shape[1]
     twists = [_twists(linkage, loop) for loop in linkage.loops]
@@ -130,13 +90,7 @@ def shared_quadrics(
 
 
 def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
-    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, those they have together.
-
-    Parameters
-    ----------
-    linkage, tangent, zero
-        As in `shared_quadrics`.
-    """
+    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, `shared_quadrics`."""
     alone = quadrics_of(linkage, zero)
     if rows_of(linkage) > MOST_ROWS:
         return alone

@@ -53,18 +53,10 @@ _SPACES = 64
 
 @dataclass(frozen=True, slots=True)
 class Followed:
-    """How far one branch was followed.
+    """How far one branch was followed: joint angles at the end, radians, and the loop-closure residual there.
 
-    Attributes
-    ----------
-    freedoms : int or None
-        At the end, to second order; None where no motion was found or second order does not tell.
-    sample : float[J]
-        Joint angles at the end, radians.
-    error : float
-        By how much loops do not close there.
-    far : float
-        How far the joint that moves most has moved there, radians; 0 where no motion was found.
+    Freedoms there are to second order; None where no motion was found or second order does not decide. `far` says
+    how far the joint that moves most has moved, radians; 0 where no motion was found.
     """
 
     freedoms: int | None
@@ -82,18 +74,8 @@ def followed(
 ) -> Followed:
     """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-        Closed at its pose.
-    closure : ClosureEquations
-        Of this linkage.
-    rates : float[J]
-        To begin with, to second order.
-    still : tuple of int
-        Places of the joints that do not begin to move on it.
-    allowance : Allowance, optional
-        Steps that may be taken.
+    The linkage is closed at its pose; initial rates agree to second order, and joints at the places `still` do not
+    begin to move. The allowance counts steps.
     """
     ways = [closure.locked(still), closure] if still else [closure]
     for way in ways:
@@ -171,17 +153,8 @@ def general_rates(
 
     Where two equations or more are left the parts are looked for from random starts: there may be others. Rates at
     which the equations have fewer independent slopes than at others, where parts meet, are left out. The second
-    value is whether no limit ended the search.
-
-    Parameters
-    ----------
-    space : RateSpace
-    most : int
-        After so many the search ends.
-    towards : float[J], optional
-        If it ends so, the part near to these rates is among those returned.
-    late : callable, optional
-        Whether it is time to end the search, with one part at least if there is one.
+    value is whether no limit ended the search. The search ends after `most` parts, then with the part near to the
+    rates `towards` among those returned, or once `late` says so, with one part at least if there is one.
     """
     size = space.basis.shape[1]
     if not space.left:

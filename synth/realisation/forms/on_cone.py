@@ -249,10 +249,7 @@ def _clear(chain: SCGraph, places: Floats) -> float:
 def _cones(linkage: ConicalLinkage) -> int | None:
     """Return on how many cones the link arcs alone lie; None if that is too many to look for.
 
-    Raises
-    ------
-    UnsolvableError
-        If the cone that they were laid on is none of these.
+    Raises `UnsolvableError` if the cone that they were laid on is none of these.
     """
     if max(len(loop.joints) for loop in linkage.chain.loops) > _MAPPED:
         return None

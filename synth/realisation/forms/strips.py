@@ -35,22 +35,8 @@ bodies of RR-RR-RR have five freedoms, not six."""
 def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph, tuple[str, ...]]:
     """Return the SCD graph of a string, its two bodies quadrilaterals, and what it is.
 
-    Parameters
-    ----------
-    chain : ChainString
-    mode : str, optional
-        One of its modes, as `enumerate.strings.graphs.chain_scd` takes it; all on one side without it.
-
-    Raises
-    ------
-    InvariantError
-        If the mode is none of the string.
-
-    Examples
-    --------
-    >>> scd, notes = drawn_string(ChainString.parse("RR-R-RRR"))
-    >>> len(scd), notes[0]
-    (7, 'RR-R-RRR: joints UPS, 6 freedoms between the first and the last panel in general position')
+    The mode is one as `enumerate.strings.graphs.chain_scd` takes it; all on one side without it. Raises
+    `InvariantError` if the string has no such mode.
     """
     scd = chain_scd(chain, mode, ends=(4, 4))
     between = f"{chain.dof} freedoms between the first and the last panel in general position"
@@ -65,14 +51,8 @@ def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph,
 
 
 def is_strip(pattern: Pattern) -> bool:
-    """Tell whether panels follow each other as those of a string do: triangles, and quadrilaterals between two.
+    """Return whether panels follow each other as those of a string do: triangles, and quadrilaterals between two.
 
-    Parameters
-    ----------
-    pattern : Pattern
-
-    Examples
-    --------
     >>> from graphs.convert.panels import scd_from_panels
     >>> from synth.realisation.pattern import pattern_of
     >>> [is_strip(pattern_of(scd_from_panels(panels)))
@@ -92,16 +72,9 @@ def is_strip(pattern: Pattern) -> bool:
 def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
     """Yield strips: panels between parallel creases are rectangles, creases of a cluster meet in a point.
 
-    The first has panels that are all alike, every other has its own widths and angles.
+    The first has panels that are all alike, every other has its own widths and angles. The first and last panel of
+    the pattern may have any number of sides.
 
-    Parameters
-    ----------
-    pattern : Pattern
-        A strip; its first and last panel may have any number of sides.
-    seed, tries : int
-
-    Examples
-    --------
     >>> from synth.realisation.pattern import pattern_of
     >>> (strip,) = strips(pattern_of(drawn_string(ChainString.parse("R-R"))[0]), 0, 1)
     >>> np.degrees(strip.angles).round(9).tolist() == [90.0] * 12
@@ -121,18 +94,8 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
 def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return a strip with its creases folded up and down by turns, each by an angle of its own: rectangles stay.
 
-    Parameters
-    ----------
-    pattern : Pattern
-        Of a string.
-    places : float[V, 2]
-    random : Generator
-
-    Returns
-    -------
-    places : float[V, 3]
-    angles : float[J]
-        By which creases are folded, radians; above 0 at valleys, seen from above.
+    Returns places float[V, 3], and the angles by which creases are folded, radians; above 0 at valleys, seen from
+    above.
     """
     points = np.column_stack([places, np.zeros(len(places))])
     least, most = _FOLDED

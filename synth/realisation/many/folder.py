@@ -19,13 +19,7 @@ __all__ = ["FolderOfThings", "store_beside"]
 
 
 def store_beside(folder: Path) -> Path:
-    """Return where the store of a folder is.
-
-    Examples
-    --------
-    >>> store_beside(Path("things")).name
-    'things.sqlite'
-    """
+    """Return where the store of a folder is: beside it, with the ending .sqlite."""
     return folder.with_name(folder.name + ".sqlite")
 
 

@@ -41,15 +41,9 @@ def with_finite_centres(pattern: Pattern) -> Pattern:
 
 @dataclass(frozen=True, slots=True)
 class _Heights:
-    """Heights over a drawing, for each lift: of vertices, and of centres that are to recede.
+    """Heights over a drawing, for each of K lifts: of vertices, and of centres that are to recede.
 
-    Attributes
-    ----------
-    vertices : float[V, 3]
-        Places in the drawing, and 1.
-    centres : float[C, 3]
-    of_vertices : float[V, K]
-    of_centres : float[C, K]
+    Vertices and centres, float[V, 3] and float[C, 3], are places in the drawing, and 1.
     """
 
     vertices: Floats
@@ -60,17 +54,8 @@ class _Heights:
     def plane(self, lifts: Floats) -> tuple[Floats, Floats, float]:
         """Return the combination of some lifts, and the plane through its centres, that is farthest above it.
 
-        Parameters
-        ----------
-        lifts : float[K, L]
-
-        Returns
-        -------
-        weights : float[L]
-            At most 1.
-        plane : float[3]
-        room : float
-            Of the vertex that is nearest below it; 0 if no plane goes through the centres.
+        Lifts are float[K, L]. Returns weights float[L], at most 1; the plane, float[3]; and its room over the
+        vertex that is nearest below it, 0 if no plane goes through the centres.
         """
         size = lifts.shape[1]
         over = np.hstack([self.of_vertices @ lifts, -self.vertices, np.ones((len(self.vertices), 1))])

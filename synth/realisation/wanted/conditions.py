@@ -18,15 +18,7 @@ Condition = Callable[[Floats], tuple[Floats, Floats]]
 
 
 def together(conditions: Sequence[Condition]) -> Condition:
-    """Return several conditions as one.
-
-    Examples
-    --------
-    >>> at_rest = together([lambda unknowns: (unknowns.ravel(), np.eye(unknowns.size))] * 2)
-    >>> off, by = at_rest(np.zeros((3, 2)))
-    >>> off.shape, by.shape
-    ((12,), (12, 6))
-    """
+    """Return several conditions as one."""
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
         parts = [one(unknowns) for one in conditions]

@@ -24,23 +24,8 @@ __all__ = ["flat_folding", "off_flat"]
 def flat_folding(pattern: Pattern) -> Condition:
     """Return by how much the reflections round each inner vertex and each hole miss to close, with derivatives.
 
-    Parameters
-    ----------
-    pattern : Pattern
-
-    Raises
-    ------
-    UnsolvableError
-        If an odd number of creases goes round a vertex or a hole: so many reflections turn the sheet over.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> off, by = flat_folding(fan)(np.array([[1.0, 0], [0, 1], [-1, 0], [0, -1], [0, 0]])[[4, 0, 1, 2, 3]])
-    >>> off.shape, by.shape
-    ((1,), (1, 10))
+    Raises `UnsolvableError` if an odd number of creases goes round a vertex or a hole: so many reflections turn
+    the sheet over.
     """
     rounds = creases_round(pattern)
     _check_even(pattern, rounds)
@@ -59,12 +44,9 @@ def flat_folding(pattern: Pattern) -> Condition:
 
 
 def off_flat(pattern: Pattern, places: Floats) -> float:
-    """Return by how much a drawing misses to be flat-foldable at most: radians, and units of length round holes.
+    """Return by how much a drawing misses to be flat-foldable at most.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    places : float[V, 2]
+    In radians, and in units of length round holes.
     """
     off, _ = flat_folding(pattern)(places)
     return float(np.abs(off).max(initial=0.0))

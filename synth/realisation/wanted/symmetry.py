@@ -37,12 +37,7 @@ class _Map:
 class Symmetry:
     """A group of maps of a pattern to itself, by turns and mirrors of the plane.
 
-    Attributes
-    ----------
-    turns : int
-        Order of the turns; 1 for none.
-    mirrors : int
-        How many mirrors there are: none, or as many as turns.
+    `turns` is the order of the turns, 1 for none; mirrors are none, or as many as turns.
     """
 
     turns: int
@@ -56,22 +51,12 @@ class Symmetry:
         return ", ".join(told)
 
     def condition(self, unknowns: Floats) -> tuple[Floats, Floats]:
-        """Return by how much unknowns miss where the maps take them, and derivatives.
-
-        Parameters
-        ----------
-        unknowns : float[n, 2]
-        """
+        """Return by how much unknowns, float[n, 2], miss where the maps take them, and derivatives."""
         parts = [_missed(one, unknowns) for one in self._generators]
         return np.concatenate([off for off, _ in parts]), np.concatenate([by for _, by in parts])
 
     def upright(self, places: Floats) -> Floats:
-        """Return places turned so that the first mirror stands upright, if there is one.
-
-        Parameters
-        ----------
-        places : float[n, 2]
-        """
+        """Return places turned so that the first mirror stands upright, if there is one."""
         if not self.mirrors:
             return places
         matrix = self._generators[-1].matrix
@@ -89,11 +74,7 @@ class Symmetry:
 def off_symmetry(symmetry: Symmetry, places: Floats) -> float:
     """Return how far a vertex is at most from where a map takes another, in units of the extent.
 
-    Parameters
-    ----------
-    symmetry : Symmetry
-    places : float[V, 2]
-        However they lie in the plane.
+    Places may lie anyhow in the plane.
     """
     count = len(places)
     centred = places - places.mean(axis=0)
@@ -106,20 +87,7 @@ def off_symmetry(symmetry: Symmetry, places: Floats) -> float:
 
 
 def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
-    """Return the groups of symmetries that a drawing may have, the largest first; none if there is none.
-
-    Parameters
-    ----------
-    pattern : Pattern
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> [str(one) for one in symmetries(fan)][:2]
-    ['turns by 90 degrees, 4 mirror(s)', 'turns by 90 degrees']
-    """
+    """Return the groups of symmetries that a drawing may have, the largest first; none if there is none."""
     border = len(pattern.outer)
     turns = dict(_maps(pattern, mirrored=False))
     mirrors = dict(_maps(pattern, mirrored=True))

@@ -15,14 +15,9 @@ __all__ = ["Sides", "creases_round", "sides_of"]
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """Which side follows which.
+    """Which side follows which along its panel, counter-clockwise (`after`) and clockwise (`before`).
 
-    Attributes
-    ----------
-    after, before : dict of side to side
-        Along the panel, counter-clockwise and clockwise.
-    creases : dict of side to int
-        The crease that a side is, in both directions; borders are in none.
+    `creases` gives the crease that a side is, in both directions; sides of the border are not in it.
     """
 
     after: dict[Edge, Edge]
@@ -31,16 +26,7 @@ class Sides:
 
 
 def sides_of(pattern: Pattern) -> Sides:
-    """Return which side of a pattern follows which.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> len(sides_of(fan).after), len(sides_of(fan).creases)
-    (12, 8)
-    """
+    """Return which side of a pattern follows which."""
     after: dict[Edge, Edge] = {}
     for panel in pattern.panels:
         sides = list(sides_of_face(panel))
@@ -52,8 +38,6 @@ def sides_of(pattern: Pattern) -> Sides:
 def creases_round(pattern: Pattern) -> list[tuple[int, ...]]:
     """Return the creases in the order in which a walk meets them: round each inner vertex, then round each hole.
 
-    Examples
-    --------
     >>> from graphs.convert.panels import scd_from_panels
     >>> from synth.realisation.pattern import pattern_of
     >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))

@@ -20,14 +20,9 @@ __all__ = ["Kept", "Wishes", "wishes_for"]
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
-    """What drawings are to be besides.
+    """What drawings are to be besides: flat-foldable, symmetric under a group, or both.
 
-    Attributes
-    ----------
-    flat_foldable : bool
-        Reflected in the creases round a vertex or a hole in turn, the sheet closes.
-    symmetry : Symmetry or None
-        The group that maps them to themselves.
+    Flat-foldable: reflected in the creases round a vertex or a hole in turn, the sheet closes.
     """
 
     flat_foldable: bool = False
@@ -39,13 +34,7 @@ class Wishes:
         return [*flat, *([self.symmetry.condition] if self.symmetry is not None else [])]
 
     def kept(self, pattern: Pattern, places: Floats) -> Kept:
-        """Return how well a drawing meets them.
-
-        Parameters
-        ----------
-        pattern : Pattern
-        places : float[V, 2]
-        """
+        """Return how well a drawing meets them."""
         return Kept(
             off_flat(pattern, places) if self.flat_foldable else None,
             off_symmetry(self.symmetry, places) if self.symmetry is not None else None,
@@ -55,18 +44,10 @@ class Wishes:
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """How well a drawing is what it was to be.
+    """How well a drawing meets the wishes; None for what was not among them.
 
-    Attributes
-    ----------
-    off_flat : float or None
-        By how much reflections in creases miss to close at most, radians, and units of length round holes; None if
-        it was not to be flat-foldable.
-    off_symmetry : float or None
-        How far a vertex is at most from where it is mapped to, in units of the extent; None if it was not to be
-        symmetric.
-    symmetry : str
-        In words.
+    `off_flat` is by how much reflections in creases miss to close at most, radians, and units of length round
+    holes; `off_symmetry` how far a vertex is at most from where it is mapped to, in units of the extent.
     """
 
     off_flat: float | None = None
@@ -96,23 +77,7 @@ class Kept:
 def wishes_for(pattern: Pattern, *, flat_foldable: bool, symmetric: bool) -> tuple[Wishes, ...]:
     """Return what to ask of drawings, in the order in which to try: the largest group of symmetries first.
 
-    Parameters
-    ----------
-    pattern : Pattern
-    flat_foldable, symmetric : bool
-
-    Raises
-    ------
-    UnsolvableError
-        If it cannot be flat-foldable, or has no symmetry that keeps its border.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> [str(one.symmetry) for one in wishes_for(fan, flat_foldable=True, symmetric=True)][:1]
-    ['turns by 90 degrees, 4 mirror(s)']
+    Raises `UnsolvableError` if it cannot be flat-foldable, or has no symmetry that keeps its border.
     """
     if flat_foldable:
         flat_folding(pattern)  # which says what stands in the way
