@@ -84,7 +84,7 @@ class Tolerances:
 
     @classmethod
     def of(cls, precision: float, joints: int = 1) -> Tolerances:
-        """Return the tolerances of a mechanism with so many joints: rounding errors add up as the root of their number.
+        """Return the tolerances of a mechanism; rounding errors add up as the root of its number of joints.
 
         The precision is the error of a coordinate, in units of the extent
         (`graphs.mechanism.precision.Precision.size`).
