@@ -54,7 +54,7 @@ def extent_of(points: Floats) -> float:
 
 
 def precision_of(coordinates: Sequence[Sequence[float]]) -> Precision:
-    """Return how precise coordinates are, by the numbers alone.
+    """Return how precise coordinates are, in any unit of length, by the numbers alone.
 
     >>> precision_of([(0.0, 0.0), (1.0, 0.0), (0.5, 0.25)]).source
     'double precision'
