@@ -181,11 +181,7 @@ class AddendumJob:
     def on_pair(self, a: LinkId, b: LinkId, before: int) -> Iterator[Addendum]:
         """Yield the addenda between two links; no two are exchanged by a symmetry.
 
-        Parameters
-        ----------
-        a, b : link ids
-        before : int
-            Mobility of the mechanism.
+        `before` is the mobility of the mechanism.
         """
         seen: set[Any] = set()
         for kind, through, links, centre in self._loops(a, b):

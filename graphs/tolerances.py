@@ -88,14 +88,10 @@ class Tolerances:
 
     @classmethod
     def of(cls, precision: float, joints: int = 1) -> Tolerances:
-        """Return the tolerances of a mechanism.
+        """Return the tolerances of a mechanism; rounding errors add up as the root of its number of joints.
 
-        Parameters
-        ----------
-        precision : float
-            Error of a coordinate, in units of the extent (`graphs.mechanism.precision.Precision.size`).
-        joints : int, optional
-            How many it has: errors of rounding add up as the root of their number.
+        The precision is the error of a coordinate, in units of the extent
+        (`graphs.mechanism.precision.Precision.size`).
         """
         rounding = max(precision, EPSILON)
         wrong = _MOVED * precision

@@ -78,14 +78,7 @@ def count_inversions_by_orbits(codes: Bytes, n: int, links: int, most: int) -> i
 def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix: Ints) -> int:
     """Return the number of chains of one contracted graph that begin in one way.
 
-    Parameters
-    ----------
-    code, n, links, most
-        As for `count_by_orbits`.
-    only : int
-        Placements with this number W of bound units only; `EVERY` for all.
-    prefix : int64[p]
-        Where the first units lie.
+    `only`: placements with this number W of bound units only, or `EVERY`; `prefix`: where the first units lie.
     """
     ends, first, moved, _ = frame_of(code, n)
     sets, needs = rigid_sets(decode(code, n), n)
@@ -98,15 +91,8 @@ def count_in(
 ) -> int:
     """Return the number of placements on joints with given symmetries.
 
-    Parameters
-    ----------
-    ends, first, moved
-        Joints, first parallel ones, and permutations of the joints: `enumerate.contracted.binary_links`.
-    sets, needs
-        As `enumerate.contracted.binary_links.rigid_sets` returns them.
-    n, prefix
-        As for `count_of_graph`.
-    wanted : Wanted
+    Joints, first parallel ones, and permutations of the joints are those of `enumerate.contracted.binary_links`,
+    sets and needs those that its `rigid_sets` returns.
     """
     total, links = 0, wanted.links
     if wanted.only == EVERY and len(prefix) == 0:

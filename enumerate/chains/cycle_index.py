@@ -91,8 +91,6 @@ def count_connected(links: int, dof: int) -> int:
 def block_cycle_index(links: int, dof: int) -> dict[Monomial, Fraction]:
     """Return the sum of the cycle indices, over links, of all chains that nothing cuts.
 
-    Examples
-    --------
     >>> index = block_cycle_index(4, 1)  # the dihedral group of a four-bar
     >>> index[((1, 4),)], index[((4, 1),)], index[((2, 2),)]
     (Fraction(1, 8), Fraction(1, 4), Fraction(3, 8))

@@ -27,10 +27,6 @@ _BRIDGE_BLOCK: Block = (2, ((0, 1),))
 def shapes(links: int, dof: int) -> Iterator[tuple[tuple[int, int], ...]]:
     """Yield the multisets of block sizes (links, dof), largest first, of chains of two blocks or more.
 
-    Examples
-    --------
-    >>> list(shapes(7, 2))
-    [((4, 1), (4, 1))]
     >>> list(shapes(8, 3))
     [((5, 2), (4, 1)), ((4, 1), (4, 1), (2, 1))]
     """
@@ -56,12 +52,8 @@ def block_choices(
 ) -> Iterator[tuple[Block, ...]]:
     """Yield all multisets of blocks of given sizes; those of the largest size are read one by one.
 
-    Parameters
-    ----------
-    shape : sequence of (int, int)
-        Links and freedoms of the blocks, as `shapes` gives them.
-    blocks : callable
-        Yields all chains that nothing cuts, of so many links and freedoms.
+    The sizes (links, dof) are those of one of `shapes`; `blocks` yields all chains of such a size that nothing
+    cuts.
     """
     runs = [(size, len(list(run))) for size, run in groupby(shape)]
 
@@ -83,8 +75,6 @@ def block_choices(
 def glued(blocks: Sequence[Block]) -> list[Joints]:
     """Return all chains, up to isomorphism, whose blocks are these; every link has two joints or more.
 
-    Examples
-    --------
     >>> ring = (4, ((0, 1), (1, 2), (2, 3), (0, 3)))
     >>> len(glued([ring, ring])), len(glued([ring, ring, (2, ((0, 1),))]))
     (1, 1)

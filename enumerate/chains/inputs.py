@@ -17,21 +17,9 @@ Joint = tuple[int, int]
 
 
 def are_inputs(links: int, joints: Sequence[Joint], locked: Sequence[int]) -> bool:
-    """Tell whether locking some joints of a chain takes one freedom each.
+    """Return whether locking some joints of a chain, by their indices, takes one freedom each.
 
-    Parameters
-    ----------
-    links : int
-    joints : sequence of (int, int)
-        Of a chain without rigid sub-chains.
-    locked : sequence of int
-        Indices of joints.
-
-    Examples
-    --------
-    >>> ring = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 0)]
-    >>> are_inputs(5, ring, [0, 2]), are_inputs(5, ring, [0, 1, 2])
-    (True, False)
+    The chain has no rigid sub-chains.
     """
     bars = [
         end for index, end in zip(range(len(joints)), joints, strict=True) for _ in range(2 + (index in locked))
@@ -83,22 +71,12 @@ def _fetch(node: int, keep: int, pebbles: list[int], out: list[list[int]]) -> bo
 def input_choices(
     links: int, joints: Sequence[Joint], generators: Sequence[Sequence[int]], dof: int
 ) -> Iterator[tuple[int, list[Joint]]]:
-    """Yield choices of a ground link and input joints of a chain, one of each orbit, the least one.
+    """Yield choices of a ground link and `dof` input joints of a chain, one of each orbit, the least one.
 
-    Parameters
-    ----------
-    links : int
-    joints : sequence of (int, int)
-    generators : sequence of permutations of the links
-        They generate the automorphisms.
-    dof : int
-        Number of input joints.
+    The generators are permutations of the links that generate the automorphisms.
 
-    Examples
-    --------
     >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> turn, flip = [1, 2, 3, 0], [0, 3, 2, 1]
-    >>> list(input_choices(4, ring, [turn, flip], 1))
+    >>> list(input_choices(4, ring, [[1, 2, 3, 0], [0, 3, 2, 1]], 1))
     [(0, [(0, 1)]), (0, [(1, 2)])]
     """
     ordered = sorted((min(joint), max(joint)) for joint in joints)

@@ -121,10 +121,8 @@ class ChainQuery:
 
 
 def is_planar(adjacency: Bytes) -> bool:
-    """Tell whether a multigraph, given by its matrix, is planar.
+    """Return whether a multigraph, given by its matrix, is planar.
 
-    Examples
-    --------
     >>> is_planar(1 - np.eye(5, dtype=np.uint8))
     False
     """

@@ -73,12 +73,7 @@ def columns_of(query: ChainQuery, bare: bool) -> dict[str, Column]:
 class GraphChains:
     """The chains of one contracted graph that a query asks for.
 
-    Attributes
-    ----------
-    x : uint8[r, m]
-        Binary links on each joint.
-    order : int64[r]
-        Automorphisms of each chain.
+    Rows of x, uint8[r, m], are the binary links on each joint, `order` counts the automorphisms of each chain.
     """
 
     code: Bytes
@@ -132,19 +127,9 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
 
 
 def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tuple[list[str], Ints]:
-    """Return the ids of simple chains of N links, and the canonical numbers of their links.
+    """Return the ids of simple chains of N links, and the canonical numbers of their links, int64[r, N].
 
-    Parameters
-    ----------
-    links : int
-    joints : int64[r, J, 2]
-    automorphisms : int64[r], optional
-        How many each chain has, where that is known: without, chains with symmetries take longer.
-
-    Returns
-    -------
-    list of str
-    int64[r, N]
+    `automorphisms` says how many each chain has, where that is known: without, chains with symmetries take longer.
     """
     if not len(joints):
         return [], np.zeros((0, links), np.int64)
@@ -163,12 +148,7 @@ def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tu
 def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints) -> Iterator[Row]:
     """Yield the ground links of a chain, with input joints where asked for, one of each orbit.
 
-    Parameters
-    ----------
-    query : ChainQuery
-    joints : list of (int, int)
-    generators : int64[g, links]
-        Permutations of links that generate the automorphisms.
+    The generators, int64[g, links], are permutations of links that generate the automorphisms.
     """
     if query.inputs:
         for ground, inputs in input_choices(query.links, joints, generators.tolist(), query.dof):

@@ -126,22 +126,8 @@ def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:
     """Return the arc and the layer of each link, in the fewest layers (`fewest_layers`).
 
     Of many more than twenty links they may be more than the fewest: the search ends after a fraction of a second.
-
-    Parameters
-    ----------
-    arcs : int64[N, o]
-        Masks of the arcs that each link can take.
-
-    Returns
-    -------
-    chosen : int64[N]
-        Which of its arcs each link takes.
-    layer_of : int64[N]
-        From 0 on.
-
-    Examples
-    --------
-    The first link has two arcs to choose from; the second leaves room in its layer.
+    Arcs, int64[N, o], are masks of those that each link can take; layers count from 0. In the example, the first
+    link has two arcs to choose from, and the second leaves room in its layer.
 
     >>> [found.tolist() for found in layers_of_links(np.array([[0b011, 0b100], [0b011, 0]]))]
     [[1, 0], [0, 0]]

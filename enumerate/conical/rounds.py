@@ -30,15 +30,7 @@ __all__ = ["Rounds", "canonical_row", "count_by_burnside", "count_by_orbits", "p
 
 @dataclass(frozen=True, slots=True)
 class Rounds:
-    """Where joints may lie.
-
-    Attributes
-    ----------
-    joints : int
-    slots : int
-    classes : int
-        Slots that are equal modulo this number exclude each other.
-    """
+    """Where joints may lie: on slots, of which those equal modulo `classes` exclude each other."""
 
     joints: int
     slots: int
@@ -140,32 +132,11 @@ def _listed(symmetries: Ints, slots: int, classes: int, prefix: Ints, keep: bool
 
 
 def placements(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,)) -> tuple[Ints, Ints]:
-    """Return placements, one of each orbit, in lexicographic order.
+    """Return placements, one of each orbit, in lexicographic order: the slot of each joint, int64[r, J].
 
-    Parameters
-    ----------
-    rounds : Rounds
-    symmetries : int64[g, J]
-        All of them, as `enumerate.conical.symmetries.joint_symmetries` returns them.
-    prefix : tuple of int, optional
-        Slots of the first joints; joint 0 lies on slot 0.
-
-    Returns
-    -------
-    rows : int64[r, J]
-        Slot of each joint.
-    order : int64[r]
-        How many symmetries of the chain, each with a turn or mirror image, leave the placement as it is.
-
-    Examples
-    --------
-    The cyclic orders of a four-bar's joints: open, and crossed.
-
-    >>> from enumerate.conical.symmetries import joint_symmetries
-    >>> symmetries = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])))
-    >>> rows, order = placements(Rounds.orders(4), symmetries)
-    >>> rows.tolist(), order.tolist()
-    ([[0, 1, 2, 3], [0, 1, 3, 2]], [8, 4])
+    With them comes how many symmetries of the chain, each with a turn or mirror image, leave each as it is. All
+    symmetries are given, as `enumerate.conical.symmetries.joint_symmetries` returns them, and slots of the first
+    joints; joint 0 lies on slot 0.
     """
     rows, order, _ = _listed(symmetries, rounds.slots, rounds.classes, np.array(prefix, np.int64), True)
     return rows, order[:, 0]
@@ -187,8 +158,6 @@ def prefixes(rounds: Rounds, most: int) -> Iterator[tuple[int, ...]]:
 
     Joint 1 is kept to one half of the circle: what lies in the other is a mirror image.
 
-    Examples
-    --------
     >>> list(prefixes(Rounds.orders(4), 1))
     [(0, 1, 2), (0, 1, 3), (0, 2, 1), (0, 2, 3)]
     """
@@ -209,16 +178,7 @@ def prefixes(rounds: Rounds, most: int) -> Iterator[tuple[int, ...]]:
 def canonical_row(row: Ints, symmetries: Ints, slots: int) -> tuple[int, ...]:
     """Return the least placement of the orbit of a placement.
 
-    Parameters
-    ----------
-    row : int64[J]
-    symmetries : int64[g, J]
-    slots : int
-
-    Examples
-    --------
-    >>> identity = np.array([[0, 1, 2, 3]])
-    >>> canonical_row(np.array([3, 1, 0, 2]), identity, 4)
+    >>> canonical_row(np.array([3, 1, 0, 2]), np.array([[0, 1, 2, 3]]), 4)
     (0, 2, 1, 3)
     """
     moved = np.asarray(row)[symmetries]

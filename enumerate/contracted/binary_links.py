@@ -34,16 +34,9 @@ _BYTE = np.uint64(0xFF)
 
 
 class Units(NamedTuple):
-    """The binary links that are left to place.
+    """The binary links that are left to place, at most `most` on a slot.
 
-    Attributes
-    ----------
-    bound : int
-        W, the first and second units on slots: those that the conditions count.
-    free : int
-        Units beyond the second on a slot.
-    most : int
-        No slot may hold more.
+    `bound` is W, the first and second units on slots: those that the conditions count; `free` are the others.
     """
 
     bound: int
@@ -60,16 +53,9 @@ class _Range(NamedTuple):
 
 
 class Wanted(NamedTuple):
-    """Which placements are asked for.
+    """Which placements on chains of N links are wanted: strings of at most `most` binary links.
 
-    Attributes
-    ----------
-    links : int
-        Number of links N of the chains.
-    most : int
-        The longest string of binary links to allow.
-    only : int
-        Placements with this number W of bound units only; `EVERY` for all.
+    `only`: placements with this number W of bound units only, or `EVERY`.
     """
 
     links: int
@@ -85,12 +71,7 @@ EVERY = -1
 def slots(adjacency: Bytes, n: int) -> tuple[Bytes, Ints]:
     """Return the joints in the order in which they are filled, parallel ones together.
 
-    Returns
-    -------
-    ends : uint8[m, 2]
-        The links a > b at the ends of each joint.
-    first : int64[m]
-        Of each joint, the first of the joints parallel to it.
+    Ends, uint8[m, 2], are links a > b; with them, int64[m], comes the first of the joints parallel to each.
     """
     m = 0
     for a in range(n):
@@ -129,14 +110,8 @@ def rigid_sets(adjacency: Bytes, n: int) -> tuple[Ints, Ints]:
     """Return the sets of links that could become rigid, and what each needs; the whole set last.
 
     Only sets that say something: proper sets that need more than nothing, are 2-connected (the conditions of its
-    blocks imply that of any other), and hold no smaller set that needs as much.
-
-    Returns
-    -------
-    sets : int64[k]
-        Bit v is set where link v belongs to the set.
-    needs : int64[k]
-        2 |E(S)| - 3 |S| + 4.
+    blocks imply that of any other), and hold no smaller set that needs as much. Bit v of a set is set where link v
+    belongs to it; a set S needs 2 |E(S)| - 3 |S| + 4.
     """
     score = np.zeros(1 << n, np.int16)  # 2 |E(S)| - 3 |S|
     found = np.zeros((64, 2), np.int64)
@@ -201,12 +176,8 @@ def _connected(adjacency: Bytes, n: int, s: int) -> bool:
 def conditions(ends: Bytes, sets: Ints, needs: Ints, total: int) -> tuple[Words, Words]:
     """Return the conditions on placements of W units as counters, eight a word.
 
-    Returns
-    -------
-    room : uint64[k]
-        How many units may lie outside each set, with the guard bit of each counter set.
-    weight : uint64[m, k]
-        What one unit on a joint takes from the counters.
+    Room, uint64[k], is how many units may lie outside each set, with the guard bit of each counter set; weight,
+    uint64[m, k], is what one unit on a joint takes from the counters.
     """
     m = len(ends)
     room = np.zeros((len(sets) + 7) // 8, np.uint64)
@@ -263,30 +234,12 @@ def place(
     out: Bytes,
     fixing: Ints,
 ) -> int:
-    """Count placements, or list them.
+    """Count placements, or list them where `out`, uint8[r, m], has rows; only the first r are written.
 
-    Parameters
-    ----------
-    room, weight : uint64[k], uint64[m, k]
-        The conditions; ``weight`` of one unit on each slot.
-    cost, first : int64[m], int64[m]
-        Units that one unit on a slot stands for; the first slot of its group, whose values must not rise.
-    units : Units
-        How many there are to place.
-    symmetries : uint8[a, m]
-        Permutations of the slots, the identity first; a placement is kept if none of them makes it larger. With
-        one alone every placement is kept.
-    prefix : int64[p]
-        Slots of the first units: only placements that begin so.
-    out : uint8[r, m]
-        Where to write placements; with r = 0 they are only counted.
-    fixing : int64[r]
-        Where to write by how many of the permutations each placement is left as it is.
-
-    Returns
-    -------
-    int
-        The number of placements. Where it is more than r > 0, only the first r are written.
+    Room and weight (of one unit on each slot) are the `conditions`; the cost is the units that one unit on a slot
+    stands for, `first` the first slot of its group, whose values must not rise. Symmetries, uint8[a, m], are
+    permutations of the slots, the identity first: a placement is kept if none makes it larger, and `fixing`,
+    int64[r], gets how many leave it as it is. The prefix is the slots of the first units.
     """
     m = len(cost)
     bound, free, most = units.bound, units.free, units.most

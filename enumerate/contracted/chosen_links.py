@@ -28,19 +28,11 @@ _NONE = np.uint64(0)
 def count_with_a_link(
     ends: Bytes, first: Ints, moved: Bytes, automorphisms: Bytes, sets: Ints, needs: Ints, units: int, most: int
 ) -> int:
-    """Return the number of placements of binary links with a link chosen, one of each orbit.
+    """Return the number of placements of binary links (`units`) with a link chosen, one of each orbit.
 
-    Parameters
-    ----------
-    ends, first, moved, automorphisms
-        Joints, first parallel ones, and what automorphisms do to joints and to links:
-        `enumerate.contracted.listing.frame_of`.
-    sets, needs
-        As `enumerate.contracted.binary_links.rigid_sets` returns them.
-    units : int
-        Binary links to place.
-    most : int
-        No joint may hold more.
+    Joints, first parallel ones, and what automorphisms do to joints and to links are those of
+    `enumerate.contracted.listing.frame_of`, sets and needs those of
+    `enumerate.contracted.binary_links.rigid_sets`. No joint holds more than `most`.
     """
     total = alone = 0
     for v in range(automorphisms.shape[1]):
@@ -82,10 +74,7 @@ def _without_symmetries(
 ) -> tuple[int, int]:
     """Return the number of all placements, and of all links that can be chosen in some classes of all of them.
 
-    Parameters
-    ----------
-    chosen_from : bool[m]
-        Set at the first joint of those classes.
+    `chosen_from`, bool[m], is set at the first joint of those classes.
     """
     identity = np.arange(len(ends)).astype(np.uint8).reshape(1, -1)
     order = order_of_classes(ends, first, identity, sets)
@@ -117,14 +106,8 @@ def _with_a_string(
 
     Symmetries that exchange the ends of the class turn the string round. Its middle link stays, so it is chosen
     with placements up to all symmetries; of the others one half is exchanged with the other, so those of one half
-    are chosen, up to the symmetries that turn nothing.
-
-    Parameters
-    ----------
-    moved, automorphisms
-        Of the symmetries that leave the class where it is.
-    e : int
-        First joint of the class.
+    are chosen, up to the symmetries that turn nothing. Permutations `moved` and `automorphisms` are those of the
+    symmetries that leave the class, with first joint e, where it is.
     """
     turning = automorphisms[:, ends[e, 0]] != ends[e, 0]
     turned = turning.any()
@@ -150,10 +133,7 @@ def _with_a_string(
 def _without_joint(ends: Bytes, first: Ints, moved: Bytes, joint: int) -> tuple[Bytes, Ints, Bytes]:
     """Return ends, first parallel joints and permutations of the other joints; none moves this one.
 
-    Parameters
-    ----------
-    joint : int
-        The last of its class.
+    The joint is the last of its class.
     """
     m = len(ends)
     others, alike = np.empty((m - 1, 2), np.uint8), np.empty(m - 1, np.int64)

@@ -18,16 +18,9 @@ __all__ = ["Classes", "Counters", "classes_in_order", "order_of_classes", "strin
 
 
 class Counters(NamedTuple):
-    """How counters lie in a word.
+    """How counters lie in a word: one in each, its guard bit, and the largest value of one.
 
-    Attributes
-    ----------
-    ones, guard : uint64
-        One in each counter; its guard bit.
-    full : uint64
-        The largest value of one.
-    last : uint64
-        How far the guard bit of one is from its first bit.
+    `last` is how far the guard bit of one is from its first bit.
     """
 
     ones: np.uint64
@@ -37,20 +30,11 @@ class Counters(NamedTuple):
 
 
 class Classes(NamedTuple):
-    """Classes of parallel joints, in the order in which they are filled.
+    """Classes of parallel joints, in the order in which they are filled: the first joint of each, and how many.
 
-    Attributes
-    ----------
-    joint, size : int64[c]
-        The first joint of each, and how many there are.
-    rest : int64[c + 1]
-        Number of joints of the classes from each on.
-    counters : uint64[c + 1, 3, k]
-        One in the counter of each set that a class lies in; what the classes from it on can hold inside each set,
-        two on a joint; and what they can hold outside.
-    needs : uint64[k]
-        What each set needs.
-    laid : Counters
+    `rest` is the number of joints of the classes from each on. `counters`, uint64[c + 1, 3, k], hold one in the
+    counter of each set that a class lies in; what the classes from it on can hold inside each set, two on a joint;
+    and what they can hold outside. `needs` is what each set needs.
     """
 
     joint: Ints
@@ -109,20 +93,10 @@ def lies_in(ends: Bytes, joint: int, links: int) -> np.int64:
 def classes_in_order(
     ends: Bytes, first: Ints, order: Ints, sets: Ints, needs: Ints, units: int, most: int
 ) -> Classes:
-    """Return the classes in an order, with the sets that say something of so many binary links.
+    """Return the classes in an order of first joints, with the sets that constrain so many binary links (`units`).
 
-    Parameters
-    ----------
-    ends, first
-        As `enumerate.contracted.binary_links.slots` returns them.
-    order : int64[c]
-        First joint of each class.
-    sets, needs
-        As `enumerate.contracted.binary_links.rigid_sets` returns them.
-    units : int
-        Binary links to place.
-    most : int
-        No joint may hold more.
+    Ends and first joints are those of `enumerate.contracted.binary_links.slots`, sets and needs those of its
+    `rigid_sets`; no joint holds more than `most`.
     """
     count, each = len(order), min(most, 2)
     size, rest = np.zeros(count, np.int64), np.zeros(count + 1, np.int64)
@@ -176,24 +150,9 @@ def strings_of_classes(largest: int, units: int, most: int) -> tuple[Ints, Ints]
 
     Of p joints with two or more, f units beyond the second are a partition of f into p parts at most, none above
     ``most`` - 2. Links of equal strings are alike, so a way has as many that differ as its lengths, each once, add
-    up to.
-
-    Parameters
-    ----------
-    largest : int
-        The largest number of parallel joints.
-    units : int
-        Binary links, at most.
-    most : int
-        The longest string.
-
-    Returns
-    -------
-    start : int64[largest + 2]
-        Where the rows for so many joints begin.
-    ways : int64[r, 4]
-        Units, those that are first or second on their joint, the number of ways, and of links that differ in all
-        of them.
+    up to. Rows begin at start, int64[largest + 2], for so many joints; ways, int64[r, 4], are units (`units` at
+    most), those that are first or second on their joint, the number of ways, and of links that differ in all of
+    them.
     """
     start = np.zeros(largest + 2, np.int64)
     ways = np.zeros((64, 4), np.int64)

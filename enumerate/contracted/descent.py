@@ -117,17 +117,8 @@ def _children(parents: Bytes, n: int) -> Bytes:
 def _halves(adjacency: Bytes, n: int, u: int, v: int, numbers: Ints) -> Ints:
     """Return where the other two joints of a ternary link of two lead, u > v, that become one: int64[h, 2].
 
-    Parameters
-    ----------
-    adjacency : uint8[n, n]
-    n, u, v : int
-    numbers : int64[n - 1]
-        The numbers that links have when u is gone.
-
-    Returns
-    -------
-    int64[h, 2]
-        A row for u, for v, or for each if both are ternary: the lesser number first.
+    A row for u, for v, or for each if both are ternary, the lesser number first; `numbers`, int64[n - 1], are
+    those that links have when u is gone.
     """
     found = np.zeros((2, 2), np.int64)
     used = 0
@@ -151,22 +142,12 @@ def _halves(adjacency: Bytes, n: int, u: int, v: int, numbers: Ints) -> Ints:
 
 @compiled
 def _is_first_split(child: Bytes, order: Bytes, symmetries: Bytes, link: int, halves: Ints) -> bool:
-    """Tell whether a symmetry takes a split of a graph to the first of all that are looked at.
+    """Return whether a symmetry takes a split of a graph to the first of all that are looked at.
 
-    The first split takes the first link of a degree, and the first two of its joints.
-
-    Parameters
-    ----------
-    child : uint8[n, n]
-    order : uint8[n]
-        The link that has each canonical number.
-    symmetries : uint8[a, n]
-        Automorphisms, of the canonical numbers.
-    link : int
-        Number of the link that is split.
-    halves : int64[h, 2]
-        Numbers of the links to which two joints lead that are split off; the joints that are left are the other
-        row, where there are two.
+    The first split takes the first link of a degree, and the first two of its joints. `order` is the link that has
+    each canonical number, symmetries, uint8[a, n], are automorphisms of these numbers; halves, int64[h, 2], are
+    numbers of the links to which two joints lead that are split off, and in the other row, where there are two,
+    those of the joints that are left.
     """
     n = len(order)
     degree = np.zeros(n, np.int64)

@@ -33,22 +33,10 @@ def outer_faces(code: Bytes) -> Ints:
 
 @compiled
 def outer_frame(code: Bytes, outer: int) -> tuple[Bytes, Bytes, Ints]:
-    """Return of a contracted map its joints, and its symmetries that keep a face.
+    """Return of a contracted map the links of its joints, and its symmetries that keep a face, the identity first.
 
-    Parameters
-    ----------
-    code : uint8[:]
-    outer : int
-        The face; -1 for all symmetries.
-
-    Returns
-    -------
-    ends : uint8[m, 2]
-        The links of each joint.
-    moved : uint8[s, m]
-        Where the symmetries take each joint, the identity first.
-    faces : int64[s, F]
-        Where they take each face.
+    Symmetries are where they take each joint, uint8[s, m], and each face, int64[s, F]; all of them if the face is
+    -1.
     """
     turn, vertex, _ = decode_map(code)
     face, count = faces_of(turn)

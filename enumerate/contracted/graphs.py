@@ -107,13 +107,7 @@ def _theta() -> Bytes:
 
 @compiled
 def decode(code: Bytes, n: int) -> Bytes:
-    """Return the matrix of a code: uint8[n, n], the numbers of joints between links.
-
-    Examples
-    --------
-    >>> decode(np.array([0, 0, 0], np.uint8), 2).tolist()
-    [[0, 3], [3, 0]]
-    """
+    """Return the matrix of a code: uint8[n, n], the numbers of joints between links."""
     adjacency = np.zeros((n, n), np.uint8)
     for place in code:
         u, v = _ends(place)

@@ -14,14 +14,9 @@ __all__ = ["Growth"]
 class Growth(NamedTuple):
     """A kind of cubic graphs or maps that extend to larger ones, and whose joints can be contracted.
 
-    Attributes
-    ----------
-    most_loops : int
-    smallest : callable
-        Returns the codes of those with two links and two loops.
-    extend, contract : callable
-        Return the codes, one row each, of those with two links more, and one loop more, than some; of those with a
-        link less. Arguments are codes and their number of links.
+    `smallest` returns the codes of those with two links and two loops; `extend` and `contract` take codes and
+    their number of links, and return the codes of those with two links more, and one loop more, or with a link
+    less.
     """
 
     most_loops: int
@@ -32,10 +27,7 @@ class Growth(NamedTuple):
     def cubic(self, loops: int) -> Bytes:
         """Return the codes of all cubic ones with so many loops.
 
-        Raises
-        ------
-        InvariantError
-            If there are too few or too many loops.
+        Raises `InvariantError` if these are too few or too many.
         """
         if not 2 <= loops <= self.most_loops:
             raise InvariantError("loops", f"{loops} loops", f"2 to {self.most_loops}")

@@ -27,18 +27,11 @@ _FIRST = 3
 
 
 class Cycles(NamedTuple):
-    """The cycles of a permutation of joints, in the order in which they are filled.
+    """The cycles of a permutation of joints, in the order in which they are filled, with their numbers of joints.
 
-    Attributes
-    ----------
-    cost : int64[s]
-        Number of joints.
-    start : int64[s]
-        The first of the cycles that run through parallel joints side by side; their values do not rise.
-    outside : int64[s, k]
-        How many joints lie outside each set.
-    still : int64[s]
-        Of a string on a cycle, which links stay where they are: 0 for none, 1 for all, 2 for the middle one.
+    `start` is the first of the cycles that run through parallel joints side by side; their values do not rise.
+    `outside`, int64[s, k], is how many joints lie outside each set; `still` says of a string on a cycle which
+    links stay where they are: 0 for none, 1 for all, 2 for the middle one.
     """
 
     cost: Ints
@@ -49,20 +42,11 @@ class Cycles(NamedTuple):
 
 @compiled
 def cycles_of(moved: Bytes, automorphism: Bytes, ends: Bytes, first: Ints, order: Ints, sets: Ints) -> Cycles:
-    """Return the cycles of a permutation of joints.
+    """Return the cycles of a permutation `moved` of joints, which keeps the order of parallel joints.
 
-    Parameters
-    ----------
-    moved : uint8[m]
-        The permutation, which keeps the order of parallel joints.
-    automorphism : uint8[n]
-        What it does to the links.
-    ends, first
-        As `enumerate.contracted.binary_links.slots` returns them.
-    order : int64[c]
-        First joint of each class of parallel ones, in the order in which they are filled.
-    sets : int64[k]
-        As `enumerate.contracted.binary_links.rigid_sets` returns them; the last is the whole.
+    `automorphism` is what it does to the links; ends and first joints are those of
+    `enumerate.contracted.binary_links.slots`, sets those of its `rigid_sets`, the whole last. The order is that of
+    first joints of classes of parallel ones, as they are filled.
     """
     m = len(ends)
     cost, start, still = np.zeros(m, np.int64), np.zeros(m, np.int64), np.zeros(m, np.int64)
@@ -93,17 +77,8 @@ def count_left_in_place(cycles: Cycles, needs: Ints, bound: int, free: int, most
     """Return the number of placements, and of links of their strings that stay where they are, in all of them.
 
     Of equal parallel strings that are permuted among themselves, one stays in the mean; of a string that is turned
-    round, the link in the middle.
-
-    Parameters
-    ----------
-    cycles : Cycles
-    needs : int64[k + 1]
-        What the sets need; of the whole set last.
-    bound, free : int
-        First and second units on joints, and those beyond.
-    most : int
-        No joint may hold more.
+    round, the link in the middle. Needs are those of the sets, of the whole set last; bound units are the first
+    and second on joints, free ones those beyond, and no joint holds more than `most`.
     """
     inside, beyond = _capacities(cycles)
     rows = np.zeros((1, _FIRST + beyond.shape[1]), np.int64)

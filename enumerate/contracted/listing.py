@@ -47,19 +47,10 @@ def frame_of(code: Bytes, n: int) -> tuple[Bytes, Ints, Bytes, Bytes]:
 
 @compiled
 def placements_of(code: Bytes, n: int, links: int, most: int, only: int, prefix: Ints) -> tuple[Bytes, Ints]:
-    """List the placements of binary links on a contracted graph.
+    """List the placements of binary links on a contracted graph: binary links on each joint, uint8[r, m].
 
-    Parameters
-    ----------
-    code, n, links, most, only, prefix
-        As for `enumerate.chains.counting.count_of_graph`.
-
-    Returns
-    -------
-    x : uint8[r, m]
-        Binary links on each joint.
-    order : int64[r]
-        Number of automorphisms of each chain.
+    With them comes the number of automorphisms of each chain. Arguments are those of
+    `enumerate.chains.counting.count_of_graph`.
     """
     ends, first, moved, _ = frame_of(code, n)
     sets, needs = rigid_sets(decode(code, n), n)
@@ -198,12 +189,7 @@ def orbits_of_all(ends: Bytes, first: Ints, moved: Bytes, automorphisms: Bytes, 
 def graph6_rows(joints: Ints, labels: Ints) -> Bytes:
     """Return graph6 lines of simple graphs whose nodes are renamed: uint8[r, length].
 
-    Parameters
-    ----------
-    joints : int64[r, J, 2]
-        Joints of each graph.
-    labels : int64[r, N]
-        The new names of its nodes, 0 to N - 1.
+    Labels, int64[r, N], are the new names of the nodes, 0 to N - 1.
     """
     rows, n = labels.shape
     head = 1 if n <= 62 else 4

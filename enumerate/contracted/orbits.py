@@ -25,17 +25,9 @@ _NONE = np.uint64(0)
 def count_orbits(ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, units: int, most: int) -> int:
     """Return the number of placements of binary links on joints with given symmetries, one of each orbit.
 
-    Parameters
-    ----------
-    ends, first, moved
-        Joints, first parallel ones, and permutations of the joints, which keep the order of parallel ones:
-        `enumerate.contracted.binary_links`.
-    sets, needs
-        As `enumerate.contracted.binary_links.rigid_sets` returns them.
-    units : int
-        Binary links to place.
-    most : int
-        No joint may hold more.
+    Joints, first parallel ones, and permutations of the joints, which keep the order of parallel ones, are those
+    of `enumerate.contracted.binary_links`, sets and needs those of its `rigid_sets`. There are `units` binary
+    links, no more than `most` on a joint.
     """
     order = order_of_classes(ends, first, moved, sets)
     classes = classes_in_order(ends, first, order, sets, needs, units, most)
@@ -107,19 +99,8 @@ def _compared(
 ) -> tuple[States, Words]:
     """Fill an orbit that symmetries may leave as it is, or make larger, which is not kept.
 
-    Parameters
-    ----------
-    states, i : States, int
-        The table, and the state before.
-    classes : Classes
-    images : int64[a, m]
-        As `_images` returns them.
-    groups : uint64[g, w]
-        Which symmetries a number of a state stands for.
-    end : int
-        Number of classes up to the end of the orbit.
-    most : int
-        No joint may hold more.
+    The table is `states`, i the state before; images are those of `_images`; `groups`, uint64[g, w], says which
+    symmetries a number of a state stands for; `end` is the number of classes up to the end of the orbit.
     """
     m, number = images.shape[1], states.number[i, 0]
     begin = np.int64(states.words[i, 0] >> LEVEL)
@@ -170,17 +151,10 @@ def _compared(
 
 @compiled
 def _compare(x: Ints, images: Ints, before: Ints, ties: int, tied: Ints, left: Ints, full: int) -> bool:
-    """Go on comparing a placement with images that were equal so far; tell whether none is larger.
+    """Go on comparing a placement with images that were equal so far; return whether none is larger.
 
-    Parameters
-    ----------
-    x : int64[m]
-        The placement, of which the first ``full`` joints are filled.
-    images : int64[a, m]
-    before, ties : int64[a, 2], int
-        Symmetries and up to where they were compared, and their number.
-    tied, left : int64[a, 2], int64[1]
-        Where those that are still equal are written.
+    The first `full` joints of the placement x, int64[m], are filled. `before` holds so many symmetries (`ties`)
+    and up to where they were compared; those that are still equal are written to `tied`, their number to `left`.
     """
     used = 0
     for i in range(ties):

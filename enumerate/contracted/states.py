@@ -57,13 +57,7 @@ class States(NamedTuple):
 def beginning(classes: Classes, units: int, group: int) -> States:
     """Return a table with one state: nothing is filled, for one placement.
 
-    Parameters
-    ----------
-    classes : Classes
-    units : int
-        Binary links to place.
-    group : int
-        Tells the state apart.
+    `units` binary links are to be placed; the group distinguishes the state.
     """
     begin = np.full(len(classes.size) + 2, -1, np.int64)
     begin[-1] = 0
@@ -154,20 +148,11 @@ def step(
     most: int,
     new: Words,
 ) -> bool:
-    """Fill one more class with so many units, of which so many are counted; tell whether the rest can be placed.
+    """Fill one more class with so many units, of which so many are counted; return whether the rest can be placed.
 
-    Parameters
-    ----------
-    counters, rest, laid
-        Of the classes.
-    words, i : uint64[r, k + 1], int
-        States, and the one before.
-    units, counted : int
-        Binary links on the class, and those that are the first or second on their joint.
-    most : int
-        No joint may hold more.
-    new : uint64[k + 1]
-        Where the state after is written.
+    Counters and rest are those of the classes; i is the state before, of the states `words`, uint64[r, k + 1];
+    `new` gets the state after. Counted are the units that are first or second on their joint; no joint holds more
+    than `most`.
     """
     level = np.int64(words[i, 0] >> LEVEL)
     left = np.int64(words[i, 0] & _UNITS) - units
@@ -197,18 +182,8 @@ def filled(
 ) -> States:
     """Fill the next class of all states with so many filled classes, in every way; return the table.
 
-    Parameters
-    ----------
-    states : States
-    classes : Classes
-    level : int
-        Number of filled classes.
-    strings
-        As `enumerate.contracted.classes.strings_of_classes` returns them.
-    most : int
-        No joint may hold more.
-    passed : uint64
-        States that have one of these bits in their first word are passed over.
+    `level` is the number of filled classes, `strings` those of `enumerate.contracted.classes.strings_of_classes`;
+    no joint holds more than `most`. States that have one of the bits `passed` in their first word are passed over.
     """
     start, ways = strings
     low, high = start[classes.size[level]], start[classes.size[level] + 1]

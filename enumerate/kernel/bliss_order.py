@@ -36,18 +36,9 @@ _BEGIN, _WAITING, _NUMBER = 0, 1, 2
 class _Cells(NamedTuple):
     """Ordered cells of vertices, and those among them by which the others are still to be refined.
 
-    Attributes
-    ----------
-    at : int64[n]
-        The vertices of the cell at each place; 0 where none begins.
-    place : int64[n]
-        Of each vertex, the place of its cell.
-    queue : int64[64]
-        A ring of places.
-    state : int64[3]
-        Where the ring begins, the set of the places in it, and the number of cells.
-    parts : int64[n]
-        Work space, all zero.
+    `at` holds the vertices of the cell at each place, 0 where none begins, `place` the place of the cell of each
+    vertex. `queue` is a ring of 64 places; `state` says where it begins, the set of the places in it, and the
+    number of cells. `parts` is work space, all zero.
     """
 
     at: Ints
@@ -59,32 +50,12 @@ class _Cells(NamedTuple):
 
 @compiled
 def bliss_orders(n: int, joints: Ints, automorphisms: Ints) -> tuple[Ints, Ints]:
-    """Return canonical numbers of the nodes of simple graphs, as far as no search is needed.
+    """Return canonical numbers of the nodes of simple graphs, and the graphs that have to be given to bliss.
 
-    Parameters
-    ----------
-    n : int
-        Number of nodes of each graph, `MOST_NODES` at most.
-    joints : int64[r, J, 2]
-        Pairs of nodes, no pair twice.
-    automorphisms : int64[r]
-        How many each graph has. With 1 where that is not known, only graphs are numbered that need no choice at
-        all, and so have no symmetries.
-
-    Returns
-    -------
-    order : int64[r, n]
-        Node i has number ``order[i]``, as `graphs.identity.chains.canonical_order` says up to an automorphism.
-    left : int64[k]
-        The graphs that have to be given to bliss; their rows of ``order`` hold nothing.
-
-    Examples
-    --------
-    >>> square = np.array([[[0, 1], [1, 2], [2, 3], [3, 0]]])
-    >>> bliss_orders(4, square, np.array([8]))[0].tolist()
-    [[3, 2, 0, 1]]
-    >>> bliss_orders(4, square, np.array([1]))[1].tolist()
-    [0]
+    Node i of a graph has number ``order[i]``, as `graphs.identity.chains.canonical_order` says up to an
+    automorphism; rows of the graphs for bliss hold nothing. There are `MOST_NODES` at most, and joints, int64[r,
+    J, 2], are pairs, no pair twice. With 1 automorphism where their number is not known, only graphs are numbered
+    that need no choice at all, and so have no symmetries.
     """
     rows = len(joints)
     order, left = np.empty((rows, n), np.int64), np.empty(rows, np.int64)

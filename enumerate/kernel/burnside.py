@@ -11,23 +11,8 @@ __all__ = ["number_of_orbits"]
 def number_of_orbits(fixed: int, symmetries: int) -> int:
     """Return the number of orbits: the mean number of things that a symmetry leaves as they are.
 
-    Parameters
-    ----------
-    fixed : int
-        Sum over the symmetries of what each leaves as it is.
-    symmetries : int
-        How many there are.
-
-    Raises
-    ------
-    ArithmeticError
-        If it is no whole number: the symmetries are no group, or something was counted wrongly. That is a fault of
-        the program.
-
-    Examples
-    --------
-    >>> number_of_orbits(12, 4)
-    3
+    `fixed` is the sum over all symmetries of what each leaves as it is. Raises `ArithmeticError` if the mean is no
+    whole number: the symmetries are no group, or something was counted wrongly. That is a fault of the program.
     """
     if fixed % symmetries:
         raise ArithmeticError("Burnside's lemma gives no whole number of orbits")

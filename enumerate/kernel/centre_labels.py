@@ -32,11 +32,7 @@ def joints_of_faces(face: Ints, faces: int) -> Words:
 def classes_of(around: Words, labels: Ints) -> tuple[Ints, int]:
     """Return the class of each face, -1 for faces without a centre, and the number of classes.
 
-    Parameters
-    ----------
-    around : uint64[F]
-        The joints round each face.
-    labels : int64[F]
+    `around`, uint64[F], is the set of joints round each face.
     """
     faces = len(around)
     owner = np.full(faces, -1, np.int64)
@@ -86,24 +82,10 @@ def _submask(mask: int, moves: Ints, a: int) -> int:
 
 @compiled
 def labellings(around: Words, outer: int, spatial: int, infinite: bool, moves: Ints) -> tuple[Ints, Ints]:
-    """Return labels of the faces of an SC graph, one labelling of each orbit.
+    """Return labels of the faces of an SC graph, int64[k, F], one labelling of each orbit.
 
-    Parameters
-    ----------
-    around : uint64[F]
-    outer : int
-    spatial : int
-        How many bounded faces have no centre.
-    infinite : bool
-        Also classes with a centre at infinity, no two of which share a joint; else all centres are finite.
-    moves : int64[s, F]
-        Symmetries.
-
-    Returns
-    -------
-    labels : int64[k, F]
-    order : int64[k]
-        Number of symmetries that keep each.
+    With them comes how many symmetries, of `moves`, int64[s, F], keep each. `spatial` bounded faces have no
+    centre; `infinite` allows also classes with a centre at infinity, no two of which share a joint.
     """
     faces = len(around)
     found = np.zeros((8, faces + 1), np.int64)

@@ -50,18 +50,8 @@ def refine(
 ) -> np.uint64:
     """Refine a colouring in place until it is equitable; return a hash of how it went.
 
-    Parameters
-    ----------
-    ends, joints, count : uint8[n, n], uint8[n, n], uint8[n]
-        Neighbours, as `neighbours` gives them.
-    n : int
-        Number of vertices.
-    order : uint8[n]
-        The vertices by colour; sorted anew.
-    colour : uint8[n]
-        Of each vertex, the number of vertices of smaller colours.
-    sums : uint64[n]
-        Work space.
+    Ends, joints and count are those of `neighbours`; `order` holds the vertices by colour and is sorted anew; a
+    colour is the number of vertices of smaller colours. `sums` is work space.
     """
     trace = np.uint64(0)
     cells = 0
@@ -129,30 +119,11 @@ def _compare(adjacency: Bytes, order: Bytes, best: Bytes, n: int) -> int:
 
 @compiled
 def canonical_labels(adjacency: Bytes, n: int) -> tuple[Bytes, Bytes]:
-    """Return canonical labels of a multigraph and its automorphisms.
+    """Return canonical labels of a multigraph of 1 to `MOST_VERTICES` vertices, and its automorphisms.
 
-    Parameters
-    ----------
-    adjacency : uint8[>=n, >=n]
-        Numbers of joints between vertices, symmetric, none of a vertex with itself, below 32.
-    n : int
-        Number of vertices, 1 to `MOST_VERTICES`.
-
-    Returns
-    -------
-    order : uint8[n]
-        The vertex that has each canonical label: the matrix ``adjacency[order][:, order]`` is canonical.
-    automorphisms : uint8[k, n]
-        All k of them, of the relabelled graph, the identity first: vertex i goes to ``automorphisms[a, i]``.
-
-    Examples
-    --------
-    >>> square = np.zeros((4, 4), np.uint8)
-    >>> for i in range(4):
-    ...     square[i, (i + 1) % 4] = square[(i + 1) % 4, i] = 1
-    >>> order, automorphisms = canonical_labels(square, 4)
-    >>> len(automorphisms)
-    8
+    The matrix, uint8[>=n, >=n], of numbers of joints is symmetric, below 32, and 0 on the diagonal. The matrix
+    ``adjacency[order][:, order]`` is canonical. Automorphisms, uint8[k, n], are all those of the relabelled graph,
+    the identity first: vertex i goes to ``automorphisms[a, i]``.
     """
     ends, joints, count = neighbours(adjacency, n)
     orders = np.zeros((n + 1, n), np.uint8)

@@ -21,19 +21,10 @@ _LETTERS[JOINT : JOINT + len(ascii_letters)] = np.frombuffer(ascii_letters.encod
 
 
 def map_ids(codes: Bytes, lengths: Ints, labels: int) -> list[str]:
-    """Return the ids of codes.
+    """Return the ids of codes, one in each row of uint8[r, width] with anything after it.
 
-    Parameters
-    ----------
-    codes : uint8[r, width]
-        A code a row, and anything after it.
-    lengths : int64[r]
-        Length of each code, its labels included.
-    labels : int
-        How many labels end each code, the first that of the outer face.
+    A length includes the labels at the end, so many for each code, the first that of the outer face.
 
-    Examples
-    --------
     >>> map_ids(np.array([[2, 3, 1, 2, 3, 1, 0, 1, 2]], np.uint8), np.array([9]), 3)
     ['m1:ab.ab;fi']
     """

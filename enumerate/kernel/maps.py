@@ -68,12 +68,8 @@ def from_turns(after: Ints) -> Ints:
 def decode_map(code: Bytes) -> tuple[Ints, Ints, Ints]:
     """Return the map of a code without labels, and the number of open edges in each of its corners.
 
-    The root is dart 0, and links are numbered as they come.
-
-    Returns
-    -------
-    turn, vertex : int64[2, D], int64[D]
-    open_edges : int64[D]
+    The root is dart 0, and links are numbered as they come. Returns turn int64[2, D], vertex and open edges
+    int64[D].
     """
     highest = np.int64(0)
     for symbol in code:
@@ -116,22 +112,8 @@ def _read(
 ) -> tuple[int, int]:
     """Write the code of a map from a root; stop where it is seen to be greater than the best.
 
-    Parameters
-    ----------
-    reading : _Reading
-    best : uint8[:]
-        The least code so far.
-    code : uint8[:]
-        Where to write the code.
-    work : int64[5, >= D]
-        Work space; the last row gets the darts in the order in which they were read.
-
-    Returns
-    -------
-    verdict : int
-        -1 less than the best, 0 equal, 1 greater.
-    size : int
-        Length of the code.
+    Work space is int64[5, >= D]; its last row gets the darts in the order in which they were read. Returns -1, 0
+    or 1 for a code less than, equal to or greater than the best, and its length.
     """
     side, root = reading.side, reading.root
     verdict = -1 if reading.length == 0 else 0
@@ -212,28 +194,11 @@ def _read_labels(
 def canonical_map(
     turn: Ints, vertex: Ints, open_edges: Ints, face: Ints, labels: Ints, key: Ints
 ) -> tuple[Bytes, Ints, Ints]:
-    """Return the canonical code of a map and all readings that give it.
+    """Return the canonical code of a map and all readings that give it: their darts in order, and their senses.
 
-    Parameters
-    ----------
-    turn, vertex : int64[2, D], int64[D]
-    open_edges : int64[D]
-        In each corner.
-    face : int64[D]
-        Face of each corner.
-    labels : int64[F]
-        Labels of the faces, 0 to 255, which a symmetry must keep; empty where there are none. They end the code,
-        in the order in which the faces are met.
-    key : int64[2, D]
-        Roots, of each sense, with the least key not below 0 are allowed.
-
-    Returns
-    -------
-    code : uint8[:]
-    orders : int64[k, D]
-        The darts in the order of each reading that gives the code.
-    sides : int64[k]
-        Its sense.
+    Open edges and face are those of each corner, int64[D]. Labels of the faces, 0 to 255, which a symmetry must
+    keep, end the code, in the order in which the faces are met; they are empty where there are none. Of the roots
+    of each sense those with the least key, int64[2, D], not below 0 are allowed.
     """
     darts = len(vertex)
     size = len(labels) + 2 * darts
@@ -269,18 +234,9 @@ def canonical_map(
 
 @compiled
 def symmetries_of_map(turn: Ints, orders: Ints, sides: Ints) -> tuple[Ints, Ints]:
-    """Return the symmetries of a map as permutations, the identity first.
+    """Return the symmetries of a map as permutations of darts and of corners, int64[k, D], the identity first.
 
-    Parameters
-    ----------
-    turn : int64[2, D]
-    orders, sides : int64[k, D], int64[k]
-        As `canonical_map` returns them.
-
-    Returns
-    -------
-    darts, corners : int64[k, D]
-        Where each dart and each corner goes.
+    Orders and sides are those of `canonical_map`.
     """
     darts, corners = np.empty_like(orders), np.empty_like(orders)
     for a in range(len(orders)):

@@ -66,11 +66,7 @@ def _inverse(value: np.uint64, which: int) -> np.uint64:
 def class_points(face: Ints, number: Ints) -> Ints:
     """Return the centres on the axis of each joint, `FREE` where there is no other: int64[J, 2].
 
-    Parameters
-    ----------
-    face : int64[D]
-    number : int64[F]
-        Class of each face, as `classes_of` returns it.
+    Numbers are the classes of faces, as `classes_of` returns them.
     """
     points = np.full((len(face) // 2, 2), FREE, np.int64)
     for k in range(len(points)):
@@ -83,20 +79,10 @@ def class_points(face: Ints, number: Ints) -> Ints:
 
 @compiled
 def mobility_of(face: Ints, labels: Ints, points: Ints, at_infinity: Ints, moving: bool) -> int:
-    """Return joints minus rank of a mechanism given by its faces.
+    """Return joints minus rank of a mechanism given by its faces: face of each dart, and labels of the faces.
 
-    Parameters
-    ----------
-    face : int64[D]
-        Face of each dart.
-    labels : int64[F]
-        Labels of the faces.
-    points : int64[J, 2]
-        Points that the axis of each joint passes through, `FREE` for any.
-    at_infinity : int64[P]
-        Of each point, 1 if it lies at infinity.
-    moving : bool
-        Return -1 where some joint cannot move.
+    Points, int64[J, 2], are those that the axis of each joint passes through, `FREE` for any; `at_infinity` is 1
+    for those at infinity. With `moving`, -1 where some joint cannot move.
     """
     best = -1
     for which in range(2):

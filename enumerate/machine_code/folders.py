@@ -65,10 +65,8 @@ def _by_us(entry: os.stat_result) -> bool:
 
 
 def is_ours(entry: os.stat_result) -> bool:
-    """Say whether a file or folder belongs to this user and no other may write it.
+    """Return whether a file or folder belongs to this user and no other may write it.
 
-    Examples
-    --------
     >>> with tempfile.NamedTemporaryFile() as file:
     ...     is_ours(os.fstat(file.fileno()))
     True

@@ -68,10 +68,7 @@ class _Kept(_numba.CompileResultCacheImpl):
 class KeptCode(_numba.FunctionCache):
     """The cache of one compiled function, for its ``Dispatcher``.
 
-    Parameters
-    ----------
-    function : callable
-        The function as Python has it. Its module must have a file: see `fingerprint`.
+    The module of the Python function must have a file: see `fingerprint`.
     """
 
     _impl_class = _Kept

@@ -28,18 +28,6 @@ def fingerprint(module: str) -> str:
 
     Own are the packages of the project and the one that the module is in. Files are read once in a process: an
     edit while it runs does not change what it has imported. A module without a file has the empty text.
-
-    Parameters
-    ----------
-    module : str
-        Name of a module that is imported, or being imported.
-
-    Examples
-    --------
-    >>> len(fingerprint("enumerate.machine_code.sources"))
-    64
-    >>> fingerprint("no.such_module")
-    ''
     """
     own = _OWN | {module.partition(".")[0]}
     if _file(module) is None:

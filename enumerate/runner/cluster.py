@@ -26,17 +26,8 @@ _TO_LEAVE = 1
 class Cluster:
     """The workers of a Dask cluster, which replaces dead ones, or gives their units to others, by itself.
 
-    Results come by callbacks: nobody asks a future of Dask that may not be done.
-
-    Parameters
-    ----------
-    scheduler : str
-        Address, such as ``tcp://host:8786``.
-
-    Raises
-    ------
-    StoreError
-        If Dask is not installed, or there is no scheduler.
+    Results come by callbacks: nobody asks a future of Dask that may not be done. The scheduler is an address such
+    as ``tcp://host:8786``. Raises `StoreError` if Dask is not installed, or there is no scheduler.
     """
 
     def __init__(self, scheduler: str) -> None:
@@ -77,13 +68,7 @@ class Cluster:
         return answer
 
     def check(self) -> None:
-        """Look whether there is still a scheduler.
-
-        Raises
-        ------
-        StoreError
-            If it was lost.
-        """
+        """Raise `StoreError` if the scheduler was lost."""
         if self._client.status != "running":
             raise self._lost()
 

@@ -18,23 +18,12 @@ __all__ = ["Column", "ListColumn", "RangeColumn", "row_as_dict", "stored", "unst
 
 @dataclass(frozen=True, slots=True)
 class ListColumn:
-    """A column of lists.
+    """A column of lists; `between` parts the items in a table.
 
-    Attributes
-    ----------
-    between : str
-        What parts the items in a table.
-    within : str
-        Where the items are lists themselves: what parts their values. Else empty.
-    before_last : str
-        What stands before the last of these values, if it is something else: the name before a number.
-    kind : type, optional
-        Type of all values; None where they differ.
+    Where the items are lists themselves, `within` parts their values, else it is empty; `before_last` stands
+    before the last of these, if it is something else: the name before a number. `kind` is the type of all values,
+    None where they differ.
 
-    Examples
-    --------
-    >>> ListColumn(",").text((4, 2))
-    '4,2'
     >>> ListColumn(" ", "-", ":", None).text((("a", "b", 28.15), ("b", "c", 30.0)))
     'a-b:28.15 b-c:30'
     """
@@ -60,8 +49,6 @@ class ListColumn:
 class RangeColumn(ListColumn):
     """A column of lists of (least, greatest); a table shows those that are equal once.
 
-    Examples
-    --------
     >>> RangeColumn(" ", "..").text(((0, 1), (1, 1)))
     '0..1 1'
     """
@@ -77,13 +64,7 @@ Column = type | ListColumn
 
 
 def row_as_dict(columns: Iterable[str], row: tuple[Any, ...]) -> dict[str, Any]:
-    """Return a row as a dictionary of its columns, with lists for tuples.
-
-    Examples
-    --------
-    >>> row_as_dict(("links", "assortment"), (6, (4, 2)))
-    {'links': 6, 'assortment': [4, 2]}
-    """
+    """Return a row as a dictionary of its columns, with lists for tuples."""
     return {
         name: _as_list(value) if isinstance(value, tuple) else value
         for name, value in zip(columns, row, strict=True)
@@ -95,24 +76,12 @@ def _as_list(value: Any) -> Any:
 
 
 def stored(values: tuple[Any, ...] | None) -> str | None:
-    """Return a list as compact JSON text; None where a row has none.
-
-    Examples
-    --------
-    >>> stored(((0, 1), (2, 3)))
-    '[[0,1],[2,3]]'
-    """
+    """Return a list as compact JSON text; None where a row has none."""
     return None if values is None else json.dumps(values, separators=(",", ":"))
 
 
 def unstored(text: str | None) -> tuple[Any, ...] | None:
-    """Return the list of a JSON text, as it stands in a row.
-
-    Examples
-    --------
-    >>> unstored("[[0,1],[2,3]]")
-    ((0, 1), (2, 3))
-    """
+    """Return the list of a JSON text, as it stands in a row."""
     return None if text is None else tuple(_as_tuple(item) for item in json.loads(text))
 
 

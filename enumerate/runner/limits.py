@@ -49,13 +49,8 @@ ANY_NUMBER, ONE_OR_MORE = Limits(0), Limits(1)
 def keep_limits(query: object, *names: str) -> None:
     """Make limits of the fields of a frozen query that a user may give as a pair or as one number.
 
-    Raises
-    ------
-    InvariantError
-        If the smaller number does not come first.
+    Raises `InvariantError` if the smaller number does not come first.
 
-    Examples
-    --------
     >>> from enumerate.chains.query import ChainQuery
     >>> ChainQuery(8, 1, symmetry=2).symmetry
     Limits(least=2, most=2)

@@ -229,13 +229,7 @@ class ParquetSink(_FileSink):
         self._mixed: set[int] = set()
 
     def start(self, job: Job) -> Collection[int]:
-        """Open the file.
-
-        Raises
-        ------
-        StoreError
-            If pyarrow is not installed.
-        """
+        """Open the file; raises `StoreError` if pyarrow is not installed."""
         try:
             import pyarrow as arrow
             from pyarrow import parquet
@@ -294,11 +288,8 @@ def _arrow_type(kind: Column) -> Any:
 def mechanism_text(row: Mapping[str, Any]) -> str:
     """Return the native file of the mechanism of a row.
 
-    Parameters
-    ----------
-    row : mapping
-        Column to value. ``mechanism`` is the file itself; ``code`` the id of a drawn mechanism, or of a chain,
-        which gets the faces of an embedding as loops.
+    Its column ``mechanism`` is the file itself, ``code`` the id of a drawn mechanism, or of a chain, which gets
+    the faces of an embedding as loops.
     """
     if "mechanism" in row:
         return str(row["mechanism"])
@@ -323,10 +314,7 @@ class FolderSink:
     def start(self, job: Job) -> Collection[int]:
         """Make a folder beside the place of this one.
 
-        Raises
-        ------
-        FileError
-            If there is something at its place, or it cannot be made.
+        Raises `FileError` if there is something at its place, or it cannot be made.
         """
         remove_left(self._path)
         self._folder = FolderBeside(self._path)

@@ -67,17 +67,9 @@ def interruptible(*, ending: bool = False) -> Iterator[Callable[[], None]]:
     """Raise `Interrupted` in the main thread soon after a signal asks to stop; give what looks at the flag.
 
     While one is cleaned up after, a second signal is noted only; a third one raises again. An error that occurs
-    after a signal is taken for its consequence. Inside another one, both have the same flag.
-
-    Parameters
-    ----------
-    ending : bool, optional
-        The process ends here: signals are ignored afterwards.
-
-    Yields
-    ------
-    callable
-        Raises `Interrupted` if a signal has asked to stop.
+    after a signal is taken for its consequence. Inside another one, both have the same flag. With `ending` the
+    process ends here: signals are ignored afterwards. What is yielded raises `Interrupted` if a signal has asked
+    to stop.
     """
     if threading.current_thread() is not threading.main_thread():
         yield lambda: None

@@ -241,10 +241,7 @@ def read_meta(path: str | Path) -> dict[str, Any]:
 def job_in(path: str | Path) -> dict[str, Any] | None:
     """Return the key of the job that a store is of; None where there is no store, or nothing in it yet.
 
-    Raises
-    ------
-    StoreError
-        If there is a file that is not a store that this version reads.
+    Raises `StoreError` if there is a file that is not a store that this version reads.
     """
     path = Path(path)
     if not path.is_file() or not _has_tables(path):

@@ -23,17 +23,10 @@ __all__ = ["Findings", "examined", "rebuilt"]
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """What was found in a store.
+    """What a store says of itself (`meta`), and the numbers, rising, of its units that are as they were written.
 
-    Attributes
-    ----------
-    meta : dict
-        What it says of itself.
-    whole : tuple of int
-        Numbers of the units that are as they were written, rising.
-    sound : bool
-        The file is a good database and holds these units, nothing else, and all of them if it says that it is
-        complete.
+    Sound: the file is a good database and holds these units, nothing else, and all of them if it says that it is
+    complete.
     """
 
     meta: dict[str, Any]
@@ -42,20 +35,10 @@ class Findings:
 
 
 def examined(path: Path, units: int, looking: Callable[[float], None]) -> Findings:
-    """Look at every page and every unit of a store.
+    """Look at every page and every unit of a store whose job has so many units.
 
-    Parameters
-    ----------
-    path : Path
-    units : int
-        How many units the job has.
-    looking : callable
-        Takes the part of the rows that has been looked through, 0 to 1, after each unit.
-
-    Raises
-    ------
-    StoreError
-        If the file cannot be read as a store at all.
+    `looking` takes the part of the rows that has been looked through, 0 to 1, after each unit. Raises `StoreError`
+    if the file cannot be read as a store at all.
     """
     with reading(path) as connection:
         meta = meta_in(connection, path)
@@ -116,10 +99,7 @@ def _holds_only(connection: sqlite3.Connection, table: UnitTable, whole: tuple[i
 def rebuilt(path: Path, findings: Findings) -> None:
     """Put a store that holds the whole units only in the place of a damaged one.
 
-    Raises
-    ------
-    StoreError, OpenError
-        If it cannot be written; the damaged one stays.
+    Raises `StoreError` or `OpenError` if it cannot be written; the damaged one stays.
     """
     place = path.resolve()
     try:

@@ -61,17 +61,7 @@ _CHANGING = ("complete", "digest")
 class StoredUnit:
     """The entry of a unit.
 
-    Attributes
-    ----------
-    number : int
-    state : str
-    first : int
-        Number of its first row, from 1.
-    rows : int
-        How many it has; they follow each other.
-    seconds : float
-        How long they took.
-    digest : str
+    Its rows follow each other from number `first`, counted from 1; `seconds` is how long they took.
     """
 
     number: int
@@ -83,14 +73,7 @@ class StoredUnit:
 
 
 class UnitTable:
-    """The units of an open store, by their numbers.
-
-    Parameters
-    ----------
-    connection : sqlite3.Connection
-    columns : sequence of str
-        Columns of its rows.
-    """
+    """The units of an open store, by their numbers, with these columns in their rows."""
 
     def __init__(self, connection: sqlite3.Connection, columns: Sequence[str]) -> None:
         self._connection = connection
@@ -171,11 +154,7 @@ def _read_back(value: Any) -> Any:
 def make_tables(connection: sqlite3.Connection, meta: Mapping[str, Any]) -> None:
     """Make the tables of a store where they are not there; the transaction is the caller's.
 
-    Parameters
-    ----------
-    connection : sqlite3.Connection
-    meta : mapping
-        What the store says of itself, without its digest.
+    `meta` is what the store says of itself, without its digest.
     """
     texts = {key: json.dumps(value) for key, value in meta.items()}
     texts["digest"] = json.dumps(_meta_digest(texts))
@@ -197,10 +176,7 @@ def _meta_digest(texts: Mapping[Any, Any]) -> str:
 def meta_in(connection: sqlite3.Connection, path: Path) -> dict[str, Any]:
     """Return what a store says of itself.
 
-    Raises
-    ------
-    StoreError
-        If it is not a store that this version reads, or says so no more.
+    Raises `StoreError` if it is not a store that this version reads, or says so no more.
     """
     texts = dict(connection.execute("SELECT key, value FROM meta"))
     if texts.get("format") != json.dumps(FORMAT) or texts.get("version") != json.dumps(VERSION):
@@ -217,10 +193,7 @@ def meta_in(connection: sqlite3.Connection, path: Path) -> dict[str, Any]:
 def reading(path: Path) -> Iterator[sqlite3.Connection]:
     """Open a store for reading, as it is at this moment, whatever other processes write meanwhile.
 
-    Raises
-    ------
-    StoreError
-        If there is no such file, or it cannot be read as a database.
+    Raises `StoreError` if there is no such file, or it cannot be read as a database.
     """
     if not path.is_file():
         raise StoreError(f"{path}: no such file")

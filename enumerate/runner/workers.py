@@ -21,14 +21,9 @@ __all__ = ["LocalWorkers", "Workers", "timed"]
 
 
 class Workers(Protocol):
-    """Those who work on units.
+    """Processes or machines that work on units, `number` of them at the same time.
 
-    Attributes
-    ----------
-    number : int
-        How many work at the same time.
-    deaths : tuple of exception classes
-        What a future raises if a worker died.
+    `deaths` are the exceptions that a future raises if a worker died.
     """
 
     number: int
@@ -77,13 +72,7 @@ class LocalWorkers:
             return self._executor.submit(timed, job, payload)
 
     def check(self) -> None:
-        """Look whether all processes live.
-
-        Raises
-        ------
-        BrokenProcessPool
-            If one died.
-        """
+        """Raise `BrokenProcessPool` if a process died."""
         if wait([process.sentinel for process in self._processes()], timeout=0):
             raise BrokenProcessPool("a worker process died")
 

@@ -41,10 +41,7 @@ _CODE, _CHAIN, _CENTRES = (list(SC_COLUMNS).index(name) for name in ("code", "ch
 class FormJob:
     """One row for each planar chain: how many SC graphs it has, and one with the most centres.
 
-    Attributes
-    ----------
-    query : SCQuery
-        ``centres`` limits what counts as a form: chains without such SC graphs have no row.
+    ``centres`` of the query limits what counts as a form: chains without such SC graphs have no row.
     """
 
     query: SCQuery

@@ -34,14 +34,8 @@ __all__ = [
 class Centres(NamedTuple):
     """Which centres the loops of a mechanism may have.
 
-    Attributes
-    ----------
-    dof : int
-        The rank of a mechanism with spatial loops must say so, and every joint of it must move.
-    spatial : int
-        How many loops have none.
-    infinite : bool
-        Whether centres may be at infinity.
+    `spatial` loops have none, others at infinity only if `infinite`. The rank of a mechanism with spatial loops
+    must give `dof`, and every joint of it must move.
     """
 
     dof: int
@@ -53,14 +47,8 @@ class Centres(NamedTuple):
 def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int, prefix: Ints) -> int:
     """Return the number of drawn chains of a contracted map with one outer face that begin in one way.
 
-    Parameters
-    ----------
-    code, n : uint8[:], int
-        The map and its number of links.
-    outer : int
-        The outer face; -1 for embeddings in the sphere without one.
-    links, most, only, prefix
-        As for `enumerate.chains.counting.count_of_graph`.
+    The map has n links; the outer face is -1 for embeddings in the sphere without one. The other arguments are
+    those of `enumerate.chains.counting.count_of_graph`.
     """
     ends, moved, _ = outer_frame(code, outer)
     sets, needs = sets_of(code, n)
@@ -71,10 +59,7 @@ def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int,
 def count_drawn(codes: Bytes, n: int, links: int, most: int, outside: bool) -> int:
     """Return the number of drawn chains of some maps, by a test of each placement.
 
-    Parameters
-    ----------
-    outside : bool
-        Whether an outer face is chosen; else embeddings in the sphere are counted.
+    With `outside` an outer face is chosen; else embeddings in the sphere are counted.
     """
     total = 0
     nowhere = np.zeros(0, np.int64)
@@ -118,23 +103,10 @@ def _drawing(code: Bytes, n: int, x: Bytes, links: int) -> tuple[Ints, Ints, Int
 def list_drawn(
     code: Bytes, n: int, outer: int, wanted: Wanted, prefix: Ints, centres: Centres
 ) -> tuple[Bytes, Ints, Ints]:
-    """List the SC graphs of a contracted map with one outer face.
+    """List the SC graphs of a contracted map with one outer face: binary links, labels of faces, and symmetries.
 
-    Parameters
-    ----------
-    code, n, outer, prefix
-        As for `weight_of`; an empty code is a ring.
-    wanted : Wanted
-    centres : Centres
-
-    Returns
-    -------
-    x : uint8[r, m]
-        Binary links on each joint of the map.
-    labels : int64[r, F]
-        Labels of the faces.
-    order : int64[r]
-        Number of symmetries.
+    The arguments are those of `weight_of`; an empty code is a ring. Binary links on each joint of the map are
+    uint8[r, m], labels int64[r, F], and numbers of symmetries int64[r].
     """
     if len(code):
         ends, moved, faces = outer_frame(code, outer)
@@ -235,25 +207,11 @@ def centres_of_all(code: Bytes, n: int, links: int, x: Bytes, labels: Ints) -> I
 def describe(
     code: Bytes, n: int, links: int, outer: int, x: Bytes, labels: Ints, labelled: bool
 ) -> tuple[Bytes, Ints, Ints, Ints, Words]:
-    """Return codes and attributes of the SC graphs of a list.
+    """Return codes and attributes of the SC graphs of a list, which `list_drawn` returns.
 
-    Parameters
-    ----------
-    code, n, links, outer, x, labels
-        As `list_drawn` takes and returns them.
-    labelled : bool
-        Whether the labels belong to the code.
-
-    Returns
-    -------
-    codes : uint8[r, length]
-    joints : int64[r, J, 2]
-    sizes : int64[r, F]
-        Number of joints of the outer face, then of the others.
-    facts : int64[r, 3]
-        Numbers of classes and of classes at infinity, and mobility by rank.
-    left : uint64[r]
-        The joints of the reduced form, as bits.
+    Returns codes uint8[r, length], with the labels if `labelled`; joints int64[r, J, 2]; sizes int64[r, F], the
+    number of joints of the outer face, then of the others; facts int64[r, 3], numbers of classes and of classes at
+    infinity, and mobility by rank; and the joints of the reduced form, as bits.
     """
     rows, count = labels.shape
     darts = len(_drawing(code, n, x[0], links)[1]) if rows else 2
@@ -288,15 +246,7 @@ def describe(
 def codes_of_all(code: Bytes, n: int, links: int, outer: int, x: Bytes, labels: Ints) -> tuple[Bytes, Ints]:
     """Return the codes of the SC graphs of a list, and their labels in the order in which codes meet faces.
 
-    Parameters
-    ----------
-    code, n, links, outer, x, labels
-        As `list_drawn` takes and returns them.
-
-    Returns
-    -------
-    codes : uint8[r, D + N]
-    met : int64[r, F]
+    They are uint8[r, D + N] and int64[r, F]; arguments are what `list_drawn` takes and returns.
     """
     rows, count = labels.shape
     darts = len(_drawing(code, n, x[0], links)[1]) if rows else 2

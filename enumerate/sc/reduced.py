@@ -19,14 +19,7 @@ __all__ = ["reduced_joints"]
 def reduced_joints(vertex: Ints, around: Words, number: Ints) -> np.uint64:
     """Return the joints that are left when all ride-alongs are taken off, as bits.
 
-    Parameters
-    ----------
-    vertex : int64[D]
-        The links of the joints.
-    around : uint64[F]
-        The joints round each face.
-    number : int64[F]
-        The class of each face, -1 for faces without a centre.
+    Given are the links of the joints, the joints round each face, and the class of each face, -1 without a centre.
     """
     loops = around.copy()
     owner = number.copy()

@@ -40,18 +40,10 @@ SC_COLUMNS: dict[str, Column] = {
 
 @dataclass(frozen=True, slots=True)
 class DrawnChains:
-    """The SC graphs of one contracted map and outer face that a query asks for.
+    """The SC graphs of one contracted map and outer face that a query asks for; a ring has an empty code.
 
-    Attributes
-    ----------
-    code, n, outer
-        The map, its number of links, the outer face; a ring has an empty code.
-    x : uint8[r, m]
-        Binary links on each joint.
-    labels : int64[r, F]
-        Labels of the faces (`enumerate.kernel.centre_labels`).
-    order : int64[r]
-        Number of symmetries.
+    Binary links on each joint are uint8[r, m], labels of the faces int64[r, F] (`enumerate.kernel.centre_labels`);
+    `order` is the number of symmetries.
     """
 
     code: Bytes

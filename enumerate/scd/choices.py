@@ -135,14 +135,8 @@ def placements_of_choice(vertex: Ints, states: Bytes, most: int) -> int:
 def number_of_placements(code: Bytes, labels: Ints, most: int) -> int:
     """Return the number of placements on a mechanism, symmetric ones counted apart; -1 if it is past counting.
 
-    Parameters
-    ----------
-    code : uint8[:]
-        Code of the map, without labels.
-    labels : int64[F]
-        Labels of the faces in the order in which the code meets them, the outer one first.
-    most : int
-        The greatest link degree.
+    The code has no labels; these are in the order in which it meets the faces, the outer one first. No link has a
+    degree above `most`.
     """
     turn, vertex, face, kinds, number = drawn(code, labels)
     sets = explicit_sets(kinds, number)
@@ -196,17 +190,8 @@ def numbers_of_placements(codes: Bytes, labels: Ints, most: int) -> Ints:
 def outline(code: Bytes, labels: Ints) -> tuple[Bytes, Ints, int, int]:
     """Return of a mechanism its canonical code with labels, its joints, and numbers of classes.
 
-    Parameters
-    ----------
-    code, labels
-        As for `number_of_placements`.
-
-    Returns
-    -------
-    code : uint8[:]
-    joints : int64[J, 2]
-    classes, infinite : int
-        All classes, and those with a centre at infinity.
+    The numbers are of all classes, and of those with a centre at infinity; arguments are those of
+    `number_of_placements`.
     """
     turn, vertex, face, kinds, number = drawn(code, labels)
     none = np.zeros(len(vertex), np.int64)

@@ -28,17 +28,9 @@ __all__ = ["count_placements"]
 
 @compiled
 def count_placements(code: Bytes, labels: Ints, most: int, dof: int, sheets: bool) -> int:
-    """Return the number of placements up to symmetry.
+    """Return the number of placements up to symmetry, -1 if it is past counting.
 
-    Parameters
-    ----------
-    code, labels, most, dof, sheets
-        As for `enumerate.scd.listing.list_placements_of`.
-
-    Returns
-    -------
-    int
-        -1 if it is past counting.
+    The arguments are those of `enumerate.scd.listing.list_placements_of`.
     """
     turn, vertex, face, kinds, number = drawn(code, labels)
     symmetries = symmetries_of(turn, vertex, face, kinds)

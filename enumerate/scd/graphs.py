@@ -187,22 +187,12 @@ def all_mechanisms(
 
 
 def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMechanism:
-    """Return a mechanism as a source of `SCDJob`.
+    """Return a mechanism as a source of `SCDJob`; options are fields of `PlacementQuery`.
 
-    Parameters
-    ----------
-    mechanism : SCGraph or SCDGraph
-        Its loops are the bounded faces of a drawing. Of an SCD graph, the open edges are placed anew. Names and
-        the ground link do not count.
-    max_degree, **options
-        Fields of `PlacementQuery`.
-
-    Raises
-    ------
-    UnsolvableError
-        If the loops are not faces (`graphs.identity.drawings.map_id`), or the mobility cannot be counted.
-    InvariantError
-        If there are too many joints.
+    Its loops are the bounded faces of a drawing. Of an SCD graph, the open edges are placed anew. Names and the
+    ground link do not count. Raises `UnsolvableError` if the loops are not faces
+    (`graphs.identity.drawings.map_id`), or the mobility cannot be counted, `InvariantError` if there are too many
+    joints.
     """
     query = PlacementQuery(max_degree, **options)
     if len(mechanism.joints) + len(mechanism.loops) > MOST_JOINTS:

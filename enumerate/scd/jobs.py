@@ -34,14 +34,9 @@ _ALL = 1 << 62
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Mechanisms as codes.
+    """Mechanisms as codes without labels and open edges, uint8[r, D + N].
 
-    Attributes
-    ----------
-    codes : uint8[r, D + N]
-        Codes without labels and open edges.
-    labels : uint8[r, F]
-        Labels of the faces as the codes meet them, the outer one first.
+    Labels of the faces, uint8[r, F], are in the order in which the codes meet them, the outer one first.
     """
 
     codes: Bytes
@@ -134,16 +129,7 @@ def _drawn(query: SCQuery, part: MapPart) -> Drawn:
 
 @dataclass(frozen=True)
 class OneMechanism:
-    """A mechanism of a file.
-
-    Attributes
-    ----------
-    name : str
-        Its id.
-    dof : int
-    source : Drawn
-    placements : PlacementQuery
-    """
+    """A mechanism of a file, by its id, and the placements on it."""
 
     name: str
     dof: int
@@ -168,14 +154,9 @@ class OneMechanism:
 
 @dataclass(frozen=True, slots=True)
 class _Placements:
-    """Placements on some mechanisms: on one, those with some numbers; on several, all of them.
+    """Placements on some mechanisms: on one, those with some numbers, the last excluded; on several, all of them.
 
-    Attributes
-    ----------
-    mechanisms : Drawn
-        Listed once, when units are made: the rows on each take far more room.
-    first, last : int
-        Numbers of the placements, the last excluded.
+    Mechanisms are listed once, when units are made: the rows on each take far more room.
     """
 
     mechanisms: Drawn

@@ -55,26 +55,10 @@ def list_placements_of(
 ) -> tuple[Bytes, Ints, Ints]:
     """List placements of open edges on a mechanism, one of each orbit, those of a range of numbers.
 
-    Parameters
-    ----------
-    code, labels, most
-        As for `enumerate.scd.choices.number_of_placements`.
-    dof : int
-        The rank must say so.
-    first, last : int
-        Placements with these numbers, the last excluded.
-    sheets : bool
-        Only those with an explicit centre in every bounded face.
-    symmetric : bool
-        Only those with a symmetry.
-
-    Returns
-    -------
-    codes : uint8[r, width]
-        Codes with the labels at their end, then nothing.
-    lengths : int64[r]
-    facts : int64[r, 6]
-        `SCD_FACTS`.
+    Code, labels and the greatest link degree are those of `enumerate.scd.choices.number_of_placements`; the last
+    number is excluded, and the rank must give `dof`. `sheets`: only those with an explicit centre in every bounded
+    face; `symmetric`: only those with a symmetry. Returns codes, uint8[r, width], with the labels at their end,
+    then nothing; their lengths; and `SCD_FACTS`, int64[r, 6].
     """
     turn, vertex, face, kinds, number = drawn(code, labels)
     symmetries = symmetries_of(turn, vertex, face, kinds)
@@ -248,14 +232,8 @@ def _is_largest(placement: Ints, symmetries: Ints) -> int:
 def sides_of_all(codes: Bytes, lengths: Ints, labels: int, most: int) -> Ints:
     """Return how many links have each number of sides: int64[r, most + 1].
 
-    Parameters
-    ----------
-    codes, lengths
-        As `list_placements_of` returns them.
-    labels : int
-        Number of labels at the end of each code.
-    most : int
-        The greatest link degree.
+    Codes, of which `labels` end each, and lengths are those of `list_placements_of`; `most` is the greatest link
+    degree.
     """
     found = np.zeros((len(codes), most + 1), np.int64)
     for r in range(len(codes)):

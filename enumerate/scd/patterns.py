@@ -48,19 +48,8 @@ def label_faces(turn: Ints, vertex: Ints, face: Ints, labels: Ints) -> Ints:
 def patterns(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints, most: int) -> Bytes:
     """Return the valid patterns of a mechanism: uint8[p, D].
 
-    Parameters
-    ----------
-    turn, vertex, face
-        The map.
-    labels, number : int64[F]
-        Labels and classes of the faces.
-    most : int
-        The greatest link degree.
-
-    Returns
-    -------
-    uint8[p, D]
-        `CLOSED`, `OPENED` or `ANY` for the corners of faces without a centre, `CLOSED` elsewhere.
+    They are `CLOSED`, `OPENED` or `ANY` for the corners of faces without a centre, `CLOSED` elsewhere. `number`
+    holds the classes of the faces, `most` is the greatest link degree.
     """
     darts = len(vertex)
     found = np.zeros((4, darts), np.uint8)

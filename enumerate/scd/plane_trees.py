@@ -17,20 +17,7 @@ __all__ = ["plane_trees"]
 
 
 def plane_trees(links: int, most: int) -> Bytes:
-    """Return the codes of all plane trees with a number of links, none with more joints than a limit.
-
-    Parameters
-    ----------
-    links : int
-        N >= 2.
-    most : int
-        Greatest number of joints of a link.
-
-    Examples
-    --------
-    >>> [len(plane_trees(links, 9)) for links in range(2, 9)]
-    [1, 1, 2, 3, 6, 12, 27]
-    """
+    """Return the codes of all plane trees with N >= 2 links, none with more joints than a limit."""
     codes = np.array([[JOINT, END, JOINT, END]], np.uint8)
     for size in range(2, links):
         codes = _with_leaves(codes, size, most)

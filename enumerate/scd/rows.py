@@ -43,17 +43,7 @@ def placements_on(
 ) -> tuple[Bytes, Ints, Ints]:
     """Return the placements that a query asks for, as `enumerate.scd.listing.list_placements_of` does.
 
-    Parameters
-    ----------
-    query : PlacementQuery
-    code : uint8[:]
-        Code of the mechanism without open edges.
-    labels : int64[F]
-        Labels of its faces, the outer one first.
-    dof : int
-        Its degrees of freedom.
-    first, last : int
-        Numbers of the placements; the last is excluded.
+    The code is without open edges; labels begin with the outer face, and the last number is excluded.
     """
     codes, lengths, facts = list_placements_of(
         code, labels, query.max_degree, dof, first, last, query.sheets, query.symmetric

@@ -38,15 +38,9 @@ _FEW = 3
 
 @dataclass(frozen=True, slots=True)
 class Passive:
-    """Freedoms of one leg that move its own links only.
+    """Freedoms of one leg, by its joints, that move its own links only.
 
-    Attributes
-    ----------
-    joints : tuple of joint ids
-        Of the leg.
-    freedoms : int
-    spins : bool
-        Whether it is one, a turn about the line through two spherical joints.
+    `spins`: it is one, a turn about the line through two spherical joints.
     """
 
     joints: tuple[JointId, ...]
@@ -55,21 +49,12 @@ class Passive:
 
 
 def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
-    """Say how a linkage with joints of all kinds moves: by count of its joints, and at its pose as revolutes.
+    """Return how a linkage with joints of all kinds moves: by count of its joints, and at its pose as revolutes.
 
-    Parameters
-    ----------
-    linkage : JointedLinkage
-        Without places there is no pose; a note tells the freedoms of a general member.
+    Links, joints, loops and equations of the answer are those of the revolutes that stand for the joints; the
+    mobility is counted with the freedoms of the joints, and ``counts["passive"]`` are the passive freedoms.
+    Without places there is no pose; a note gives the freedoms of a generic realisation.
 
-    Returns
-    -------
-    MobilityAnswer
-        Links, joints, loops and equations are those of the revolutes that stand for the joints; the mobility is
-        counted with the freedoms of the joints. ``counts["passive"]``: the passive freedoms.
-
-    Examples
-    --------
     >>> leg = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
     >>> kinds = {1: JointKind.SPHERICAL, 2: JointKind.SPHERICAL, 3: JointKind.REVOLUTE}
     >>> answer = mobility_of_jointed(placed(JointedLinkage(leg, kinds)))
@@ -99,19 +84,9 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
 def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
     """Return the freedoms that move links of one leg only: those it has with both its ends held.
 
-    Parameters
-    ----------
-    linkage : JointedLinkage
-        With places. Open ends have none. Of a leg that comes back to its first link, and of a lone ring, rows
-        between spherical joints that follow each other are asked; the ground, or of a ring without one the
-        longest row, is held.
-
-    Examples
-    --------
-    >>> rod = SCGraph(5, [(0, 1), (1, 2), (0, 3), (3, 2), (0, 2)], ground=0)
-    >>> kinds = {0: JointKind.SPHERICAL, 1: JointKind.SPHERICAL, 2: JointKind.UNIVERSAL}
-    >>> passive_freedoms(placed(JointedLinkage(rod, kinds)))
-    (Passive(joints=(0, 1), freedoms=1, spins=True),)
+    The linkage has places; open ends have no such freedoms. For a leg that comes back to its first link, and a
+    lone ring, each row between successive spherical joints is examined; the ground is held, or the longest row of
+    a ring without one.
     """
     screws = _screws(linkage)
     found = []
@@ -141,16 +116,7 @@ def _rows_between_ends(linkage: JointedLinkage, leg: Leg) -> list[tuple[JointId,
 def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
     """Return the freedoms at the pose by the screws of the joints, without revolutes; None if not known.
 
-    Parameters
-    ----------
-    linkage : JointedLinkage
-        With places. All loops close with six equations.
-
-    Examples
-    --------
-    >>> ring = SCGraph(2, [(0, 1), (0, 1)])
-    >>> freedoms_by_screws(placed(JointedLinkage(ring, {0: JointKind.PLANAR, 1: JointKind.PLANAR})))
-    1
+    The linkage has places, and all loops close with six equations.
     """
     screws = _screws(linkage)
     chain = linkage.chain

@@ -30,13 +30,7 @@ _MOST_DIAGNOSED = 400
 def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = False) -> MobilityAnswer:
     """Add the exact generic mobility, and where it differs from the count, why.
 
-    Parameters
-    ----------
-    answer : MobilityAnswer
-        Of the mechanism.
-    mechanism : SCGraph or SCDGraph
-    demanded : bool, optional
-        Whatever its size.
+    It is found whatever the size of the mechanism if it is demanded.
     """
     joints = len(mechanism.joints)
     if joints > MOST_JOINTS and not demanded:
@@ -54,16 +48,7 @@ def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = F
 
 
 def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded: bool = False) -> MobilityAnswer:
-    """Add the exact generic mobility of a polyhedron model.
-
-    Parameters
-    ----------
-    answer : MobilityAnswer
-        Of the model.
-    model : PolyhedronModel
-    demanded : bool, optional
-        Whatever its size.
-    """
+    """Add the exact generic mobility of a polyhedron model, whatever its size if it is demanded."""
     if len(model) > MOST_JOINTS // 3 and not demanded:
         return answer.with_notes(
             warnings=[f"exact rank skipped: {len(model)} vertices are many; ask for it with --exact"]
@@ -100,22 +85,8 @@ def with_pose(
 ) -> MobilityAnswer:
     """Add the infinitesimal freedoms of a crease pattern as it lies.
 
-    Parameters
-    ----------
-    answer : MobilityAnswer
-        Of the sheet; the overconstraint h is against its count (Eq. 8).
-    sheet : Sheet
-    mechanism : SheetMechanism
-        Of this sheet.
-    demanded : bool, optional
-        Refuse a sheet without coordinates.
-
-    Raises
-    ------
-    UnsolvableError
-        If it is demanded and the sheet has no coordinates.
-    InvariantError
-        If a hinge has no length.
+    The overconstraint h is against the count of the answer (Eq. 8). Raises `UnsolvableError` if it is demanded and
+    the sheet has no coordinates, `InvariantError` if a hinge has no length.
     """
     if sheet.coordinates is None and not demanded:
         return answer

@@ -18,12 +18,8 @@ _MOST = 12
 def known(names: Iterable[Hashable], asked: str) -> str:
     """Return what is known in the place of a name: the names, how many, the nearest (of a number, none is).
 
-    Examples
-    --------
     >>> known(["crank", "rocker"], "cranck")
     "one of 'crank', 'rocker'; the nearest is 'crank'"
-    >>> known(range(40), "99")
-    'one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, ... (40)'
     """
     every = list(names)
     if not every:
@@ -37,15 +33,7 @@ def known(names: Iterable[Hashable], asked: str) -> str:
 def link_named(sc: SCGraph, name: str) -> LinkId:
     """Return the link whose name reads as given.
 
-    Raises
-    ------
-    InvariantError
-        If there is none.
-
-    Examples
-    --------
-    >>> link_named(SCGraph(2, [(0, 1)]), "1")
-    1
+    Raises `InvariantError` if there is none.
     """
     return _named(list(sc.nodes), name, "link")
 
@@ -54,20 +42,9 @@ def joint_named(sc: SCGraph, name: str) -> JointId:
     """Return the joint whose id reads as given; else by its number in the list, else the one between two links.
 
     Numbers in the list are for joints that have names: where ids are numbers themselves, another number is none.
+    Names are ``3``, ``hinge``, or ``A,B``. Raises `InvariantError` if there is no such joint, or there are several
+    between the links.
 
-    Parameters
-    ----------
-    sc : SCGraph
-    name : str
-        ``3``, ``hinge``, or ``A,B``.
-
-    Raises
-    ------
-    InvariantError
-        If there is none, or there are several between the links.
-
-    Examples
-    --------
     >>> two = SCGraph(["A", "B", "C"], {"a": ("A", "B"), "b": ("B", "C")})
     >>> joint_named(two, "b"), joint_named(two, "1"), joint_named(two, "C, B")
     ('b', 'b', 'b')

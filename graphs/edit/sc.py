@@ -73,8 +73,6 @@ class Edit:
 def fresh(taken: Iterable[Hashable], number: int) -> list[int]:
     """Return new integer ids whose text is not taken.
 
-    Examples
-    --------
     >>> fresh([0, 1, "2"], 2)
     [3, 4]
     """

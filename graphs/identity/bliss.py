@@ -18,15 +18,9 @@ _LINK, _JOINT, _MARKED = 0, 1, 2
 
 
 class ColouredGraph(NamedTuple):
-    """A simple graph whose nodes 0, 1, ... may have colours.
+    """A simple graph whose nodes 0, 1, ... may have colours; edges are pairs of nodes, no pair twice.
 
-    Attributes
-    ----------
-    nodes : int
-    edges : iterable of (int, int)
-        Pairs of nodes, no pair twice.
-    colours : sequence of int
-        One a node, which labels and automorphisms keep; empty: all nodes are alike.
+    Labels and automorphisms keep the colours, one for each node; if there are none, all nodes are alike.
     """
 
     nodes: int
@@ -37,14 +31,8 @@ class ColouredGraph(NamedTuple):
 class Symmetries(NamedTuple):
     """What bliss finds out about a graph.
 
-    Attributes
-    ----------
-    labels : list of int
-        The canonical number of each node.
-    generators : list of list of int
-        Permutations of the nodes that generate the automorphisms.
-    size : float
-        Number of automorphisms.
+    The canonical number of each node, permutations of the nodes that generate the automorphisms, and the number of
+    these.
     """
 
     labels: list[int]
@@ -55,13 +43,7 @@ class Symmetries(NamedTuple):
 def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None = None) -> ColouredGraph:
     """Return the graph of links, then joints, each joint beside its two links: joints may be parallel.
 
-    Parameters
-    ----------
-    links : int
-        Links are 0 to ``links - 1``.
-    joints : iterable of (int, int)
-    marked : int, optional
-        A link with a colour of its own.
+    Links are 0 to ``links - 1``; a marked one has a colour of its own.
     """
     pairs = list(joints)
     colours = [_MARKED if link == marked else _LINK for link in range(links)] + [_JOINT] * len(pairs)
@@ -73,8 +55,6 @@ def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None =
 def labels_of(graph: ColouredGraph) -> list[int]:
     """Return the canonical number of each node.
 
-    Examples
-    --------
     >>> sorted(labels_of(ColouredGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])))
     [0, 1, 2, 3]
     """
@@ -85,8 +65,6 @@ def labels_of(graph: ColouredGraph) -> list[int]:
 def symmetries_of(graph: ColouredGraph) -> Symmetries:
     """Return canonical numbers and automorphisms.
 
-    Examples
-    --------
     >>> symmetries_of(subdivided(4, [(0, 1), (1, 2), (2, 3), (3, 0)], marked=0)).size
     2.0
     """

@@ -22,22 +22,10 @@ _PREFIX = "k1:"
 
 
 def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
-    """Return the canonical number of each link of a simple graph.
+    """Return the canonical number of each link, 0 to ``links - 1``, of a simple graph.
 
-    Parameters
-    ----------
-    links : int
-        Links are 0 to ``links - 1``.
-    joints : iterable of (int, int)
-        Pairs of links; no pair twice.
+    Link i has number ``order[i]``; isomorphic graphs get the same pairs of numbers.
 
-    Returns
-    -------
-    list of int
-        Link i has number ``order[i]``; isomorphic graphs get the same pairs of numbers.
-
-    Examples
-    --------
     >>> sorted(canonical_order(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     [0, 1, 2, 3]
     """
@@ -82,15 +70,8 @@ def _order_with_parallel_joints(links: int, joints: Sequence[tuple[int, int]]) -
 def _canonical_links(graph: nx.Graph) -> dict[Any, int]:
     """Return the canonical number of each link of a link-joint graph.
 
-    Parameters
-    ----------
-    graph : networkx.Graph or networkx.MultiGraph
-        Links and joints; an SC or SCD graph is one. Parallel joints are told apart from single ones.
-
-    Raises
-    ------
-    InvariantError
-        If a joint connects a link with itself, or the graph is directed.
+    Parallel joints are told apart from single ones. Raises `InvariantError` if a joint connects a link with
+    itself, or the graph is directed.
     """
     if graph.is_directed():
         raise InvariantError("graph", "a directed graph", "an undirected one: joints have no direction")

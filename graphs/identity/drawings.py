@@ -161,8 +161,6 @@ def _reading(
 def map_text(symbols: Sequence[int], labels: str = "") -> str:
     """Return the id of symbols and labels.
 
-    Examples
-    --------
     >>> map_text([2, 3, 1, 2, 3, 1])
     'm1:ab.ab'
     """
@@ -191,13 +189,8 @@ def _split(symbols: Sequence[int]) -> Iterator[list[int]]:
 def symbols_of(code: str) -> tuple[list[int], str]:
     """Return the symbols and the labels of an id.
 
-    Raises
-    ------
-    InvariantError
-        If it is not an id.
+    Raises `InvariantError` if it is not an id.
 
-    Examples
-    --------
     >>> symbols_of("m1:ab.ab")
     ([2, 3, 1, 2, 3, 1], '')
     """

@@ -121,8 +121,6 @@ def _shorter_way(step: float) -> float:
 def ring(links: int) -> SCGraph:
     """Return a loop whose link i lies between joints i and i + 1, counted from 1.
 
-    Examples
-    --------
     >>> dict(ring(4).joints)
     {'1': (4, 1), '2': (1, 2), '3': (2, 3), '4': (3, 4)}
     """
@@ -133,27 +131,11 @@ def ring(links: int) -> SCGraph:
 def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dict[JointId, float]:
     """Return the azimuths of joints from signed steps between pairs of them.
 
-    Parameters
-    ----------
-    steps : mapping of (joint, joint) to float
-        Projected angle from the first to the second, radians.
-    tolerance : float, optional
-        How far steps may disagree that lead to one joint two ways.
+    A step is the projected angle from the first joint to the second, radians; the first joint named is at 0.
+    Raises `InvariantError` if steps that lead to one joint two ways disagree by more than the tolerance, or leave
+    joints unconnected.
 
-    Returns
-    -------
-    dict of joint id to float
-        The first joint named is at 0.
-
-    Raises
-    ------
-    InvariantError
-        If the steps disagree, or leave joints unconnected.
-
-    Examples
-    --------
-    >>> found = places_of_steps({("O", "A"): -0.5, ("B", "A"): 0.25})
-    >>> found == {"O": 0.0, "A": -0.5, "B": -0.75}
+    >>> places_of_steps({("O", "A"): -0.5, ("B", "A"): 0.25}) == {"O": 0.0, "A": -0.5, "B": -0.75}
     True
     """
     placed: dict[JointId, float] = {}

@@ -23,14 +23,9 @@ _PLANES = ("yz", "xz", "xy")
 
 @dataclass(frozen=True)
 class Flattened:
-    """A sheet in the plane.
+    """A sheet in the plane, float[n, 2]: distances and the side that is seen are kept.
 
-    Attributes
-    ----------
-    places : array of shape (n, 2)
-        Distances and the side that is seen are kept.
-    turned : str
-        What was done to bring the vertices there; empty where they lay in a plane z = constant.
+    `turned` says what was done to bring the vertices there; it is empty where they lay in a plane z = constant.
     """
 
     places: Floats
@@ -40,8 +35,6 @@ class Flattened:
 def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
     """Return points in space, float[n, 3]: z is 0 where the coordinates, in any unit of length, have none.
 
-    Examples
-    --------
     >>> in_space([(1, 2), (3, 4)]).tolist()
     [[1.0, 2.0, 0.0], [3.0, 4.0, 0.0]]
     """
@@ -52,10 +45,8 @@ def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
 
 
 def lies_flat(sheet: Sheet) -> bool:
-    """Tell whether a sheet lies in one plane, as far as its coordinates are precise.
+    """Return whether a sheet lies in one plane, as far as its coordinates are precise.
 
-    Examples
-    --------
     >>> lies_flat(Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 1, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1))))
     True
     """
@@ -100,13 +91,8 @@ def flattened(sheet: Sheet) -> Flattened | None:
 def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     """Return the coordinates of a sheet as they are seen in its plane, for a format that is flat.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has none, or does not lie in a plane.
+    Raises `UnsolvableError` if the sheet has none, or does not lie in a plane.
 
-    Examples
-    --------
     >>> flat_places(Sheet(1, (), "", (), ((1.0, 2.0, 0.0),)), "a picture")
     [(1.0, 2.0)]
     """

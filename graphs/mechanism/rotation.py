@@ -103,12 +103,7 @@ class Face:
 
 
 def check_rotation(joints: Joints, rotation: Rotation) -> None:
-    """Refuse a rotation that does not hold each joint once at each of its two links.
-
-    Raises
-    ------
-    InvariantError
-    """
+    """Raise `InvariantError` for a rotation that does not hold each joint once at each of its two links."""
     expected: dict[LinkId, list[JointId]] = {link: [] for link in rotation}
     for joint, ends in joints.items():
         for link in ends:
@@ -137,21 +132,10 @@ def check_sides(rotation: Rotation) -> None:
 
 
 def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], dict[tuple[JointId, LinkId], int]]:
-    """Return the faces, and for each dart (joint, link it leaves) the face on its left.
+    """Return the faces, and for each dart (joint, link it leaves) the index of the face on its left.
 
-    Parameters
-    ----------
-    joints : mapping of joint id to (link, link)
-    rotation : mapping of link to its sides, counter-clockwise
+    A rotation is the sides of each link, counter-clockwise.
 
-    Returns
-    -------
-    faces : tuple of Face
-    left_of : dict
-        ``left_of[joint, link]`` is the index of the face on the left when ``joint`` is crossed from ``link``.
-
-    Examples
-    --------
     >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
     >>> faces, left = trace_faces(triangle, {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)})
     >>> [face.open_edges for face in faces]
@@ -191,15 +175,9 @@ def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], d
 def link_vertices(faces: Sequence[Face], rotation: Rotation) -> tuple[int, dict[LinkId, tuple[int, ...]]]:
     """Number the vertices: round each face, every run between successive open edges is one vertex.
 
-    Returns
-    -------
-    count : int
-        Open edges + faces without open edges.
-    vertices : dict
-        For each link its vertices; item ``i`` lies between side ``i`` and side ``i + 1``.
+    Their number is that of open edges and of faces without open edges. Item ``i`` of a link lies between its side
+    ``i`` and side ``i + 1``.
 
-    Examples
-    --------
     >>> faces, _ = trace_faces({}, {"panel": (None, None, None)})
     >>> link_vertices(faces, {"panel": (None, None, None)})
     (3, {'panel': (2, 1, 0)})
@@ -225,8 +203,6 @@ def face_cycles(face: Face) -> list[tuple[JointId, ...]]:
     A face of a 2-connected graph has one. There are more where a sub-mechanism hangs inside the face (thesis
     3.4.2) and none on the face of a tree; joints with the face on both their sides belong to no cycle.
 
-    Examples
-    --------
     >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
     >>> faces, _ = trace_faces(triangle, {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)})
     >>> [face_cycles(face) for face in faces]

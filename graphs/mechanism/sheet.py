@@ -188,16 +188,6 @@ def with_all_edges(sheet: Sheet) -> Sheet:
     Sides between two faces that were not listed are unassigned creases, in the order of the faces, and come first:
     their places in the list are the ids of their joints. Other sides are borders.
 
-    Parameters
-    ----------
-    sheet : Sheet
-
-    Returns
-    -------
-    Sheet
-
-    Examples
-    --------
     >>> whole = with_all_edges(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
     >>> whole.edges, whole.assignments
     (((0, 2), (0, 1), (1, 2), (2, 3), (0, 3)), 'UBBBB')
@@ -221,8 +211,6 @@ def with_all_edges(sheet: Sheet) -> Sheet:
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
     """Return the sides of a face, each from a vertex to the next.
 
-    Examples
-    --------
     >>> sides_of_face("abc")
     [('a', 'b'), ('b', 'c'), ('c', 'a')]
     """

@@ -36,24 +36,9 @@ _CHECKED = (1e-5, 1e-2)
 def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floats, nearly: Floats) -> Spectrum:
     """Return the numerical rank of a large sparse matrix.
 
-    Parameters
-    ----------
-    matrix : sparse float[m, n]
-    places : float[m, d]
-        Where each row is; rows that share columns are close.
-    error, nearly : float[n]
-        As for :func:`~graphs.rank.singular_values.spectrum`.
-
-    Returns
-    -------
-    Spectrum
-        Indeterminate too where the two counts of small values differ.
-
-    Examples
-    --------
-    >>> path = scipy.sparse.diags([1.0, 1.0], [0, 1], shape=(999, 1000), format="csr")
-    >>> sparse_spectrum(path, np.arange(999.0)[:, None], np.zeros(1000), np.zeros(1000)).rank
-    999
+    It is indeterminate too where the two counts of small values differ. Places, float[m, d], say where each row
+    is; rows that share columns are close. Error and nearly, float[n], are as for
+    :func:`~graphs.rank.singular_values.spectrum`.
     """
     if not matrix.nnz:
         return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
@@ -70,16 +55,7 @@ def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floa
 def number_below(matrix: scipy.sparse.csr_matrix, bound: float) -> int:
     """Return how many singular values are below a bound, of as many as there are columns, by Sylvester's inertia.
 
-    Parameters
-    ----------
-    matrix : sparse float[m, n]
-    bound : float
-        Well above the root of the rounding error, 1e-8 of the largest singular value.
-
-    Examples
-    --------
-    >>> number_below(scipy.sparse.csr_matrix([[1.0, 0.0, 0.0], [0.0, 1e-6, 0.0]]), 1e-3)
-    2
+    The bound is well above the root of the rounding error, 1e-8 of the largest singular value.
     """
     normal = (matrix.T @ matrix - bound**2 * scipy.sparse.identity(matrix.shape[1])).tocsc()
     factors = scipy.sparse.linalg.splu(
@@ -120,12 +96,7 @@ class _Step:
 class _Elimination:
     """The state of one elimination. Columns are those of the matrix, then those that were handed up.
 
-    Attributes
-    ----------
-    pivots : int
-        Singular values that are large.
-    found : list of (values, floors, nearly)
-        Of the others.
+    `pivots` counts the large singular values, `found` holds the values, floors and nearly of the others.
     """
 
     matrix: scipy.sparse.csr_matrix

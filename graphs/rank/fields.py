@@ -118,8 +118,6 @@ class Reals:
 def null_vectors(rows: Sequence[Sequence[Any]], field: Field) -> list[list[Any]]:
     """Return a basis of the vectors that all rows of a small matrix annihilate.
 
-    Examples
-    --------
     >>> null_vectors([[1, 2], [2, 4]], PrimeField(7))
     [[5, 1]]
     """

@@ -154,31 +154,7 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
 
 
 def realise_points(incidence: Incidence, field: Field) -> Realisation:
-    """Place points and axes.
-
-    Parameters
-    ----------
-    incidence : Incidence
-    field : Field
-
-    Returns
-    -------
-    Realisation
-
-    Raises
-    ------
-    UnsolvableError
-        If points that must lie in line could not be placed.
-
-    Examples
-    --------
-    Two axes through one point, in a field of seven numbers:
-
-    >>> from graphs.rank.fields import PrimeField
-    >>> placed = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(7))
-    >>> len(placed.points), len(placed.axes)
-    (1, 2)
-    """
+    """Place points and axes; raises `UnsolvableError` if points that must lie in line could not be placed."""
     order = list(range(len(incidence.points)))
     for attempt in range(_ATTEMPTS):
         points = _place(incidence, order, field)
@@ -259,8 +235,6 @@ def _axes(incidence: Incidence, points: Sequence[Point], field: Field) -> dict[J
 def join(p: Sequence[Any], q: Sequence[Any], field: Field) -> Line:
     """Return the Pluecker line of two homogeneous points: direction u, and moment of a point on it.
 
-    Examples
-    --------
     >>> from graphs.rank.fields import Reals
     >>> join((0, 0, 0, 1), (1, 0, 0, 1), Reals())
     ((1, 0, 0), (0, 0, 0))

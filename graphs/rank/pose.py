@@ -309,12 +309,7 @@ def _flat_loops(points: Floats, found: SheetMechanism, precision: Precision) -> 
 def closure_at_pose(sheet: Sheet, found: SheetMechanism) -> Closure:
     """Return the closure equations of a sheet's mechanism as it lies.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates.
-    InvariantError
-        If a hinge has no length.
+    Raises `UnsolvableError` if the sheet has no coordinates, `InvariantError` if a hinge has no length.
     """
     if sheet.coordinates is None:
         raise UnsolvableError("the freedoms at a pose need coordinates, and the sheet has none")

@@ -91,10 +91,8 @@ def _rank(rows: Sequence[Row], prime: int) -> int:
 def place_model(model: PolyhedronModel, field: Field) -> dict[VertexId, Place]:
     """Place the vertices of a model at random, as its lines, planes and remote centres ask.
 
-    Raises
-    ------
-    UnsolvableError
-        If that does not succeed in any of the orders tried, or the bars of a scissors element then do not cross.
+    Raises `UnsolvableError` if that does not succeed in any of the orders tried, or the bars of a scissors element
+    then do not cross.
     """
     spans = _spans(model)
     centres = [point for point in spans if point not in model]
@@ -189,12 +187,8 @@ def _one_point(model: PolyhedronModel, vertices: Sequence[VertexId]) -> Unsolvab
 class _Placing:
     """How points are placed: each on what earlier ones span.
 
-    Attributes
-    ----------
-    model, spans, field
-    strictly : bool
-        Whether a point lies with span points even where these are dependent, on their line say. Elements of
-        scissors that share vertices may need it otherwise: three on a line are in one plane with any fourth.
+    With `strictly` a point lies with span points even where these are dependent, on their line say. Elements of
+    scissors that share vertices may need it otherwise: three on a line are in one plane with any fourth.
     """
 
     model: PolyhedronModel
@@ -251,23 +245,8 @@ def velocity_constraints(
 ) -> tuple[list[Row], int]:
     """Return the constraints on the velocities of the vertices, and how many points move.
 
-    Parameters
-    ----------
-    model : PolyhedronModel
-    places : mapping of vertex to (x, y, z)
-    field : Field
-
-    Returns
-    -------
-    rows : list of dict
-        (point, coordinate) to coefficient.
-    points : int
-        Vertices and apexes, those of the ground link left out.
-
-    Raises
-    ------
-    UnsolvableError
-        If the bars of a scissors element do not cross in one point there.
+    Rows map (point, coordinate) to a coefficient; points are vertices and apexes, those of the ground link left
+    out. Raises `UnsolvableError` if the bars of a scissors element do not cross in one point there.
     """
     fixed = model.ground or frozenset()
     where: dict[Hashable, Place] = dict(places)

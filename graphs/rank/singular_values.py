@@ -97,19 +97,11 @@ class Spectrum:
 
 
 def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Verdict:
-    """Judge singular values by what errors would do to them.
+    """Judge singular values, as parts of the largest, by what errors would do to them.
 
-    Parameters
-    ----------
-    values : float[..., k]
-        As parts of the largest.
-    floors : float[..., k]
-        What errors of the size of the data's precision do to each, in the mean.
-    nearly : float[..., k], optional
-        Likewise for an error of a thousandth of the size.
+    Floors say what errors of the size of the data's precision do to each, in the mean; nearly likewise for an
+    error of a thousandth of the size.
 
-    Examples
-    --------
     >>> judged = verdict(np.array([1.0, 1e-5, 1e-14]), np.full(3, 1e-15), np.full(3, 1e-3))
     >>> judged.noise.tolist(), judged.undecided.tolist(), judged.nearly.tolist()
     ([False, False, False], [False, False, True], [False, True, False])
@@ -151,17 +143,10 @@ def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats
 
 @dataclass(frozen=True, slots=True)
 class Spectra:
-    """The singular values of many matrices of one shape, judged.
+    """The singular values of many matrices of one shape, descending, judged.
 
-    Attributes
-    ----------
-    values : float[..., k]
-        Descending.
-    rows : float[..., n, n]
-        Right singular vectors, as rows; not canonical.
-    floors : float[..., k]
-        What errors do to each value, as parts of the largest.
-    verdict : Verdict
+    Rows, float[..., n, n], are the right singular vectors, not canonical; floors say what errors do to each value,
+    as parts of the largest.
     """
 
     values: Floats
@@ -178,15 +163,8 @@ class Spectra:
 def spectra(matrices: Floats, error: float, nearly: float) -> Spectra:
     """Return singular values of many matrices, each judged as `spectrum` judges those of one.
 
-    Parameters
-    ----------
-    matrices : float[..., m, n]
-        None of them zero.
-    error, nearly : float
-        Of a column: the length of the errors of its entries.
+    No matrix, float[..., m, n], is zero; error and nearly are the length of the errors of the entries of a column.
 
-    Examples
-    --------
     >>> spectra(np.array([[[2.0, 0.0], [2.0, 1e-17]]]), 1e-12, 1e-3).verdict.noise.tolist()
     [[False, True]]
     """
@@ -202,16 +180,8 @@ def rounding(shape: tuple[int, int]) -> float:
 
 
 def judged_at(values: Floats, zero: float) -> Spectrum:
-    """Return the rank that singular values tell, of which those up to a part of the largest are zero.
+    """Return the rank of singular values, descending, in any unit; those up to `zero` times the largest are zero.
 
-    Parameters
-    ----------
-    values : float[k]
-        Descending, in any unit.
-    zero : float
-
-    Examples
-    --------
     >>> judged_at(np.array([2.0, 1.0, 1e-10]), 1e-9).rank, judged_at(np.array([1.0, 2e-9]), 1e-9).rank
     (2, None)
     """
@@ -221,14 +191,9 @@ def judged_at(values: Floats, zero: float) -> Spectrum:
 
 
 def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> Spectrum:
-    """Return the rank that singular values tell, of which some may be known to be large without their figures.
+    """Return the rank of singular values, and of `larger` more, known to be large without their figures.
 
-    Parameters
-    ----------
-    values, floors, nearly : float[k]
-        As for :func:`verdict`.
-    larger : int, optional
-        How many more there are.
+    Values, floors and nearly are as for :func:`verdict`.
     """
     found = verdict(values, floors, nearly)
     counted = values[~found.noise & ~found.undecided]

@@ -142,12 +142,6 @@ def rank_of(matrix: Floats, zero: float = DOUBLE.zero) -> int:
 def singular_values(matrices: Floats) -> Floats:
     """Return the singular values of matrices, descending: float[..., k].
 
-    Parameters
-    ----------
-    matrices : float[..., m, n]
-
-    Examples
-    --------
     >>> singular_values(np.diag([1.0, 3.0])).tolist()
     [3.0, 1.0]
     """

@@ -30,16 +30,9 @@ class _FourBar(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Choice:
-    """A block that came down to one four-bar.
+    """A block that came down to one four-bar: its last loop, here as a four-bar.
 
-    Attributes
-    ----------
-    last : int
-        Its loop.
-    here : _FourBar
-        That loop as a four-bar.
-    there : tuple of _FourBar
-        Those that could stay, the last one among them.
+    `there` are the four-bars that could stay, the last one among them.
     """
 
     last: int
@@ -56,24 +49,10 @@ def links_of_loops_that_stay(
 ) -> frozenset[LinkId]:
     """Return the links of four-bars that should have stayed, if others did.
 
-    Parameters
-    ----------
-    work : WorkingGraph
-        Ride-alongs taken off until none was left, each block keeping a loop.
-    taken : sequence of Taken
-    protected : collection of link ids
-        Links that stay anyway.
-
-    Returns
-    -------
-    frozenset of link ids
-        To be protected too when the reduction is done again; empty if it was right.
-
-    Notes
-    -----
-    A finite centre stays before one at infinity, a centre of its own before one that other blocks have too. If
-    several shared centres are still equal, canonical labels of what is left decide: then the choice has no
-    meaning, but it is always the same.
+    Ride-alongs were taken off until none was left, each block keeping a loop. The links are to be protected too,
+    as some are anyway, when the reduction is done again; none if it was right. A finite centre stays before one at
+    infinity, a centre of its own before one that other blocks have too. If several shared centres are still equal,
+    canonical labels of what is left decide: then the choice has no meaning, but it is always the same.
     """
     choices = [_most_general(work, one) for one in _choices(work, taken, protected)]
     labels = _labels(work, choices, protected) if any(len(one.classes) > 1 for one in choices) else {}

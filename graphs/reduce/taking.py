@@ -19,15 +19,9 @@ RULES = ("ride-along", "dyad")
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """What may be taken off.
+    """Which addenda may be taken off: ride-alongs or dyads, without protected links.
 
-    Attributes
-    ----------
-    rule : {"ride-along", "dyad"}
-    fully : bool
-        Whether a block may lose its last loop.
-    protected : frozenset of link ids
-        Links that stay.
+    `fully`: a block may lose its last loop.
     """
 
     rule: str
@@ -36,15 +30,9 @@ class Terms:
 
 
 class Taken(NamedTuple):
-    """An addendum that was taken off.
+    """An addendum that was taken off the links a and b (`onto`).
 
-    Attributes
-    ----------
-    removal : Removal
-    joint : joint id or None
-        The joint a-b that takes the place of the addendum; None for a dyad.
-    onto : (link, link)
-        a and b.
+    `joint` is the joint a-b that takes the place of the addendum; None for a dyad.
     """
 
     removal: Removal

@@ -24,22 +24,11 @@ __all__ = ["Path", "Removal", "WorkingGraph"]
 
 @dataclass(frozen=True, slots=True)
 class Removal:
-    """Two binary links taken out, and what became of the loops; enough to put everything back.
+    """Two binary links u and v taken out, and what became of the loops; enough to put everything back.
 
-    Attributes
-    ----------
-    links : (link, link)
-        u and v, joined to each other.
-    joints : (joint, joint, joint)
-        a-u, u-v and v-b.
-    ends : tuple of (link, link)
-        The ends of the three joints.
-    dropped : int
-        Index of the loop that went.
-    changed : tuple of (int, frozenset of joint ids)
-        Loops that were rerouted, each with the joints that it gained or lost.
-    reopened : int or None
-        A closing loop that took the place of a dropped independent one, if any.
+    Joints are a-u, u-v and v-b. `dropped` is the index of the loop that went; `changed` are loops that were
+    rerouted, each with the joints that it gained or lost; `reopened` is a closing loop that took the place of a
+    dropped independent one, if any.
     """
 
     links: tuple[LinkId, LinkId]
@@ -65,10 +54,7 @@ class Path(NamedTuple):
 class WorkingGraph:
     """A mechanism with links, joints and loops that come and go.
 
-    Parameters
-    ----------
-    sc : SCGraph
-        Its classes are computed once and kept throughout.
+    Its classes are computed once and kept throughout.
     """
 
     def __init__(self, sc: SCGraph) -> None:

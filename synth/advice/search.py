@@ -37,7 +37,13 @@ class Candidates:
     allowance: Allowance
 
     def dependent(self, size: int, wanted: int) -> Iterator[tuple[int, ...]]:
-        """Yield the sets of a size, no two crossing, that bring so many rates or more."""
+        """Yield the sets of a size, no two crossing, that bring so many rates or more.
+
+        >>> few = [Diagonal(panel, panel, (0, 2), (0, 2)) for panel in range(3)]
+        >>> loads = np.array([[1.0, 2.0, 0.0], [0.0, 0.0, 1.0]])
+        >>> list(Candidates(few, loads, Allowance(100)).dependent(2, 1))
+        [(0, 1)]
+        """
         yield from self._grown((), self.loads, size - wanted, size)
 
     def _grown(self, chosen: tuple[int, ...], loads: Floats, rank: int, size: int) -> Iterator[tuple[int, ...]]:

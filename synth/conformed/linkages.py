@@ -245,6 +245,11 @@ def cone_of_number(cones: Sequence[OnCone], number: int | None) -> OnCone:
     """Return the cone of a number, from 1, of the cones of a linkage; it is needed where there are several.
 
     Raises `UnsolvableError` if there is no cone, or several and no number, or none of this number.
+
+    >>> cone_of_number(loop_on_cones(np.radians([120, 95, 45, 85])), None)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: the linkage lies on 2 cones, of 13.9984, 29.0445 degrees: expected --cone
     """
     if not cones:
         raise UnsolvableError("the linkage lies on no cone")

@@ -144,7 +144,9 @@ class OutwardRate:
 
 
 def brackets(places: npt.ArrayLike) -> Floats:
-    """Return det(e_a, e_b, e_c) of three azimuths: twice the area of their triangle, + if they are in order.
+    """Return det(e_a, e_b, e_c) of three joints: twice the area of their triangle, + if they are in order.
+
+    Places, float[..., 3], are azimuths, radians.
 
     >>> from synth.conformed.rates import ring_axes
     >>> places = np.array([0.3, 2.0, 4.5])

@@ -141,6 +141,9 @@ def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float
     """Return points of a link that is a strip of the cone between two ruling lines: float[2, points, 3].
 
     Start and end are azimuths, radians; radii are the distances of its two edges from the apex.
+
+    >>> strip(0, 1, 0.3, (1, 2)).shape
+    (2, 24, 3)
     """
     axes = joint_axes(np.linspace(start, end, points), cone_angle)
     return np.stack([radii[0] * axes, radii[1] * axes])

@@ -151,7 +151,11 @@ class FirstOrder:
 
 
 def ring_axes(places: npt.ArrayLike) -> Floats:
-    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets."""
+    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets.
+
+    >>> ring_axes([0.0]).tolist()
+    [[0.0, 1.0, 1.0]]
+    """
     t = np.asarray(places, dtype=float)
     return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
 

@@ -87,7 +87,12 @@ class SignRelations:
 
     @classmethod
     def of(cls, chain: ConformedChain) -> SignRelations:
-        """Set up the relations of a chain."""
+        """Set up the relations of a chain.
+
+        >>> from graphs.mechanism.sc import SCGraph
+        >>> len(SignRelations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
+        26
+        """
         links, joints = len(chain.links), len(chain.joints)
         zero = np.zeros(links * joints + joints, bool)
         zero[:joints] = True

@@ -48,5 +48,9 @@ def vertex_places(
 
 
 def largest_panel(panels: Sequence[Sequence[Any]]) -> int:
-    """Return the link of most faces: the panel by which a sheet is held."""
+    """Return the link of most faces: what a sheet is held by.
+
+    >>> largest_panel([[0], [1, 2], [3]])
+    1
+    """
     return max(range(len(panels)), key=lambda link: len(panels[link]))

@@ -101,7 +101,10 @@ class BodyPoses:
         return np.asarray(moved[self.tree.near] - moved[self.tree.far])
 
     def forward(self, angles: Floats, axes: AxisChange) -> Floats:
-        """Return the twists of links with changes of joint angles and axes, the ground held: float[L, 6]."""
+        """Return the twists of links with changes of joint angles and axes, the ground held: float[L, 6].
+
+        Changes of angles are in radians.
+        """
         tree = self.tree
         turned = (angles - axes.zeros)[tree.joints, None] * self._screws()
         steps = turned + np.einsum("eij,ej->ei", self._by_axes(), axes.twists.reshape(-1, 6)[tree.joints])

@@ -237,7 +237,11 @@ def _grouped(linkage: PosedLinkage) -> list[_Alike]:
 
 
 def frames_of(axes: Floats) -> Floats:
-    """Return orthonormal frames of loops with parallel axes: two directions across them, then theirs."""
+    """Return orthonormal frames of loops with parallel axes: two directions across them, then theirs.
+
+    >>> abs(frames_of(np.array([[[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]]))[0, 2]).round(12).tolist()
+    [0.0, 0.0, 1.0]
+    """
     return frame_about(common_direction(axes))
 
 

@@ -64,6 +64,12 @@ def joints_outwards(
     Yields a link, the link that it carries, the place of the joint between them in the list of joints, and 1 or
     -1: by which of its angle the far one is turned. The ground, by default the first link, stays; each part of a
     linkage in several parts has one link that does.
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> list(joints_outwards(hinge, ground=1))
+    [(1, 0, 0, -1.0)]
     """
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}

@@ -97,8 +97,8 @@ def rates_near(
 ) -> Floats | None:
     """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 
-    Wanted are rates or their signs, float[J]; the answer is as long as they are, and leaves at most `zero` of the
-    equations; None where none were found near them.
+    Angles, radians, are those of the pose. Wanted are rates or their signs, float[J]; the answer is as long as
+    they are, and leaves at most `zero` of the equations; None where none were found near them.
     """
     _, jacobian = closure.at(angles)
     size = float(np.linalg.norm(wanted))

@@ -32,7 +32,11 @@ def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
 
 
 def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
-    """Return the logarithm of the length of each edge, float[E], and its derivatives, float[E, 2 V]."""
+    """Return the logarithm of the length of each edge, float[E], and its derivatives, float[E, 2 V].
+
+    >>> edge_lengths(np.array([[0.0, 0], [1, 0]]), np.array([[0, 1]]))[0].tolist()
+    [0.0]
+    """
     along = places[edges[:, 1]] - places[edges[:, 0]]
     squares = (along**2).sum(axis=1)
     derivatives = np.zeros((len(edges), len(places), 2))

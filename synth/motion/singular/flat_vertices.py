@@ -26,6 +26,14 @@ class FlatVertices:
     """The loops of a linkage that are flat vertices of four creases.
 
     `linear` says whether every loop is one whose opposite sectors make 180 degrees, and all creases are flat.
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> cross = FlatVertices(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
+    >>> cross.linear, cross.modes(np.array([0.0, 1.0, 0.0, 1.0])), cross.modes(np.zeros(4))
+    (True, ((1, 3),), (None,))
     """
 
     def __init__(self, linkage: PosedLinkage) -> None:

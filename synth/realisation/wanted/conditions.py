@@ -18,7 +18,13 @@ Condition = Callable[[Floats], tuple[Floats, Floats]]
 
 
 def together(conditions: Sequence[Condition]) -> Condition:
-    """Return several conditions as one."""
+    """Return several conditions as one.
+
+    >>> at_rest = together([lambda unknowns: (unknowns.ravel(), np.eye(unknowns.size))] * 2)
+    >>> off, by = at_rest(np.zeros((3, 2)))
+    >>> off.shape, by.shape
+    ((12,), (12, 6))
+    """
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
         parts = [one(unknowns) for one in conditions]

@@ -26,7 +26,14 @@ class Sides:
 
 
 def sides_of(pattern: Pattern) -> Sides:
-    """Return which side of a pattern follows which."""
+    """Return which side of a pattern follows which.
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
+    >>> len(sides_of(fan).after), len(sides_of(fan).creases)
+    (12, 8)
+    """
     after: dict[Edge, Edge] = {}
     for panel in pattern.panels:
         sides = list(sides_of_face(panel))

@@ -78,6 +78,12 @@ def wishes_for(pattern: Pattern, *, flat_foldable: bool, symmetric: bool) -> tup
     """Return what to ask of drawings, in the order in which to try: the largest group of symmetries first.
 
     Raises `UnsolvableError` if it cannot be flat-foldable, or has no symmetry that keeps its border.
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
+    >>> [str(one.symmetry) for one in wishes_for(fan, flat_foldable=True, symmetric=True)][:1]
+    ['turns by 90 degrees, 4 mirror(s)']
     """
     if flat_foldable:
         flat_folding(pattern)  # which says what stands in the way
