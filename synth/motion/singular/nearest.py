@@ -46,9 +46,7 @@ class Begun:
     rigid: bool
 
 
-def begun_near(
-    closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats, zero: float = DOUBLE.zero
-) -> Begun:
+def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
     By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
@@ -60,17 +58,15 @@ def begun_near(
     linkage : PosedLinkage
     wanted : float[J]
         Rates, or signs of them.
-    zero : float, optional
-        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
     """
-    quadrics = quadrics_of(linkage, zero)
-    rates = rates_near(closure, linkage.angles, quadrics, wanted, zero)
+    quadrics = quadrics_of(linkage)
+    rates = rates_near(closure, linkage.angles, quadrics, wanted)
     if rates is not None:
         return Begun(rates / np.abs(rates).max(), rigid=False)
     if closure.joints > MOST_RATES:
         return Begun(None, rigid=False)
-    tangent = rates_at(closure, linkage.angles, zero)
-    spaces, nothing = spaces_near(tangent, quadrics, wanted, zero), True
+    tangent = rates_at(closure, linkage.angles)
+    spaces, nothing = spaces_near(tangent, quadrics, wanted), True
     for space in islice(spaces, _DEAD_ENDS):
         if space is None:
             continue
