@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from math import ceil, cos, inf, sin, tau
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
+from graphs.arrays import Flags, Floats
 from graphs.ids import LinkId
 from graphs.tolerances import DOUBLE
 from synth.conformed.behaviours import Way, link_arcs
@@ -93,19 +93,6 @@ class Position:
     ways: dict[LinkId, Way]
 
 
-@dataclass(frozen=True, slots=True)
-class Crossing:
-    """Where a link comes to lie inside (side 0) or outside (1) of the cone, or ceases to.
-
-    The frame is that of the circuit before it, the turn that of the driving joint, radians.
-    """
-
-    frame: int
-    turn: float
-    link: int
-    side: int
-
-
 class ConicalLinks:
     """The links of a linkage as arcs on its cone."""
 
@@ -140,6 +127,47 @@ class ConicalLinks:
         return spans
 
 
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """A piece of a walk on which a link comes to lie inside or outside of the cone, or ceases to.
+
+    Where on it is found when it is asked for: the circuit goes on past the turning points of the driving joint.
+
+    Attributes
+    ----------
+    links : ConicalLinks
+    driver : int
+        Place of the driving joint.
+    frame : int
+        Number of the circuit's configuration before it.
+    piece : Step
+    link : int
+    sides : list of int
+        What changes: inside (0), outside (1), or both.
+    """
+
+    links: ConicalLinks
+    driver: int
+    frame: int
+    piece: Step
+    link: int
+    sides: list[int]
+
+    @cached_property
+    def turns(self) -> list[tuple[float, int]]:
+        """The turn of the driving joint at which each side changes, radians, in the order of the walk."""
+        places = sorted((self._zero(side), side) for side in self.sides)
+        return [(float(self.piece.at(part).angles[self.driver]), side) for part, side in places]
+
+    def _zero(self, side: int) -> float:
+        def span(place: Corrected) -> float:
+            return float(self.links.spans(place.angles[None])[0, self.link, side])
+
+        part = self.piece.zero(span)
+        assert part is not None, "a side that changes has a zero"
+        return part
+
+
 class SidesOfCone(Event):
     """Links leave a side of the cone, or come to lie on it.
 
@@ -162,20 +190,15 @@ class SidesOfCone(Event):
         if len(walk.frames) == 1:
             self.begun = self.now = beyond[0]
         for part, now in zip(parts, beyond, strict=True):
-            if (now != self.now).any():
-                self._cross(len(walk.frames) - 1, step.piece(part - 0.5, part), np.argwhere(now != self.now))
+            changed = now != self.now
+            if changed.any():
+                self._cross(len(walk.frames) - 1, step.piece(part - 0.5, part), changed)
             self.now = now
 
-    def _cross(self, frame: int, step: Step, changed: Ints) -> None:
-        crossings = []
-        for link, side in changed.tolist():
-            part = step.zero(partial(self._span, link, side))
-            assert part is not None, "a side that changes has a zero"
-            crossings.append((part, Crossing(frame, float(step.at(part).angles[self._driver]), link, side)))
-        self.crossings += [crossing for _, crossing in sorted(crossings, key=lambda each: each[0])]
-
-    def _span(self, link: int, side: int, place: Corrected) -> float:
-        return float(self._links.spans(place.angles[None])[0, link, side])
+    def _cross(self, frame: int, piece: Step, changed: Flags) -> None:
+        for link in np.flatnonzero(changed.any(axis=1)).tolist():
+            sides = np.flatnonzero(changed[link]).tolist()
+            self.crossings.append(Crossing(self._links, self._driver, frame, piece, link, sides))
 
 
 class Turns(Event):
@@ -208,13 +231,18 @@ class Turns(Event):
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """One way along the circuit from the conformed position, with what is met: see the events above."""
+    """One way along the circuit from the conformed position, with what is met: see the events above.
+
+    Of a closed circuit passed back ``whole`` is the turn of the driving joint all the way round; crossings are
+    those of the way forward, with the numbers of their configurations there.
+    """
 
     circuit: Path
     begun: Flags
     now: Flags
     crossings: list[Crossing]
     places: list[tuple[int, float, Floats]]
+    whole: float | None = None
 
     @classmethod
     def along(
@@ -240,26 +268,21 @@ class Course:
             if event.kind == "turning point"
         )[::-1]
         back = replace(circuit, angles=circuit.angles[::-1] - whole, events=events)
-        crossings = [
-            replace(each, frame=count - 2 - each.frame, turn=each.turn - float(whole[driver]))
-            for each in reversed(self.crossings)
-        ]
-        return Course(back, self.now, self.begun, crossings, [])
+        return Course(back, self.now, self.begun, self.crossings, [], float(whole[driver]))
 
     def sense(self, links: ConicalLinks, driver: int) -> Sense:
         """Return what happens until the driving joint turns back, or comes round."""
         ends = BACK if self.circuit.turning else self.circuit.stopped or ROUND
         limit = float(self.circuit.angles[self.last, driver])
-        ways = {link: self._stretches(number, limit) for number, link in enumerate(links.names)}
+        ways = {name: self._stretches(link, limit) for link, name in enumerate(links.names)}
         return Sense(limit, ends, ways)
 
     def _stretches(self, link: int, limit: float) -> tuple[Stretch, ...]:
         """Return the ways of a link one after the other, each with the turn at which it ends."""
         here, stretches = self.begun[link].copy(), []
-        for each in self.crossings:
-            if each.link == link and each.frame < self.last:
-                stretches.append(Stretch(_way(here), each.turn))
-                here[each.side] = not here[each.side]
+        for turn, side in self._leaves(link):
+            stretches.append(Stretch(_way(here), turn))
+            here[side] = not here[side]
         every = [*stretches, Stretch(_way(here), limit)]
         starts = [0.0, *(each.end for each in every)]
         return tuple(
@@ -267,6 +290,15 @@ class Course:
             for each, start in zip(every, starts, strict=False)
             if abs(each.end - start) > DOUBLE.same_configuration
         )
+
+    def _leaves(self, link: int) -> list[tuple[float, int]]:
+        """Return the turns at which a link begins or ceases to be on a side, up to where the driver turns back."""
+        here = [each for each in self.crossings if each.link == link]
+        if self.whole is None:
+            return [leaves for each in here if each.frame < self.last for leaves in each.turns]
+        first = len(self.circuit.angles) - 1 - self.last
+        back = [leaves for each in here if each.frame >= first for leaves in each.turns]
+        return [(turn - self.whole, side) for turn, side in reversed(back)]
 
 
 def positions_of(behind: Course, ahead: Course, links: ConicalLinks, turns: Sequence[float]) -> list[Position]:

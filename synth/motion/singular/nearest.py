@@ -41,23 +41,20 @@ class Begun:
     rigid: bool
 
 
-def begun_near(
-    closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats, zero: float = DOUBLE.zero
-) -> Begun:
+def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
     By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
-    still, within the nearest space. Wanted are rates or signs of them; singular values and eigenvalues below
-    `zero` times the largest are zero.
+    still, within the nearest space. Wanted are rates or signs of them, float[J].
     """
-    quadrics = quadrics_of(linkage, zero)
-    rates = rates_near(closure, linkage.angles, quadrics, wanted, zero)
+    quadrics = quadrics_of(linkage)
+    rates = rates_near(closure, linkage.angles, quadrics, wanted)
     if rates is not None:
         return Begun(rates / np.abs(rates).max(), rigid=False)
     if closure.joints > MOST_RATES:
         return Begun(None, rigid=False)
-    tangent = rates_at(closure, linkage.angles, zero)
-    spaces, nothing = spaces_near(tangent, quadrics, wanted, zero), True
+    tangent = rates_at(closure, linkage.angles)
+    spaces, nothing = spaces_near(tangent, quadrics, wanted), True
     for space in islice(spaces, _DEAD_ENDS):
         if space is None:
             continue

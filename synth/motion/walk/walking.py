@@ -29,6 +29,8 @@ __all__ = ["Event", "Goal", "Walk", "only_rates"]
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
+_STRAY_FIRST = 0.5
+"""The same part of a step that begins at a singular configuration: rates there are chosen to second order only."""
 _ALIKE = 0.6
 """Cosine of the angle between directions before and after a step, at least."""
 _HARDLY = 0.05
@@ -309,6 +311,7 @@ class Walk(Iterator[Step]):
             drivers, left = self.goal.drivers, self.goal.left(here)
             joint = self.goal.joint
             most = _reach(float(rates[joint]), float(bend[joint]), float(left[self.goal.lead]))
+        stray = STRAY if self._begun else _STRAY_FIRST
         while self.length >= _LEAST:
             lands = self.length >= most
             length = most if lands else self.length
@@ -316,7 +319,7 @@ class Walk(Iterator[Step]):
             held = drivers if lands or several else []
             expected[held] = here.angles[held] + (left if lands else length / most * left)[: len(held)]
             end = corrected(self.closure, expected, held)
-            if end.closed and np.abs(end.angles - expected).max() <= STRAY * length:
+            if end.closed and np.abs(end.angles - expected).max() <= stray * length:
                 arriving = end.space.projected(rates)
                 easy = end.steps <= _EASY and not lands
                 end = exactly_held(self.closure, end, held, expected[held])

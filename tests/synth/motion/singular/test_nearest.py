@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import Tolerances
 from synth.motion import configuration as configurations
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.second_order import largest_only, rates_at, spaces_within
+from synth.motion.second_order import largest_only, rates_at, rates_near, spaces_within
 from synth.motion.singular import nearest
 from synth.motion.singular.nearest import begun_near, spaces_near
 from synth.motion.singular.quadrics import quadrics_of
@@ -101,12 +102,22 @@ def test_a_large_sheet_begins_as_it_is_assigned(monkeypatch):
 def test_rates_of_rounded_coordinates_are_found_with_their_tolerance():
     """All creases of a disturbed sheet fold together only to what its coordinates can tell."""
     sheet = bent(miura(4, 4, 1.0), 5e-5)
-    linkage, closure, _ = posed(sheet)
+    linkage, closure, quadrics = posed(sheet)
     marks = np.array([{"V": 1.0, "M": -1.0}[letter] for letter in sheet.assignments if letter in "VM"])
-    exactly = begun_near(closure, linkage, marks).rates
+    exactly = rates_near(closure, linkage.angles, quadrics, marks)
     assert exactly is None or np.abs(exactly).min() < 1e-3
-    found = begun_near(closure, linkage, marks, Tolerances.of(5e-5).zero)
-    assert (found.rates * marks > 0.1).all()
+    found = rates_near(closure, linkage.angles, quadrics, marks, Tolerances.of(5e-5).zero)
+    assert (found * marks > 0.1).all()
+
+
+def test_newtons_method_ends_at_no_rates_where_lines_cross():
+    """Of two lines at right angles one folds, or the other; a flap beside them is free."""
+    corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (2, 1))
+    faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1), (1, 5, 2))
+    linkage, closure, quadrics = posed(Sheet(6, (), "", faces, corners))
+    together = np.ones(closure.joints)
+    assert rates_near(closure, linkage.angles, quadrics, together) is None
+    assert (np.abs(begun_near(closure, linkage, together).rates) > 1e-7).sum() == 3
 
 
 @pytest.mark.slow

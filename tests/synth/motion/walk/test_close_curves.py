@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 import scipy.sparse
 
+from graphs.mechanism.sheet import Sheet
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.newton import corrected
+from synth.motion.path import PathOptions, driven_path
 from synth.motion.walk import Walk
 from synth.motion.walk.events import Return
 
@@ -56,3 +59,15 @@ def test_a_walk_goes_all_round_where_the_ovals_are_one(apart):
         ended, places = walked(a, apart, -1)
         assert ended == "it comes round"
         assert places[:, 0].min() < -a, a
+
+
+def test_rates_beside_a_branch_lead_on_it():
+    """A flat vertex folds in two ways; rates between them, which agree to first order, are chosen to begin with."""
+    corners = ((0, 0), (1, 0), (0.5, 0.9), (-1, 0), (-0.5, -0.7))
+    at = configuration_of_sheet(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    line, fold = np.array([1.0, 0.0, 1.0, 0.0]), next(one.rates for one in at.branches.branches if one.rates.all())
+    for part in (0.2, 0.4):
+        rates = fold + part * line
+        path = driven_path(at.closure, at.linkage.angles, [3], 0.17, options=PathOptions(rates, straight=True))
+        assert path.stopped == ""
+        assert np.abs(path.angles[-1] / 0.17 - fold / fold[3]).max() < 1e-3
