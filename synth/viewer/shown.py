@@ -123,6 +123,8 @@ class Shown:
         Light and dark; empty where there is none.
     moving : Moving or None
         None of what has no pose.
+    configuration : Configuration or None
+        Where it moves from; None where there is none, or its motion is looked for on request.
     answer : str
         JSON: what `synth mobility --json` prints. Text, since numbers of a page have 53 bits only.
     stiff, clusters : tuple
@@ -139,6 +141,7 @@ class Shown:
     notes: tuple[str, ...]
     pictures: dict[str, str]
     moving: Moving | None
+    configuration: Configuration | None
     answer: str
     stiff: tuple[str, ...]
     clusters: tuple[tuple[str, ...], ...]
@@ -147,6 +150,8 @@ class Shown:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `ShownData` of web/src/page/types.js."""
+        at, ways = self.configuration, None if self.moving is None else self.moving.ways
+        first = None if ways is None else ways.taken
         return {
             "name": self.name,
             "verdict": self.verdict,
@@ -154,6 +159,7 @@ class Shown:
             "notes": list(self.notes),
             "pictures": self.pictures,
             "moving": None if self.moving is None else self.moving.to_json(),
+            "configuration": None if at is None else at.to_json(at.branch(first)),
             "answer": self.answer,
             "stiff": list(self.stiff),
             "clusters": [list(cluster) for cluster in self.clusters],
@@ -214,6 +220,7 @@ def shown_of(
         tuple(notes),
         pictures,
         moving,
+        at,
         json.dumps(answer.to_json(), indent=2, allow_nan=False),
         tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),

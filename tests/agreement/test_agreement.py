@@ -58,6 +58,12 @@ def test_another_question_may_say_less_but_nothing_else():
     assert keys(mobility=told(), limits=told(**silent)) == ["branches", "branch", "freedoms", "immobile_joints"]
 
 
+def test_with_other_coordinates_only_the_type_is_the_same():
+    other = {"joints": ["b"], "precision": 1e-5, "flat": False, "other_question": "of other coordinates"}
+    assert keys(mobility=told(), realise=told(**other)) == []
+    assert keys(mobility=told(), realise=told(**other, links=3, loops=1)) == ["links", "loops"]
+
+
 def test_numbers_and_ids_are_the_same_however_they_are_written():
     assert keys(mobility=told(joints=[0, 1]), fold=told(joints=["0", "1"])) == []
     assert keys(mobility=told(precision=1e-5), fold=told(precision=1e-5 * (1 + 1e-9))) == []
