@@ -38,6 +38,7 @@ COMMANDS = [
     "generate miura -o made.fold",
     "generate",
     "realise k1:Cr -o made-too.fold",
+    "template data/patterns/four-bar-vertex.fold --size 150 -o template.dxf",
     "fold data/patterns/four-bar-vertex.fold --frames 3 -o folded.fold",
     "fold data/linkages/bennett.json --frames 3",
     "positions data/surfaces/fig11-stephenson.json --drive O=30",

@@ -26,8 +26,8 @@ from graphs.printing import Block, Printed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
 from graphs.tolerances import DOUBLE
+from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.branches import first_branch, search_for
-from synth.motion.linkage import linkage_of_sheet
 from synth.motion.walk.allowance import Allowance
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
@@ -52,6 +52,7 @@ _WORK, _STEPS = 10_000_000_000, 3
 come to the end of them, one of a thousand does at once. Each realisation has some steps, whatever its size."""
 _SMALLEST, _LARGEST = 1e2 * LEAST, 1e-2 * MOST
 """Sizes: what is folded in space is not quite as large as it is drawn."""
+_OTHER_QUESTION = "realise gives a type new coordinates, those of a sheet, and takes no branch"
 _USED_UP = "the search ended, its allowance of work was used up"
 
 
@@ -72,9 +73,8 @@ class Realised(Printed):
     kind : {"sheet", "space"}
     scd : SCDGraph
         The type.
-    sheet : Sheet
-        Its panels, in the order of the links; edge ``i`` is joint ``i`` in the order of ``scd.joints``, then come
-        borders. Valleys and mountains are those of the pose, or of a way to fold the flat sheet.
+    configuration : SheetConfiguration
+        Its sheet where it lies.
     figures : ShapeFigures
     mobility : int
         Exact generic mobility of the type.
@@ -96,7 +96,7 @@ class Realised(Printed):
 
     kind: Kind
     scd: SCDGraph
-    sheet: Sheet
+    configuration: SheetConfiguration
     figures: ShapeFigures
     mobility: int
     freedoms: int | None
@@ -107,6 +107,14 @@ class Realised(Printed):
     tries: int
     notes: tuple[str, ...] = ()
     kept: Kept = field(default_factory=Kept)
+
+    @property
+    def sheet(self) -> Sheet:
+        """Its panels, in the order of the links; edge ``i`` is joint ``i`` in the order of ``scd.joints``.
+
+        Then come borders. Valleys and mountains are those of the pose, or of a way to fold the flat sheet.
+        """
+        return self.configuration.drawn
 
     @property
     def rank(self) -> tuple[bool, bool, float]:
@@ -124,6 +132,7 @@ class Realised(Printed):
         """Return the keys that scripts rely on."""
         return {
             "kind": self.kind,
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "drawing": map_id(self.scd),
             "figures": self.figures.to_json(),
             "mobility": self.mobility,
@@ -339,12 +348,13 @@ def _realised(asked: _Asked, drawn: Drawn, height: float) -> Realised:
     sheet = _placed(asked, drawn, height)
     if map_id(to_scd(sheet)) != asked.code:
         raise UnsolvableError("the axes of a loop meet that the type does not ask to")
-    sheet, folds = _folded(sheet) if asked.kind == "sheet" else (sheet, None)
+    at = configuration_of_sheet(sheet)
+    at, folds = _folded(at) if asked.kind == "sheet" else (at, None)
     pattern = asked.pattern
     return Realised(
         kind=asked.kind,
         scd=asked.scd,
-        sheet=sheet,
+        configuration=at,
         figures=figures_of(pattern, sheet, drawn.angles),
         mobility=exact_mobility(asked.scd).mobility,
         freedoms=pose_mobility(sheet).dof,
@@ -385,15 +395,17 @@ def _placed(asked: _Asked, drawn: Drawn, height: float) -> Sheet:
     return sheet if turns is None else _lettered(sheet, turns)
 
 
-def _folded(sheet: Sheet) -> tuple[Sheet, bool]:
+def _folded(at: SheetConfiguration) -> tuple[SheetConfiguration, bool]:
     """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any.
 
     It folds as well to the other side: the first crease is a valley.
     """
-    linkage = linkage_of_sheet(sheet)
-    joints = len(linkage.graph.joints)
-    way = first_branch(linkage, _turns_all, search_for(joints, np.ones(joints)))
-    return (sheet, False) if way is None else (_lettered(sheet, signed(way.rates)), True)
+    joints = len(at.joints)
+    way = first_branch(at.linkage, _turns_all, search_for(joints, np.ones(joints)))
+    if way is None:
+        return at, False
+    drawn, sheet = (_lettered(one, signed(way.rates)) for one in (at.drawn, at.sheet))
+    return replace(at, given=drawn, drawn=drawn, sheet=sheet), True
 
 
 def _turns_all(rates: Floats) -> bool:

@@ -5,12 +5,18 @@ Theory: docs/theory/templates.md.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
 
-from graphs.errors import UnsolvableError, numbered
+from graphs.errors import SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.plane import flattened, in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from synth.conformed.linkages import OnCone
 from synth.drawing.scene.shapes import Scene
+from synth.motion.configuration import Configuration
+from synth.moving.made import configuration_of
 from synth.templates.lines import Piece
 from synth.templates.note.folded import folded_picture
 from synth.templates.note.steps import steps_of_folds, steps_of_hinges, steps_of_joins
@@ -24,6 +30,7 @@ __all__ = ["TABS", "Template", "pictured", "template_of"]
 
 TABS = 8.0
 """Depth of tabs, millimetres."""
+_OTHER_QUESTION = "a template shows the links as they are drawn, and no branch of their motion"
 
 
 @dataclass(frozen=True)
@@ -36,6 +43,8 @@ class Template:
         Each by itself, millimetres.
     scale : float or None
         Millimetres for a unit of the coordinates; None of what has none.
+    mechanism : Sheet, OnCone or Configuration
+        What it is made of.
     title : str
     told : tuple of str
         What the lines do not show, by kind and number.
@@ -47,10 +56,29 @@ class Template:
 
     pieces: tuple[Piece, ...]
     scale: float | None
+    mechanism: Sheet | OnCone | Configuration
     title: str = ""
     told: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()
     picture: Scene | None = None
+
+    @cached_property
+    def configuration(self) -> Configuration | None:
+        """What it is made of, at a configuration; None where loops do not close, or on any cone."""
+        with suppress(SynthedraError):
+            return configuration_of(self.mechanism)
+        return None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        at = self.configuration
+        return {
+            "configuration": None if at is None else at.to_json(other_question=_OTHER_QUESTION),
+            "pieces": len(self.pieces),
+            "mm_per_unit": self.scale,
+            "not_shown": list(self.told),
+            "steps": list(self.steps),
+        }
 
 
 def template_of(
@@ -122,7 +150,7 @@ def template_of(
         pieces = tuple(with_hinges(*one, hinges) for one in zip(pieces, nets.met, strict=True))
     meeting = steps_of_joins(nets.numbers, nets.without_tab, slotted=slots)
     steps = (*steps_of_folds(pieces), *steps_of_hinges(hinges), *meeting)
-    return Template(pieces, factor, title, told, steps)
+    return Template(pieces, factor, placed, title, told, steps)
 
 
 def _without_tab(edges: int) -> tuple[str, ...]:

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.mechanism.plane import lies_flat
@@ -22,7 +21,7 @@ from synth.drawing.scene.svg import svg_text
 from synth.folding.configuration import SheetConfiguration
 from synth.folding.vertices import largest_panel
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.motion.linkage import PosedLinkage
 from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
 from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet
@@ -106,6 +105,8 @@ class Shown:
         Light and dark; empty where there is none.
     moving : Moving or None
         None of what has no pose.
+    configuration : Configuration or None
+        Where it moves from; None of what has no pose.
     answer : str
         JSON: what `synth mobility --json` prints. Text, since numbers of a page have 53 bits only.
     stiff, clusters : tuple
@@ -122,6 +123,7 @@ class Shown:
     notes: tuple[str, ...]
     pictures: dict[str, str]
     moving: Moving | None
+    configuration: Configuration | None
     answer: str
     stiff: tuple[str, ...]
     clusters: tuple[tuple[str, ...], ...]
@@ -130,6 +132,8 @@ class Shown:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `ShownData` of web/src/page/types.js."""
+        at, ways = self.configuration, None if self.moving is None else self.moving.ways
+        first = None if ways is None else ways.taken
         return {
             "name": self.name,
             "verdict": self.verdict,
@@ -137,6 +141,7 @@ class Shown:
             "notes": list(self.notes),
             "pictures": self.pictures,
             "moving": None if self.moving is None else self.moving.to_json(),
+            "configuration": None if at is None else at.to_json(at.branch(first)),
             "answer": self.answer,
             "stiff": list(self.stiff),
             "clusters": [list(cluster) for cluster in self.clusters],
@@ -183,9 +188,9 @@ def shown_of(
     notes: list[str] = []
     on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
     report("looking for ways to move", 1, _STEPS)
-    at, moving = (None, _still(placed, notes)) if on_request else _moving(placed, notes)
+    at, moving = _moving(placed, notes, still=on_request)
     report("counting and judging", 2, _STEPS)
-    answer = mobility(placed if at is None else at, motion=motion)
+    answer = mobility(placed if at is None or on_request else at, motion=motion)
     verdict = answer.verdict
     assert verdict is not None
     report("drawing", 3, _STEPS)
@@ -197,6 +202,7 @@ def shown_of(
         tuple(notes),
         pictures,
         moving,
+        at,
         json.dumps(answer.to_json(), indent=2, allow_nan=False),
         tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
@@ -205,35 +211,22 @@ def shown_of(
     )
 
 
-def _still(thing: Mechanism, notes: list[str]) -> Moving | None:
-    """Return a sheet at its pose, its motion not looked for; note why there is none."""
-    assert isinstance(thing, Sheet)
-    try:
-        mechanism = mechanism_of_sheet(thing)
-        linkage = linkage_of_sheet(thing, mechanism)
-    except SynthedraError as error:
-        notes.append(f"not moved: {error}")
-        return None
-    bodies = bodies_of_sheet(with_all_edges(thing), mechanism, linkage)
-    return Moving(linkage, bodies, None, (), largest_panel(mechanism.panels), limited=True)
-
-
 def _drawn(sheet: Sheet) -> Drawn | None:
     if sheet.coordinates is None or not lies_flat(sheet):
         return None
     return Drawn(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
 
 
-def _moving(thing: Mechanism, notes: list[str]) -> tuple[Configuration | None, Moving | None]:
-    """Return a thing at its configuration, and what moves there; note why there is nothing."""
+def _moving(thing: Mechanism, notes: list[str], *, still: bool) -> tuple[Configuration | None, Moving | None]:
+    """Return a thing at its configuration, and what moves there unless it is still; note why there is nothing."""
     try:
-        at = configuration_of(thing)
+        at = configuration_of(thing, mend=not still)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
     notes += [f"mended: {repair}" for repair in at.mended]
-    ways = _begun(at, notes) if at.joints else None
-    centres = centres_of(at)
+    ways = None if still or not at.joints else _begun(at, notes)
+    centres = () if still else centres_of(at)
     if not isinstance(at, SheetConfiguration):
         return at, Moving(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)

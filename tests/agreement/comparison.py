@@ -20,6 +20,9 @@ SAME_QUESTION = ("branches", "branch", "freedoms", "immobile_joints")
 _CLOSE = 1e-6
 """Two precisions that differ by less than this part are the same: units of the extent are sums."""
 _TAKES_ANY = {verb.name for verb in VERBS if verb.takes_any}
+_OTHER_COORDINATES = {verb.name for verb in VERBS if verb.other_coordinates}
+_OF_THE_TYPE = ("links", "loops")
+"""Keys that are the same with other coordinates; the number of joints follows."""
 
 Who = tuple[str, str]
 """A verb and its door."""
@@ -49,7 +52,8 @@ def disagreements(outcomes: Mapping[Who, Outcome]) -> list[Disagreement]:
     """Return what verbs say differently of one configuration, key by key.
 
     A verb that is asked another question and says so is compared in what is the same for all questions. One that
-    takes any configuration may refuse only where nothing moves, or where all of its kind refuse.
+    takes any configuration may refuse only where nothing moves, or where all of its kind refuse. One that answers for
+    other coordinates is compared in what they leave as it is.
     """
     told = {who: one.configuration for who, one in outcomes.items() if one.configuration is not None}
     found = [_by_value(key, _values(key, told)) for key in (*ALWAYS, *SAME_QUESTION)]
@@ -61,11 +65,12 @@ def disagreements(outcomes: Mapping[Who, Outcome]) -> list[Disagreement]:
 
 
 def _values(key: str, told: Mapping[Who, dict[str, Any]]) -> dict[Who, Any]:
-    """Return what each says under a key: some say nothing, and those that are asked another question may say null."""
+    """Return what each says under a key; those that are asked another question may say null."""
     return {
         who: one[key]
         for who, one in told.items()
-        if key in one and (key in ALWAYS or one.get("other_question") is None or one[key] is not None)
+        if (key in ALWAYS or one["other_question"] is None or one[key] is not None)
+        and (key in _OF_THE_TYPE or who[0] not in _OTHER_COORDINATES)
     }
 
 

@@ -123,8 +123,8 @@ class Verb:
         It is left out of what has more: it would take too long.
     suits : callable
         Whether it is for such mechanisms at all.
-    says : callable, optional
-        What an answer without a configuration of its own says of it: some keys only.
+    other_coordinates : bool
+        Whether the answer is about the type with other coordinates, so that nothing but its numbers is the same.
     """
 
     name: str
@@ -133,7 +133,7 @@ class Verb:
     takes_any: bool = False
     most_joints: int = 1000
     suits: Callable[[Subject], bool] = lambda _: True
-    says: Callable[[Any], dict[str, Any]] | None = None
+    other_coordinates: bool = False
 
 
 def _is_sheet(subject: Subject) -> bool:
@@ -142,22 +142,6 @@ def _is_sheet(subject: Subject) -> bool:
 
 def _can_be_driven(subject: Subject) -> bool:
     return bool(subject.driven())
-
-
-def _said_by_page(page: dict[str, Any]) -> dict[str, Any] | str:
-    """Return what a page moves, and on which branch first; or why it moves nothing."""
-    moving = page["moving"]
-    if moving is None or moving["ways"] is None:
-        return "; ".join(page["notes"])
-    way = moving["ways"]["all"][moving["ways"]["taken"]]
-    return {
-        "links": len(moving["links"]),
-        "joints": moving["joints"],
-        "loops": len(moving["solver"]["loops"]),
-        "freedoms": way["freedoms"],
-        "immobile_joints": [moving["joints"][place] for place in way["still"]],
-        "other_question": None,
-    }
 
 
 VERBS = (
@@ -204,27 +188,26 @@ VERBS = (
     ),
     Verb(
         "view",
-        lambda s: s.shown.to_json(),
+        lambda s: s.shown,
         lambda s: ["view", str(s.file), "-o", str(s.folder / "page.html"), "--force"],
         takes_any=True,
-        says=_said_by_page,
     ),
     Verb(
         "template",
         lambda s: template_of(panels_of_thing(s.thing)[0], size=150.0),
         lambda s: [
             "template", str(s.file), "--size", "150", "-o", str(s.folder / "template.dxf"), "--no-note", "--force",
+            "--json",
         ],
         most_joints=200,
         suits=_is_sheet,
-        says=lambda _: {"other_question": "a template is of panels as they are drawn, and of no motion"},
     ),
     Verb(
         "realise",
         lambda s: synth.realise(s.thing, tries=1),
         lambda s: ["realise", str(s.file), "--tries", "1", "--json"],
         most_joints=12,
-        says=lambda _: {"other_question": "realise gives the type of a mechanism other coordinates"},
+        other_coordinates=True,
     ),
 )  # fmt: skip
 
@@ -258,8 +241,6 @@ def _in_python(verb: Verb, subject: Subject) -> Outcome:
         return Outcome("refused", why=str(error))
     except (ArithmeticError, AssertionError, LookupError, TypeError, ValueError, np.linalg.LinAlgError) as error:
         return Outcome("fault", why=f"{type(error).__name__}: {error}")
-    if verb.says is not None:
-        return _said(verb.says(answer))
     return _told(json.loads(json.dumps(answer.to_json())))
 
 
@@ -276,21 +257,12 @@ def _at_the_command_line(verb: Verb, subject: Subject) -> Outcome:
         return Outcome("refused", why=_last_line(result))
     if result.exit_code not in (0, 1):
         return Outcome("fault", why=_last_line(result))
-    if verb.name == "view":
-        return _said(verb.says(_json_of_page(subject.folder / "page.html")))
-    if verb.says is not None:
-        return _said(verb.says(None))
-    document = json.loads(result.stdout)
+    document = _json_of_page(subject.folder / "page.html") if verb.name == "view" else json.loads(result.stdout)
     return _told(document[0] if isinstance(document, list) else document)
 
 
 def _last_line(result: Result) -> str:
     return (result.output.strip().splitlines() or [repr(result.exception)])[-1]
-
-
-def _said(told: dict[str, Any] | str) -> Outcome:
-    """Return what came of an answer that says so much, or why it says nothing."""
-    return Outcome("refused", why=told) if isinstance(told, str) else Outcome("told", told)
 
 
 def _told(document: dict[str, Any]) -> Outcome:

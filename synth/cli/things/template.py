@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from synth.cli.lengths import LENGTH, LENGTH_OR_NONE
-from synth.cli.output import FORCE, about, plain, tell_written
+from synth.cli.output import FORCE, about, plain, print_json, tell_written
 from synth.cli.things.given import MODE, ROW, Given, given
 
 if TYPE_CHECKING:
@@ -55,6 +55,7 @@ _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--
 @click.option("--thickness", type=LENGTH, metavar="MM", help="On a cone: of the material.  [default: 0.3]")
 @click.option("--note/--no-note", default=True, show_default=True, help="How it is put together, with a picture.")
 @FORCE
+@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 def template(
     file: str,
     output: str,
@@ -64,6 +65,7 @@ def template(
     page: str,
     note: bool,
     force: bool,
+    as_json: bool,
     **look: Any,
 ) -> None:
     """Print panels at true scale, to cut out and fold.
@@ -112,7 +114,11 @@ def template(
         else:
             made, told = _of_panels(asked, kind, look, note=note and not _is_dxf(output))
     made, more = _with_note(made, output, note=note)
-    tell_written(*write_template(made, output, paper=paper, force=force))
+    places = write_template(made, output, paper=paper, force=force)
+    if as_json:
+        print_json({"file": file, "output": list(map(str, places)), **made.to_json()})
+    else:
+        tell_written(*places)
     for line in (*told, *more):
         click.echo(line, err=True)
 

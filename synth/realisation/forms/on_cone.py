@@ -24,6 +24,7 @@ from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.generic import exact_mobility
 from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, first_order
+from synth.moving.made import configuration_of
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.linkages import by_angles, map_linkage
 from synth.surfaces.several_loops import link_pairs, loop_steps
@@ -33,6 +34,7 @@ __all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
 CONE_ANGLE = radians(30.0)
 """lambda, unless one is asked for."""
 
+_OTHER_QUESTION = "realise gives a type new coordinates, those on a cone, and takes no branch"
 _VARIED = 0.35
 _CLEAR = radians(15.0)
 """A step within a link is aimed to be so far at least from nothing and from half a turn, which has no sign."""
@@ -96,6 +98,7 @@ class OnOneCone(Printed):
         chain = self.linkage.chain
         return {
             "kind": "cone",
+            "configuration": configuration_of(self.linkage).to_json(other_question=_OTHER_QUESTION),
             "lambda_deg": degrees(self.cone_angle),
             "steps_deg": [[a, b, degrees(x)] for (a, b), x in (self.linkage.steps or {}).items()],
             "link_angles_deg": [[a, b, degrees(x)] for (a, b), x in self.arcs.items()],

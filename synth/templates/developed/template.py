@@ -53,7 +53,7 @@ def template_on_surface(
         steps.append(
             "It then lies as below; the picture puts layers beside each other, so that none hides another."
         )
-    return Template(tuple(flat_pieces(made)), None, title, (), tuple(steps), picture)
+    return Template(tuple(flat_pieces(made)), None, linkage, title, (), tuple(steps), picture)
 
 
 def _picture(linkage: OnCone, surface: Surface) -> Scene | None:

@@ -148,3 +148,12 @@ def test_ids_that_rows_hold_are_realised(code, tmp_path):
     again = mechanism_from_map_id(_read_back(found, tmp_path))
     assert chain_id(again) == chain_id(given)
     assert len(again.centre_classes()) == len(given.centre_classes())
+
+
+@pytest.mark.parametrize("kind", ["sheet", "space"])
+def test_it_lies_where_its_sheet_does(kind):
+    found = realise(mechanism_from_map_id(FOUR_BAR), kind=kind)
+    at, again = found.configuration, configuration_of_sheet(found.sheet)
+    assert at.to_json(at.branch(at.chosen)) == again.to_json(again.branch(again.chosen))
+    told = found.to_json()["configuration"]
+    assert (told["links"], told["loops"], told["branch"]) == (4, 1, None)

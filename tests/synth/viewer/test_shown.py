@@ -32,6 +32,15 @@ def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(bird_base):
     assert len(told["moving"]["between"]) == len(told["moving"]["joints"]) == 20
 
 
+def test_what_a_page_moves_is_at_the_configuration_it_names(bird_base):
+    told = bird_base.to_json()
+    at, moving = told["configuration"], told["moving"]
+    assert (at["joints"], at["links"]) == ([str(joint) for joint in moving["joints"]], len(moving["links"]))
+    assert at == json.loads(bird_base.answer)["configuration"]
+    way = moving["ways"]["all"][moving["ways"]["taken"]]
+    assert (at["freedoms"], at["immobile_joints"]) == (way["freedoms"], way["still"])
+
+
 def test_each_way_has_a_driver_for_each_freedom_the_fastest_first(bird_base):
     for way in bird_base.moving.ways.all:
         assert len(set(way.drivers)) == len(way.drivers) == way.freedoms == 5

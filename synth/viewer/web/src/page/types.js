@@ -52,6 +52,7 @@
  * @property {string[]} notes
  * @property {{light?: string, dark?: string}} pictures
  * @property {MovingData | null} moving
+ * @property {object | null} configuration - Where it moves from, and on which branch first, as in docs/command-json.md.
  * @property {string[]} stiff
  * @property {string[][]} clusters
  * @property {DrawnData | null} drawn - Of a crease pattern in a plane.
