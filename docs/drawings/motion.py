@@ -29,10 +29,10 @@ from synth.drawing.space.poses import pose_scenes
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.derivatives import SheetDerivatives
 from synth.motion.branches import branches_of
-from synth.motion.circuits import circuit_through
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.motion import Motion
+from synth.motion.walk.circuits import circuit_through
 from synth.moving.made import configuration_of
 
 __all__ = ["DRAWINGS"]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from graphs.lazy import offered
 
 if TYPE_CHECKING:
-    from synth.motion.circuits import circuit_through as circuit_through
+    from synth.motion.walk.circuits import circuit_through as circuit_through
     from synth.moving.conical import ConicalMotion as ConicalMotion
     from synth.moving.conical import move_on_cone as move_on_cone
     from synth.moving.made import configuration_of as configuration_of
@@ -24,7 +24,7 @@ else:
     __getattr__, __dir__, __all__ = offered(
         __name__,
         {
-            "synth.motion.circuits": "circuit_through",
+            "synth.motion.walk.circuits": "circuit_through",
             "conical": "ConicalMotion move_on_cone",
             "made": "configuration_of linkage_on_cone",
             "motion": "move",

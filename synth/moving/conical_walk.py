@@ -18,12 +18,12 @@ from graphs.tolerances import DOUBLE
 from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnCone
 from synth.conformed.rates import ConformedChain
-from synth.motion.circuits import circuit_through
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.newton import Corrected
 from synth.motion.path import Path
 from synth.motion.placement import link_motions
+from synth.motion.walk.circuits import circuit_through
 from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
