@@ -69,6 +69,9 @@ def beginning(configuration: Configuration, wanted: Wanted) -> tuple[int | None,
     if not found.branches:
         raise UnsolvableError(f"{_how_surely(found)}: no motion begins at this pose{configuration.doubt}")
     number = _chosen(configuration, found, wanted)
+    marked = configuration.marked.rates
+    if marked is not None and wanted.branch is None and len(wanted.driven) < 2 and not wanted.along:
+        return None if found.regular else number, marked
     rates = _rates(found.branches[number], wanted, towards)
     return None if found.regular else number, rates
 

@@ -32,11 +32,12 @@ class MarkedWay(NamedTuple):
     """The branch that the assignment chooses: of several that begin with it the freest, None if there is none.
 
     "none has" is proved, by linear programming on the rates that close to first order, or on all branches; "none
-    found" is not. `marked` is None where nothing is assigned.
+    found" is not. `marked` is None where nothing is assigned. `rates`, float[J], begin the branch as assigned.
     """
 
     number: int | None
     marked: Marked | None
+    rates: Floats | None = None
 
 
 def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedWay:
@@ -49,9 +50,14 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedW
     spaces = {id(branch.space): branch.space for branch in found.branches}
     starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
     begun = {number: _marked_rates(space, marks, starts) for number, space in spaces.items()}
-    agree = [number for number, branch in enumerate(found.branches) if _holds(branch, begun[id(branch.space)])]
+    agree = {
+        number: rates
+        for number, branch in enumerate(found.branches)
+        if (rates := _on_part(branch, begun[id(branch.space)])) is not None
+    }
     if agree:
-        return MarkedWay(max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number)), "has")
+        freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
+        return MarkedWay(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
     tangent = rates_at(ClosureEquations(linkage), linkage.angles)
     sure = found.exhaustive or _rates_with(tangent, marks) is None
     return MarkedWay(None, "none has" if sure else "none found")
@@ -75,9 +81,19 @@ def agreeing_best(found: Branches, marks: Floats) -> int:
     return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
 
 
-def _holds(branch: Branch, begun: Sequence[Floats]) -> bool:
-    """Tell whether some of the rates of its space are on the part of it that a branch is."""
-    return any(not branch.space.left or same_part(branch.space, rates, branch.rates) for rates in begun)
+def _on_part(branch: Branch, begun: Sequence[Floats]) -> Floats | None:
+    """Return the first of some rates of its space that is on the part of it that a branch is."""
+    on_it = (rates for rates in begun if not branch.space.left or same_part(branch.space, rates, branch.rates))
+    return next(on_it, None)
+
+
+def _begun_as_marked(branch: Branch, otherwise: Floats, marks: Floats) -> Floats:
+    """Return the rates nearest to the marks if they have them all, or else others that do; the largest 1 or -1."""
+    nearest = rates_as_marked(branch, marks)
+    if (nearest * marks)[marks != 0.0].min() > DOUBLE.zero_rate:
+        return nearest
+    rates = otherwise * np.sign(otherwise @ marks)
+    return np.asarray(rates / np.abs(rates).max())
 
 
 def _marked_rates(space: RateSpace, marks: Floats, starts: int) -> list[Floats]:

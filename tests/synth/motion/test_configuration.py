@@ -12,6 +12,7 @@ from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion import linkage
+from synth.motion.beginning import Wanted, beginning
 from synth.motion.configuration import Configuration
 from synth.moving.made import configuration_of
 from synth.patterns import generate
@@ -85,3 +86,19 @@ def test_the_branch_that_is_taken_begins_as_the_sheet_is_assigned(data):
         at.drawn.coordinates,
     )
     assert configuration_of(plain).marked.number is None
+
+
+def test_a_motion_begins_as_the_sheet_is_assigned_where_one_can():
+    """Rates nearest to the assignment may miss it where others of the branch have it: those are taken."""
+    creases = [(0, k) for k in range(1, 6)]
+    around = [(np.cos(t), np.sin(t)) for t in np.radians([0, 30, 75, 160, 265])]
+    faces = tuple((0, 1 + k, 1 + (k + 1) % 5) for k in range(5))
+    begun = 0
+    for letters in range(32):
+        word = "".join("MV"[letters >> k & 1] for k in range(5))
+        at = configuration_of(Sheet(6, tuple(creases), word, faces, ((0.0, 0.0), *around)))
+        if at.marked.marked == "has":
+            begun += 1
+            _, rates = beginning(at, Wanted())
+            assert (rates * at.marks).min() > 0.0
+    assert begun
