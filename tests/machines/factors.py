@@ -1,8 +1,8 @@
 """What differs from machine to machine, one factor at a time: an environment for a child process, and its proof.
 
 OpenBLAS picks its kernels by processor, and takes a name it does not know, or a kernel it was built without, for
-another; a kernel that the processor lacks ends the process with SIGILL. So a child process is asked first which
-kernels it runs with: numpy and scipy each bring a library of their own.
+another; a kernel that the processor lacks ends the process with SIGILL where it first calculates. So a child process
+calculates first, and is asked which kernels it runs with: numpy and scipy each bring a library of their own.
 """
 
 from __future__ import annotations
@@ -28,6 +28,8 @@ _SYNONYMS = {"Katmai": "Prescott"}
 
 _PROBE = """
 import ctypes, numpy, scipy.linalg
+matrix = numpy.eye(64) + numpy.ones((64, 64))  # instructions that the processor lacks are met here
+numpy.linalg.svd(matrix @ matrix), scipy.linalg.qr(matrix, pivoting=True), scipy.linalg.cho_factor(matrix)
 from numpy._core._multiarray_umath import __cpu_features__
 with open("/proc/self/maps") as maps:
     places = sorted({line.split()[-1] for line in maps if "openblas" in line})
