@@ -31,7 +31,7 @@ const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the
 /** @type {ShownData} */
 const NOTHING = {
   name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [], drawn: null,
-  on_request: false, answer: "",
+  on_request: false, answer: "", configuration: null,
 };
 
 class Page {
