@@ -20,7 +20,8 @@ from synth.motion.path import driven_path
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.shown import Moving, shown_of
 
-SAME_RESIDUAL, SAME_POSE = 1e-12, 1e-9
+SAME_RESIDUAL, SAME_POSE, SAME_PATH = 1e-12, 1e-9, 1e-5
+"""Paths of several freedoms depend on the steps, which each solver chooses: the page may stray farther on one."""
 
 
 def compare(things: list[Moving], *, panels: bool = True) -> int:
@@ -38,9 +39,9 @@ def compare(things: list[Moving], *, panels: bool = True) -> int:
             assert answer["frames"][-1]["stopped"], one.stopped
             continue
         poses = [frame["angles"] for frame in answer["frames"]]
-        np.testing.assert_allclose(poses, one.frames[1:], rtol=0, atol=SAME_POSE)
+        np.testing.assert_allclose(poses, one.frames[1:], rtol=0, atol=SAME_PATH)
         for frame, places in zip(answer["frames"], one.places[:, 1:].swapaxes(0, 1), strict=True):
-            np.testing.assert_allclose(np.reshape(frame["places"], (-1, 3)), places, rtol=0, atol=SAME_POSE)
+            np.testing.assert_allclose(np.reshape(frame["places"], (-1, 3)), places, rtol=0, atol=SAME_PATH)
         for frame, crossing in zip(answer["frames"], one.crossing[1:], strict=True):
             assert bool(frame["crossings"]) == (crossing is not None)
             assert crossing is None or list(crossing) in frame["crossings"]
