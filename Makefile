@@ -130,7 +130,7 @@ release: $(STAMP)
 	done; rm -rf dist/tried
 
 examples: $(STAMP)
-	@.ci/changed README.md docs -- $(BIN)/python docs/examples.py
+	@.ci/changed README.md docs -- sh -ec '$(BIN)/python docs/papers.py; $(BIN)/python docs/examples.py'
 
 pictures: $(STAMP)
 	@.ci/changed docs/pictures -- env BIN=$(BIN) sh docs/pictures.sh

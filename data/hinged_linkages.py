@@ -15,8 +15,7 @@ from graphs.mechanism.solids import HingedSolids
 from synth.patterns.panels import sheet_of_faces
 from synth.patterns.platforms.legs import platform
 from synth.patterns.rings.axes import ring
-from synth.patterns.rings.bennett import bennett
-from synth.patterns.rings.bennett import sarrus as sarrus_panels
+from synth.patterns.rings.bennett import bennett, sarrus as sarrus_panels
 from synth.patterns.rings.bricard import line_symmetric, plane_symmetric, trihedral
 from synth.patterns.rings.kaleidocycles import kaleidocycle
 

@@ -11,6 +11,7 @@ import json
 from pathlib import Path
 
 import hinged_linkages
+import jointed
 import linkages_on_surfaces
 import orientation_tasks
 import patterns
@@ -42,6 +43,9 @@ def main(folder: Path = HERE) -> None:
     (folder / "linkages").mkdir(exist_ok=True)
     for name, linkage in hinged_linkages.LINKAGES.items():
         write(with_few_decimals(linkage), folder / "linkages" / name, force=True)
+    (folder / "joints").mkdir(exist_ok=True)
+    for name, linkage in jointed.LINKAGES.items():
+        write(with_few_decimals(linkage), folder / "joints" / name, force=True)
     surfaces.write_surfaces(folder / "surfaces")
     (folder / "orientations").mkdir(exist_ok=True)
     for name, quaternions in orientation_tasks.TASKS.items():

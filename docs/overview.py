@@ -35,7 +35,8 @@ def main() -> None:
         right = pattern.width + GAP + place * SIZE
         layers += [moved(layer, right, (high - SIZE) / 2) for layer in pose.layers if layer.shapes]
     width = pattern.width + GAP + len(poses) * SIZE
-    layers.append(Layer("verdict", (Label((width / 2, high + 14), verdict.text, 9.0, halo=False, widest=200),)))
+    answer = verdict.text.partition(". ")[0] + "."
+    layers.append(Layer("verdict", (Label((width / 2, high + 14), answer, 9.0, halo=False, widest=200),)))
     save_scene(Scene(width, high + 28, tuple(layers), "Miura sheet"), PLACE, force=True)
 
 

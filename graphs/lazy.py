@@ -1,44 +1,68 @@
-"""Faces of rooms: names that a folder offers, imported from its files when they are first asked for (PEP 562)."""
+"""Faces of rooms: names that a folder offers, imported from its files when they are first asked for (PEP 562).
+
+The names stand once, in the stub beside the face (``__init__.pyi``), where type checkers read them too. It is
+the idea of SPEC 1 of Scientific Python; a stub may name files of any room here.
+"""
 
 from __future__ import annotations
 
+import ast
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 
-__all__ = ["offered"]
+__all__ = ["names_in_stub", "offered"]
 
 
-def offered(
-    package: str, names: Mapping[str, str]
-) -> tuple[Callable[[str], object], Callable[[], list[str]], list[str]]:
-    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a folder that offers names of its files.
+def offered(package: str) -> tuple[Callable[[str], object], Callable[[], list[str]], list[str]]:
+    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a folder whose stub says what it offers.
 
     Parameters
     ----------
     package : str
-        Name of the folder's package.
-    names : mapping of str to str
-        For each file the names it has, parted by spaces; a file elsewhere with its packages.
+        Name of the folder's package, which is being imported.
 
     Examples
     --------
-    >>> look_up, _, every = offered("graphs.loops", {"loop": "Centre Loop"})
-    >>> every, look_up("Loop").__name__
-    (['Centre', 'Loop'], 'Loop')
+    >>> import graphs.loops
+    >>> look_up, _, names = offered("graphs.loops")
+    >>> "Centre" in names, look_up("Loop").__name__
+    (True, 'Loop')
     """
-    places = {
-        name: file if "." in file else f"{package}.{file}" for file, here in names.items() for name in here.split()
-    }
+    modules = names_in_stub(Path(str(sys.modules[package].__file__)).with_suffix(".pyi"))
 
     def look_up(name: str) -> object:
-        if name not in places:
+        if name not in modules:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        value: object = getattr(import_module(places[name]), name)
+        value: object = getattr(import_module(modules[name]), name)
         setattr(sys.modules[package], name, value)  # found at once from now on
         return value
 
     def names_of_room() -> list[str]:
-        return sorted({*vars(sys.modules[package]), *places})
+        return sorted({*vars(sys.modules[package]), *modules})
 
-    return look_up, names_of_room, sorted(places)
+    return look_up, names_of_room, sorted(modules)
+
+
+def names_in_stub(stub: Path) -> dict[str, str]:
+    """Return the names that a stub imports as themselves, each with its module.
+
+    Parameters
+    ----------
+    stub : Path
+        An ``__init__.pyi``.
+
+    Examples
+    --------
+    >>> import graphs.loops
+    >>> names_in_stub(Path(graphs.loops.__file__).with_suffix(".pyi"))["Loop"]
+    'graphs.loops.loop'
+    """
+    return {
+        alias.asname: node.module
+        for node in ast.parse(stub.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ImportFrom) and node.module
+        for alias in node.names
+        if alias.asname
+    }

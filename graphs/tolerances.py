@@ -18,6 +18,9 @@ EPSILON = 2.0**-52
 _BLURRED, _COARSEST = 30.0, 3e-3
 """Singular values and eigenvalues at rounded coordinates are zero up to this many times the precision, and never
 above the second value: within it nothing that moves is told from what does not."""
+_NEARLY, _VAGUE = 8.0, 0.1
+"""Equations between rates are off by so many errors of a direction at most where they hold at the coordinates that
+were meant; above the second value hardly any pattern is told from another."""
 _MEANT_FLAT = 1e-5
 """Whoever draws or solves for points of one plane puts them this close to it."""
 _MEANT = 1e-6
@@ -114,6 +117,19 @@ class Tolerances:
             meant=max(_MEANT, 6.0 * precision),
             flat=max(_MEANT_FLAT, 2.0 * precision),
         )
+
+    @staticmethod
+    def nearly(precision: float, length: float) -> float:
+        """Return below which part of the largest a value may be zero at the coordinates that were meant.
+
+        Creases are a length long, in units of the extent: their directions are wrong by the precision over it.
+
+        Examples
+        --------
+        >>> Tolerances.nearly(1e-6, 0.5), Tolerances.nearly(0.0, 0.5)
+        (1.6e-05, 1e-09)
+        """
+        return max(DOUBLE.zero, min(_VAGUE, _NEARLY * precision / length))
 
 
 DOUBLE = Tolerances.of(EPSILON)

@@ -38,6 +38,7 @@ COMMANDS = [
     "generate miura -o made.fold",
     "generate",
     "realise k1:Cr -o made-too.fold",
+    "realise data/linkages/sarrus.json --freedoms 1 --geometry triples",
     "template data/patterns/four-bar-vertex.fold --size 150 -o template.dxf",
     "fold data/patterns/four-bar-vertex.fold --frames 3 -o folded.fold",
     "fold data/linkages/bennett.json --frames 3",

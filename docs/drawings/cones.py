@@ -16,12 +16,13 @@ from drawings.pieces import arrow, head, of_shapes
 from drawings.together import above, beside, said
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.mechanism.surfaces import Cone
 from synth.conformed.layers import links_in_layers
-from synth.conformed.linkages import OnCone, linkage_on_cones, loop_of_steps, loop_on_cones
+from synth.conformed.linkages import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.on_cone import cone_layer
+from synth.drawing.on_surface import surface_layer
 from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.plot import Plot, round_steps, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape, arc_points
@@ -70,14 +71,14 @@ class _Circle:
         return Disc((0.0, 0.0), self.radius, None, "grey", FINE)
 
 
-def _cone_of(linkage: OnCone, side: float = _CONE) -> Scene:
+def _cone_of(linkage: OnSurface, side: float = _CONE) -> Scene:
     """Return a linkage on its cone."""
-    if linkage.cone_angle is None:
+    if linkage.surface is None:
         raise InvariantError("cone", "a linkage that is on any cone", "one with a cone angle")
     chain, places = ConformedChain.of(linkage.chain), np.asarray(linkage.places)
-    layer = cone_layer(chain, places, links_in_layers(chain, places), linkage.cone_angle, side)
+    layer = surface_layer(chain, places, links_in_layers(chain, places), linkage.surface, side)
     scene = cropped(thinned(Scene(side, side, (_without_title(layer),)), 0.12))
-    return said(scene, f"cone of λ = {degrees(linkage.cone_angle):.4g}°")
+    return said(scene, f"cone of λ = {degrees(linkage.cone_angle or 0.0):.4g}°")
 
 
 def _without_title(layer: Layer) -> Layer:
@@ -202,7 +203,7 @@ def multiloop() -> Scene:
         name = " ".join(map(str, loop.joints)) + (" (dashed)" if dash else "")
         told.append(f"{name}: {how}, sum {360 * int(loop.circuits.turns)}°")
     drawn = cropped(of_shapes(1.0, 1.0, [*shapes, *circle.joints(places, names)]))
-    [on_cone] = linkage_on_cones(linkage)
+    [on_cone] = linkage_on_surfaces(linkage)
     return beside(
         said(cropped(legible(chain, joints=True)), "the chain"),
         said(drawn, *told),
@@ -213,7 +214,7 @@ def multiloop() -> Scene:
 
 def conformed() -> Scene:
     """A four-bar at its conformed position: on the cone, and along its axis with the steps."""
-    linkage = loop_of_steps(np.radians([40, 60, 70]), radians(35))
+    linkage = loop_of_steps(np.radians([40, 60, 70]), Cone(radians(35)))
     names = list(map(str, linkage.chain.joints))
     [loop] = loop_steps(linkage.chain, linkage.places)
     circle = _Circle(60.0)

@@ -18,6 +18,8 @@ from graphs.count.report import mobility_report
 from graphs.creasing.edits import SheetEdit, crease_sheet, lock_crease
 from graphs.creasing.panels import take_off_panels
 from graphs.errors import numbered
+from graphs.mechanism.evidence.estimate import estimate_of
+from graphs.mechanism.evidence.relations import nearly_exact
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.overconstraint import diagnose
@@ -139,6 +141,35 @@ def pose() -> Scene:
     )
 
 
+def precision() -> Scene:
+    """Deviations of relations in a rounded pattern, as displacements of a coordinate, the smallest first."""
+    sheet = generated_sheet("hexagon-twist")
+    turn = np.array([[np.cos(0.6), np.sin(0.6)], [-np.sin(0.6), np.cos(0.6)]])
+    rounded = with_places(sheet, (np.array(sheet.coordinates) @ turn).round(4))
+    points = np.zeros((rounded.vertices, 3))
+    points[:, :2] = np.array(rounded.coordinates) - np.mean(rounded.coordinates, axis=0)
+    off = np.sort(np.concatenate([one.off for one in nearly_exact(rounded, points / np.abs(points).max())]))
+    found = estimate_of(rounded)
+    assert found is not None
+    plot = Plot(40.0, 22.0, 220.0, 150.0, (0.0, len(off) + 1.0), (-8.0, 0.0))
+    heights = np.maximum(np.log10(np.maximum(off, 1e-8)), plot.y[0]).tolist()
+    level = [plot.at(side, float(np.log10(found.size))) for side in plot.x]
+    shapes: list[Shape] = [
+        *_powers_of_ten(plot, "relations, those that hold best first", "part of the extent"),
+        *(Disc(plot.at(place, height), 1.6, "ink", None) for place, height in enumerate(heights, 1)),
+        Line(level, "class1", NORMAL, DOTTED),
+        Label((level[0][0] + 60.0, level[0][1] - 8.0), f"estimate {found.size:.0e}", SMALL, halo=False),
+    ]
+    return beside(
+        said(
+            synth.draw(rounded, numbers=False, box=(130.0, 130.0), caption=None),
+            "hexagon twist, turned;",
+            "coordinates with four decimals",
+        ),
+        said(Scene(270.0, 200.0, (Layer("values", tuple(shapes)),)), f"{found.relations} relations hold to that"),
+    )
+
+
 def _singular_values(values: Floats, found: PoseMobility) -> Scene:
     """Return singular values, on a scale of powers of ten, with what noise may come to."""
     plot = Plot(40.0, 22.0, 220.0, 150.0, (0.0, len(values) + 1.0), (-8.0, 0.0))
@@ -148,7 +179,7 @@ def _singular_values(values: Floats, found: PoseMobility) -> Scene:
     gap = [plot.at(len(values), height) for height in (np.log10(found.spectrum.smallest), noise)]
     shapes: list[Shape] = [
         Polygon(band, "faint", None),
-        *_powers_of_ten(plot),
+        *_powers_of_ten(plot, "singular values, the largest first", "part of the largest"),
         *(Disc(plot.at(place, height), 2.4, "ink", None) for place, height in enumerate(heights, 1)),
         Line(gap, "class1", NORMAL, DOTTED),
         Label((gap[0][0] - 14.0, (gap[0][1] + gap[1][1]) / 2), "gap", SMALL, halo=False),
@@ -157,9 +188,9 @@ def _singular_values(values: Floats, found: PoseMobility) -> Scene:
     return Scene(270.0, 200.0, (Layer("values", tuple(shapes)),))
 
 
-def _powers_of_ten(plot: Plot) -> list[Shape]:
+def _powers_of_ten(plot: Plot, below: str, beside_it: str) -> list[Shape]:
     """Return the axes of a plot whose heights are powers of ten."""
-    shapes = [*plot.below((), "singular values, the largest first"), *plot.beside((), "part of the largest")]
+    shapes = [*plot.below((), below), *plot.beside((), beside_it)]
     for power in range(int(plot.y[0]), 1, 2):
         x, y = plot.at(0.0, power)
         shapes.append(Label((x - 16.0, y), f"1e{power}" if power else "1", SMALL, halo=False))
@@ -224,6 +255,7 @@ DRAWINGS: dict[str, Callable[[], Scene]] = {
     "mobility-by-count": mobility_by_count,
     "exact-mobility": exact_mobility,
     "pose": pose,
+    "precision": precision,
     "reduction": reduction,
     "edits": edits,
 }

@@ -150,12 +150,28 @@ class ChainString:
 
     @property
     def comment(self) -> str:
-        """What Table 8 remarks, or should: freedoms that are fewer than the creases."""
+        """What Table 8 remarks, or should: axes that are parallel, freedoms that are fewer than the creases."""
+        return "; ".join(filter(None, (self._parallel(), self._fewer())))
+
+    def _fewer(self) -> str:
         if self.dof == self.creases:
             return ""
         if self.clusters == (3, 3):
             return "one freedom is a rotation about the line between the centres: 5 between the bodies"
         return f"{self.dof} freedoms between the bodies, {self.creases} creases"
+
+    def _parallel(self) -> str:
+        """Say which creases are parallel: those beside a panel are, and a single one is beside both its panels."""
+        runs = [1]  # creases parallel to the last one of the first cluster
+        for number, before in enumerate(self.clusters[:-1]):
+            if before == 1 or not number:
+                runs[-1] += 1
+            else:
+                runs.append(2)
+        if max(runs) == self.creases > 1:
+            return "all axes parallel"
+        several = [f"{run} axes parallel" for run in runs if run > 2]
+        return ", ".join(several)
 
     def modes(self) -> list[str]:
         """Return the modes: for each gap between right-angled vertices, same side (S) or diagonal (D).

@@ -64,7 +64,7 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
 
     Parameters
     ----------
-    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or networkx.Graph
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage or networkx.Graph
 
     Returns
     -------

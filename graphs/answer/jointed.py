@@ -12,11 +12,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from graphs.answer.counted_joints import report_of_joints
+from graphs.answer.planar import with_planar_loops
 from graphs.answer.ranks import notes_of_pose
 from graphs.answer.report import MobilityAnswer
 from graphs.arrays import Floats
-from graphs.count.report import mobility_report
-from graphs.errors import shown
+from graphs.count.equations import traditional_cgk
+from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
 from graphs.ids import JointId
 from graphs.joints.as_revolutes import revolutes_of
@@ -34,6 +36,8 @@ from graphs.tolerances import DOUBLE
 __all__ = ["Passive", "freedoms_by_screws", "mobility_of_jointed", "passive_freedoms"]
 
 _FEW = 3
+_ROD = 2
+"""Joints of a rod between balls."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +55,9 @@ class Passive:
 def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
     """Return how a linkage with joints of all kinds moves: by count of its joints, and at its pose as revolutes.
 
-    Links, joints, loops and equations of the answer are those of the revolutes that stand for the joints; the
-    mobility is counted with the freedoms of the joints, and ``counts["passive"]`` are the passive freedoms.
-    Without places there is no pose; a note gives the freedoms of a generic realisation.
+    Loops that are planar as it lies count three equations each. ``counts["passive"]`` are the passive freedoms,
+    ``counts["revolutes"]`` the revolutes whose axes give the freedoms at the pose. Without places there is no
+    pose; a note gives the freedoms of a generic realisation.
 
     >>> leg = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
     >>> kinds = {1: JointKind.SPHERICAL, 2: JointKind.SPHERICAL, 3: JointKind.REVOLUTE}
@@ -64,29 +68,48 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
     whole = placed(linkage)
     solids = revolutes_of(whole)
     pose = pose_mobility_of_axes(solids.chain, solids.axes)
-    by_revolutes = MobilityAnswer.of(mobility_report(solids.chain))
+    counted = with_planar_loops(linkage)
+    report = report_of_joints(counted)
     passive = passive_freedoms(whole)
-    told = [f"joints: {linkage.told_kinds}; as {len(solids.chain.joints)} revolutes, whose counts are told"]
+    notes = [*report.warnings, f"joints: {linkage.told_kinds}"]
+    found = len(counted.chain.centred_loops) - len(linkage.chain.centred_loops)
+    if found:
+        notes.append(f"{numbered(found, 'loop')} planar at this configuration: 3 equations each")
+    notes += _if_planar(linkage)
+    general: dict[str, int] = {}
     if not linkage.places:
-        known = "freedoms are not known" if pose.dof is None else f"freedoms are {pose.dof}"
-        told.append(f"a type without places: of a general member, placed at random, the {known}")
-    if by_revolutes.mobility != linkage.mobility:
-        told.append(
-            f"revolutes alone count {by_revolutes.mobility}: slides made of the linkage of Sarrus move although "
-            "their six equations say no"
-        )
-    told += _told(passive)
-    counts = {**by_revolutes.counts, "passive": sum(one.freedoms for one in passive)}
-    answer = replace(by_revolutes, mobility=linkage.mobility, counts=counts, warnings=tuple(told))
+        general = {} if pose.dof is None else {"general_member": pose.dof}
+        freedom = numbered(pose.dof or 0, "degree of freedom", "degrees of freedom")
+        known = "degrees of freedom are unknown" if pose.dof is None else f"result is {freedom}"
+        notes.append(f"a type without places: for a generic realisation, placed at random, the {known}")
+    notes += _passive_notes(passive)
+    counts = {
+        **report.counts,
+        "passive": sum(one.freedoms for one in passive),
+        "revolutes": len(solids.chain.joints),
+        **general,
+    }
+    answer = replace(MobilityAnswer.of(report), counts=counts, warnings=tuple(notes))
     return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose)) if linkage.places else answer
+
+
+def _if_planar(linkage: JointedLinkage) -> Iterator[str]:
+    """Say what a type counts in a plane, if its joints allow it and nothing says in which space its loops are."""
+    chain = linkage.chain
+    if linkage.places or chain.loops or not chain.independent_loops:
+        return
+    if all(kind.planar for kind in linkage.kinds.values()):
+        links = len(chain) - chain.components + 1
+        planar = traditional_cgk(links, [kind.freedoms for kind in linkage.kinds.values()], 3)
+        yield f"no loop has a centre: all are spatial; if all are planar (centre infinite), Eq. 1 gives {planar}"
 
 
 def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
     """Return the freedoms that move links of one leg only: those it has with both its ends held.
 
-    The linkage has places; open ends have no such freedoms. For a leg that comes back to its first link, and a
-    lone ring, each row between successive spherical joints is examined; the ground is held, or the longest row of
-    a ring without one.
+    The linkage has places. Of a leg with an open end, one that comes back to its first link, and a lone ring, each
+    row between successive spherical joints is examined; the ground is held, or the longest row of a ring without
+    one.
     """
     screws = _screws(linkage)
     found = []
@@ -103,14 +126,18 @@ def _rows_between_ends(linkage: JointedLinkage, leg: Leg) -> list[tuple[JointId,
     """Return the rows of a leg that may move while both their ends are held."""
     degree = dict(linkage.chain.degree)
     first, last = leg.links[0], leg.links[-1]
-    if first != last:
-        return [leg.joints] if min(degree[first], degree[last]) > 1 else []
+    if first != last and min(degree[first], degree[last]) > 1:
+        return [leg.joints]
     balls = [place for place, joint in enumerate(leg.joints) if linkage.kinds[joint] is JointKind.SPHERICAL]
     rows = [leg.joints[a : b + 1] for a, b in pairwise(balls)]
-    if rows and degree[first] == 2 and first != linkage.chain.ground:
+    if first != last:
+        return rows
+    lone = degree[first] == 2
+    if rows and lone and first != linkage.chain.ground:
         rows.append(leg.joints[balls[-1] :] + leg.joints[: balls[0] + 1])
         rows.remove(max(rows, key=len))
-    return [row for row in rows if len(row) < len(leg.joints)]
+    # a lone ring of which all joints are between two balls is their line, about which the rest turns
+    return [row for row in rows if not lone or len(row) < len(leg.joints) or len(row) == _ROD]
 
 
 def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
@@ -133,16 +160,17 @@ def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
     return None if rank is None else int(starts[-1]) - rank
 
 
-def _told(passive: tuple[Passive, ...]) -> Iterator[str]:
-    """Say in a line or two which freedoms are passive."""
+def _passive_notes(passive: tuple[Passive, ...]) -> Iterator[str]:
+    """Yield the notes on passive degrees of freedom."""
     spinning = [one for one in passive if one.spins]
     others = [one for one in passive if not one.spins]
     for legs_, doing in ((spinning, "spin about the line through their spherical joints"), (others, "move alone")):
         if legs_:
             total = sum(one.freedoms for one in legs_)
-            names = "; ".join(shown(" ".join(map(str, one.joints))) for one in legs_[:_FEW])
+            names = "; ".join(", ".join(map(shown, one.joints)) for one in legs_[:_FEW])
             more = f" and {len(legs_) - _FEW} more" if len(legs_) > _FEW else ""
-            yield f"{total} of the freedoms passive: legs that {doing} (joints {names}{more})"
+            freedoms = numbered(total, "passive degree of freedom", "passive degrees of freedom")
+            yield f"{freedoms}: legs that {doing} (joints {names}{more})"
 
 
 def _spins(linkage: JointedLinkage, row: tuple[JointId, ...]) -> bool:

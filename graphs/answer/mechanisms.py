@@ -6,7 +6,7 @@ Theory: docs/theory/mobility-by-count.md, docs/theory/exact-mobility.md, docs/th
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, pi, sin
+from math import pi
 from typing import Literal
 
 import networkx as nx
@@ -18,20 +18,23 @@ from graphs.answer.report import MobilityAnswer
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import Cone, Cylinder
 from graphs.rank.pose import pose_mobility_of_axes
 from graphs.tolerances import DOUBLE
 
 __all__ = ["lying", "mobility", "precision_of_steps"]
 
-_ASSUMED = "a link-joint graph without centres: each face of a drawing was given a finite one, which decides M"
-_ANY_CONE = pi / 4
+_ASSUMED = (
+    "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
+)
+_ANY_CONE = Cone(pi / 4)
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
 
 
@@ -44,11 +47,11 @@ def mobility(
     geometry: bool = True,
     dual: SheetMechanism | None = None,
 ) -> MobilityAnswer:
-    """Say how many degrees of freedom a mechanism has, and which formula tells.
+    """Report how many degrees of freedom a mechanism has, and which formula applies.
 
     Parameters
     ----------
-    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage, HingedSolids, ...
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage, HingedSolids, ...
         Of joints of other kinds than revolutes the answer is that of `graphs.answer.jointed`.
         A plain graph is a link-joint graph: each face of a drawing of it is given a finite centre.
     exact : bool, optional
@@ -96,20 +99,20 @@ def mobility(
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
         if demanded:
-            told = (
-                "no exact rank: revolutes that stand for joints share points and directions, general ones do not"
-            )
-            answer = answer.with_notes(warnings=[told])
+            why = "revolute joints that replace others share points and directions, generic ones do not"
+            answer = answer.with_notes(warnings=[f"no exact rank: {why}"])
         return replace(answer, pose=None) if pose is False else answer
     sc = graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
     if sc.centres_assumed:
         answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
     if pose is not None and pose is not False:
-        answer = answer.with_notes(warnings=["no freedoms at a pose: a graph has no coordinates"])
+        answer = answer.with_notes(
+            warnings=["no degrees of freedom at a configuration: a graph has no coordinates"]
+        )
     if wanted:
         answer = with_exact(answer, sc, demanded=demanded)
-    if pose is not False and isinstance(mechanism, ConicalLinkage):
+    if pose is not False and isinstance(mechanism, SurfaceLinkage):
         return _conformed(answer, mechanism)
     if pose is not False and isinstance(mechanism, HingedSolids):
         here = pose_mobility_of_axes(mechanism.chain, mechanism.axes)
@@ -117,21 +120,25 @@ def mobility(
     return answer
 
 
-def _conformed(answer: MobilityAnswer, linkage: ConicalLinkage) -> MobilityAnswer:
+def _conformed(answer: MobilityAnswer, linkage: SurfaceLinkage) -> MobilityAnswer:
     """Add the freedoms at the conformed position, where the places of the joints are known."""
-    answer = answer.with_notes(warnings=["on a cone all joint axes pass through its apex"])
+    cylinder = linkage.kind == "cylinder"
+    axes_note = (
+        "on a cylinder all joint axes are parallel"
+        if cylinder
+        else "on a cone all joint axes pass through its apex"
+    )
+    answer = answer.with_notes(warnings=[axes_note])
     if linkage.steps is None:
         return answer
-    tilt = linkage.cone_angle or _ANY_CONE
-    axes = {
-        joint: ((0.0, 0.0, 0.0), (sin(tilt) * cos(t), sin(tilt) * sin(t), cos(tilt)))
-        for joint, t in zip(linkage.chain.joints, linkage.places(), strict=True)
-    }
+    surface = linkage.surface or (Cylinder(1.0) if cylinder else _ANY_CONE)
+    lines = zip(*(part.tolist() for part in surface.axes(linkage.places())), strict=True)
+    axes = dict(zip(linkage.chain.joints, lines, strict=True))
     pose = replace(pose_mobility_of_axes(linkage.chain, axes, precision_of_steps(linkage)), flat=False)
     return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
 
 
-def precision_of_steps(linkage: ConicalLinkage) -> Precision:
+def precision_of_steps(linkage: SurfaceLinkage) -> Precision:
     """Return how precise places are, in radians: the steps as files write them, in degrees, or solved for."""
     assert linkage.steps is not None
     steps = np.degrees(list(linkage.steps.values()))[:, None]
@@ -152,11 +159,12 @@ def _of_sheet(
     hinge_flat, geometry = hinged
     answer = MobilityAnswer.of(mobility_report(dual.sc))
     answer = replace(answer, counts={**answer.counts, "interior_vertices": dual.interior_vertices})
+    answer = replace(answer, reading=drawn.reading)
     notes = []
     if pose:
         notes.append(f"all numbers are those of frame {pose}")
     if flaps := answer.counts["flaps"]:
-        notes.append(f"{flaps} flap(s), panels with one hinge: a freedom each")
+        notes.append(f"{numbered(flaps, 'flap')} (panels with one hinge): 1 degree of freedom each")
     if "F" in drawn.assignments:
         other = mechanism_of_sheet(drawn, hinge_flat=not hinge_flat, geometry=geometry).sc
         if len(other) != len(dual.sc):

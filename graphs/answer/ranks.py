@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.duality import SheetMechanism
-from graphs.errors import NumericalError, UnsolvableError, shown
+from graphs.errors import NumericalError, UnsolvableError, numbered, shown
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
@@ -25,6 +25,8 @@ MOST_JOINTS = 1200
 """Larger mechanisms are ranked on request only: time grows with the cube of the joints."""
 
 _MOST_DIAGNOSED = 400
+_LISTED = 12
+"""Joints that are named, at most."""
 
 
 def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = False) -> MobilityAnswer:
@@ -35,7 +37,7 @@ def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = F
     joints = len(mechanism.joints)
     if joints > MOST_JOINTS and not demanded:
         return answer.with_notes(
-            warnings=[f"exact rank skipped: {joints} joints are more than {MOST_JOINTS}; ask for it with --exact"]
+            warnings=[f"exact rank skipped: {joints} joints, more than {MOST_JOINTS}; --exact computes it"]
         )
     try:
         exact = exact_mobility(mechanism)
@@ -51,7 +53,9 @@ def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded
     """Add the exact generic mobility of a polyhedron model, whatever its size if it is demanded."""
     if len(model) > MOST_JOINTS // 3 and not demanded:
         return answer.with_notes(
-            warnings=[f"exact rank skipped: {len(model)} vertices are many; ask for it with --exact"]
+            warnings=[
+                f"exact rank skipped: {len(model)} vertices, more than {MOST_JOINTS // 3}; --exact computes it"
+            ]
         )
     try:
         exact = exact_mobility_of_model(model)
@@ -60,23 +64,24 @@ def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded
     else:
         answer = replace(answer, exact=exact)
         if exact.mobility != answer.mobility:
-            note = f"the exact generic mobility is {exact.mobility}, the count says {answer.mobility}"
+            note = f"the exact generic mobility is {exact.mobility}, by count {answer.mobility}"
             answer = answer.with_notes(warnings=[note])
     return answer
 
 
 def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph, exact: int) -> str:
-    text = f"the exact generic mobility is {exact}, the count says {answer.mobility}"
+    text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
     if len(mechanism.joints) > _MOST_DIAGNOSED:
         return text
     diagnosis = diagnose(mechanism)
     if diagnosis.idle:
         regions = sorted(diagnosis.regions, key=len)
-        joints = shown(" ".join(sorted(map(str, regions[0]), key=lambda name: (len(name), name))))
-        place = f"among joints {joints}" + (f" (and {len(regions) - 1} more places)" if len(regions) > 1 else "")
-        text += f": {diagnosis.idle} closure equation(s) idle, {place}"
+        region = sorted(regions[0], key=lambda joint: (len(str(joint)), str(joint)))
+        joints = ", ".join([*map(shown, region[:_LISTED]), *(["..."] if region[_LISTED:] else [])])
+        more = f" (and {numbered(len(regions) - 1, 'more place')})" if len(regions) > 1 else ""
+        text += f": {numbered(diagnosis.idle, 'redundant closure equation')}, among joints {joints}{more}"
     if diagnosis.immobile:
-        text += f"; {len(diagnosis.immobile)} joint(s) stiff in general"
+        text += f"; {numbered(len(diagnosis.immobile), 'joint')} generically immobile"
     return text
 
 
@@ -101,7 +106,7 @@ def model_with_pose(answer: MobilityAnswer, model: PolyhedronModel) -> MobilityA
     try:
         pose = pose_mobility_of_model(model)
     except UnsolvableError as error:
-        return answer.with_notes(warnings=[f"no freedoms at the coordinates: {error}"])
+        return answer.with_notes(warnings=[f"no degrees of freedom at this configuration: {error}"])
     return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
 
 
@@ -110,19 +115,20 @@ def notes_of_pose(pose: PoseMobility) -> list[str]:
     evidence = pose.spectrum
     if pose.dof is None:
         near = ", ".join(f"{value:.1e}" for value in evidence.undecided[:3])
-        told = f"singular value(s) {near} are near the noise" if near else "two counts of small values differ"
-        return [f"indeterminate at this pose: {told}; precision of the coordinates: {_precision(pose)}"]
+        why = f"singular values near the noise: {near}" if near else "two counts of small values differ"
+        return [f"indeterminate at this configuration: {why}; precision of the coordinates: {_precision(pose)}"]
     notes = []
     if min(evidence.largest_zero, pose.precision.size) > DOUBLE.closed:
         zeros = f"singular values up to {evidence.largest_zero:.0e} are noise"
         notes.append(f"coordinates precise to {_precision(pose)}: {zeros}")
     if evidence.nearly:
-        notes.append(f"nearly mobile: {evidence.nearly} more freedom(s) but for small strains")
+        more = numbered(evidence.nearly, "more degree of freedom", "more degrees of freedom")
+        notes.append(f"nearly mobile: {more} if small strains are allowed")
     return notes
 
 
 def _precision(pose: PoseMobility) -> str:
-    return f"{pose.precision.size:.0e} of the extent ({pose.precision.source})"
+    return str(pose.precision)
 
 
 def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
@@ -131,6 +137,6 @@ def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
     if not pose.flat_loops or not gained:
         return []
     if pose.flat:
-        return ["flat state: the sheet has more infinitesimal freedoms as drawn than when folded"]
-    flat = f"{pose.flat_loops} loop(s) with all axes in one plane"
-    return [f"{flat}: more infinitesimal freedoms as drawn than when folded"]
+        return ["flat state: the sheet has fewer infinitesimal degrees of freedom once folded"]
+    flat = f"{numbered(pose.flat_loops, 'loop')} with all axes in one plane"
+    return [f"{flat}: fewer infinitesimal degrees of freedom once folded"]

@@ -1,4 +1,4 @@
-"""The answer to "how does it move?": counts, exact rank, freedoms at the pose, and what was noticed."""
+"""The mobility report: degrees of freedom at the configuration, exact rank, counts, and notes."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from typing import Any
 
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
-from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.errors import numbered
+from graphs.mechanism.arrangement import ARRANGEMENTS
+from graphs.mechanism.reading import Reading
+from graphs.printing import Block, Printed, TableBlock, html_of, plain
 from graphs.rank.generic import ExactMobility
 from graphs.rank.pose import PoseMobility
 
-__all__ = ["MobilityAnswer"]
+__all__ = ["MobilityAnswer", "power_of_ten"]
 
 _TITLES = {
     "traditional_cgk": "C-G-K (Wiener Eq. 1)",
@@ -38,7 +41,10 @@ _COUNTS = {
     "flaps": "flaps",
     "interior_vertices": "interior vertices",
     "parts": "parts",
-    "passive": "passive freedoms",
+    "freedoms": "joint freedoms",
+    "passive": "passive degrees of freedom",
+    "revolutes": "equivalent revolute joints",
+    "general_member": "degrees of freedom of a random realisation",
     "remote": "sum of k over remote centres",
     "on_plane": "points on planes P",
     "on_line": "points on lines L",
@@ -50,7 +56,7 @@ _COUNTS = {
 class MobilityAnswer(MobilityReport, Printed):
     """The mobility of one mechanism, with its evidence.
 
-    It prints as ``synth mobility`` does, and shows itself as a table in a notebook.
+    It prints as ``synth mobility`` does, and as with ``--verbose`` in a notebook.
 
     Attributes
     ----------
@@ -60,6 +66,8 @@ class MobilityAnswer(MobilityReport, Printed):
     pose : PoseMobility or None
         The first-order freedoms where the coordinates are, with the gap of the singular values; None without
         coordinates.
+    reading : Reading or None
+        What was done to a drawing when it was read, with places; None of what was not traced.
     overconstraint : int or None
         h = freedoms at the pose - M (Wiener 2016, Eq. 8).
 
@@ -78,6 +86,7 @@ class MobilityAnswer(MobilityReport, Printed):
 
     exact: ExactMobility | None = None
     pose: PoseMobility | None = None
+    reading: Reading | None = None
 
     @classmethod
     def of(cls, report: MobilityReport) -> MobilityAnswer:
@@ -97,18 +106,30 @@ class MobilityAnswer(MobilityReport, Printed):
         notes = {key: counted.pop(key) for key in ("repairs", "warnings")}
         pose = None
         if self.pose is not None:
-            told = self.pose.to_json()
-            pose = {"dof": told.pop("dof"), "gap": told.pop("gap"), "h": self.overconstraint, **told}
-        return {**counted, "exact": None if self.exact is None else self.exact.to_json(), "pose": pose, **notes}
+            ranks = self.pose.to_json()
+            pose = {"dof": ranks.pop("dof"), "gap": ranks.pop("gap"), "h": self.overconstraint, **ranks}
+        exact = None if self.exact is None else self.exact.to_json()
+        reading = None if self.reading is None else self.reading.to_json()
+        return {**counted, "exact": exact, "pose": pose, **notes, "reading": reading}
 
-    def blocks(self) -> list[Block]:
-        """Return the lines and the table that are printed."""
-        blocks: list[Block] = [f"mobility M = {plain(self.mobility)}   ({self.mechanism_class})"]
+    def blocks(self, *, verbose: bool = False) -> list[Block]:
+        """Return the lines that are printed, first what was left out of a drawing; verbose adds the table."""
+        return [*self.unread(), *self.evidence(verbose=verbose)]
+
+    def unread(self) -> list[Block]:
+        """Return the line that says what was left out of a drawing, if anything was."""
+        return [self.reading.warning] if self.reading is not None and self.reading.warning else []
+
+    def evidence(self, *, verbose: bool = False) -> list[Block]:
+        """Return ranks and counts as lines, strongest first; verbose adds the table of all equations."""
+        blocks: list[Block] = [] if self.pose is None else [_pose_line(self)]
         if self.exact is not None:
-            exact = self.exact
-            blocks.append(f"exact generic mobility {exact.mobility}   (rank {exact.rank} modulo two primes)")
-        if self.pose is not None:
-            blocks.append(_pose_line(self))
+            rank = f"exact rank {self.exact.rank} modulo two primes"
+            blocks.append(f"generic realisation: mobility {self.exact.mobility}   ({rank})")
+        blocks.append(f"by count: mobility M = {plain(self.mobility)}   ({self.mechanism_class})")
+        blocks.append(_equations_line(self, hint=not verbose))
+        if verbose:
+            blocks.append(_equations_table(self))
         known = [
             ("links N", self.links),
             ("joints J", self.joints),
@@ -117,33 +138,65 @@ class MobilityAnswer(MobilityReport, Printed):
             *((title, self.counts.get(key)) for key, title in _COUNTS.items()),
         ]
         blocks.append(", ".join(f"{title} {value}" for title, value in known if value is not None))
-        rows = [
-            (_TITLES[name], plain(result.value), "yes" if result.applies else "no", result.why)
-            for name, result in self.equations.items()
-        ]
-        blocks.append(TableBlock(("equation", "M", "applies", "why"), rows, ["M"]))
-        blocks += [f"repaired: {note}" for note in self.repairs]
+        if self.arrangement not in (None, "none", "single"):
+            blocks.append(f"arrangement of centres: {self.arrangement} ({ARRANGEMENTS[self.arrangement]})")
+        reading = self.reading or Reading()
+        blocks += [f"repaired: {reading.told(note)}" for note in self.repairs if note != reading.left_out]
         blocks += [f"note: {note}" for note in self.warnings]
         return blocks
+
+    def _repr_html_(self) -> str:
+        return html_of(self.blocks(verbose=True))
 
     def __repr__(self) -> str:
         return f"<MobilityAnswer: M = {self.mobility}, {self.mechanism_class}>"
 
 
 def _pose_line(answer: MobilityAnswer) -> str:
-    """Say in a line how a mechanism can move as it lies."""
+    """Return the line on the infinitesimal degrees of freedom at the configuration."""
     pose = answer.pose
     assert pose is not None
     if pose.dof is None:
-        return "as it lies: indeterminate"
+        return "at this configuration: indeterminate"
     gap = pose.to_json()["gap"]
-    evidence = "no zero singular value" if gap is None else f"gap {gap:.0e}"
-    state = "flat state: more infinitesimal freedoms than when folded; " if _is_only_flat(answer) else ""
+    evidence = "no zero singular value" if gap is None else f"singular-value gap {power_of_ten(gap)}"
+    state = "flat state: fewer once folded; " if _is_only_flat(answer) else ""
     over = "" if answer.overconstraint is None else f"h = {answer.overconstraint}, "
-    return f"as it lies: {pose.dof} infinitesimal freedom(s)   ({state}{over}{evidence})"
+    freedoms = numbered(pose.dof, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+    return f"at this configuration: {freedoms}   ({state}{over}{evidence})"
+
+
+def _equations_line(answer: MobilityAnswer, *, hint: bool) -> str:
+    """Return the line that names the equations of mobility which apply; a value is given where it is not M."""
+    names = []
+    for name, equation in answer.equations.items():
+        if equation.applies and equation.value is not None:
+            value = "" if equation.value == answer.mobility else f": {equation.value}"
+            names.append(f"{_TITLES[name]}{value}")
+    every = f"   (--verbose: all {len(answer.equations)} equations)" if hint else ""
+    return f"equations that apply: {'; '.join(names) or 'none'}{every}"
+
+
+def _equations_table(answer: MobilityAnswer) -> TableBlock:
+    """Return the table of all equations of mobility: value, whether it applies, and why."""
+    rows = [
+        (_TITLES[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
+        for name, equation in answer.equations.items()
+    ]
+    return TableBlock(("equation", "M", "applies", "why"), rows, ["M"])
+
+
+def power_of_ten(number: float) -> str:
+    """Return a number to one digit, its power of ten without sign and zeros that say nothing.
+
+    >>> power_of_ten(6.2e14), power_of_ten(3e-6)
+    ('6e14', '3e-6')
+    """
+    digit, power = f"{number:.0e}".split("e")
+    return f"{digit}e{int(power)}"
 
 
 def _is_only_flat(answer: MobilityAnswer) -> bool:
-    """Tell whether a sheet owes freedoms to lying flat."""
+    """Return whether a sheet owes degrees of freedom to its flat state."""
     pose, over = answer.pose, answer.overconstraint
     return pose is not None and pose.flat and bool(pose.flat_loops) and (over is None or over > 0)

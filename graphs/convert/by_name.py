@@ -18,7 +18,7 @@ def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None =
 
     Parameters
     ----------
-    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, ConicalLinkage, HingedSolids, ...
+    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, SurfaceLinkage, HingedSolids, ...
     kind : {"sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"}, optional
         "solids": revolutes with axes, those that stand for joints of other kinds; "joints": such chains seen as
         the joints that they are.

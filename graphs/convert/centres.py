@@ -15,7 +15,7 @@ from graphs.arrays import Floats
 from graphs.geometry import common_direction, lines_meet
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.plane import in_space
-from graphs.mechanism.precision import extent_of, precision_of_sheet
+from graphs.mechanism.precision import extent_of, precision_as_written
 from graphs.mechanism.sheet import Edge, Sheet
 from graphs.tolerances import DOUBLE, Tolerances
 
@@ -34,7 +34,7 @@ def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: 
     """
     points = in_space(sheet.coordinates or ())
     points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
-    tolerance = Tolerances.of(precision_of_sheet(sheet).size).meant
+    tolerance = Tolerances.of(precision_as_written(sheet).size).meant
     centres = [axes_meet(points, [hinges[joint] for joint in cycle], tolerance) for cycle in cycles]
     return [
         Loop(cycle, centre) for cycle, centre in zip(cycles, centres, strict=True) if centre is not Centre.NONE

@@ -17,7 +17,7 @@ import networkx as nx
 from graphs.convert.centres import loops_with_centres
 from graphs.convert.cycles import Hinged, boundary_cycles, vertex_cycles
 from graphs.convert.hinges import HingeLines, lines_of_hinges
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
 from graphs.loops.cycle_space import added_independent, split_dependent
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.precision import off_panel_planes, precision_of
@@ -101,7 +101,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     if len(panels) == 1 and not joints:
         notes.warnings.append("one panel: no crease joins it to another")
     if idle:
-        notes.warnings.append(f"{idle} crease(s) end inside a panel and fold nothing")
+        notes.warnings.append(f"{numbered(idle, 'crease')} inside a panel: no effect on folding")
     hinged = Hinged(faces_at, joint_of_edge, panel_of_face)
     centre_of = vertex_cycles(sheet, hinged)
     cycles = list(centre_of)
@@ -118,7 +118,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
         sc = _with_loops(sc, found, notes)
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
     if split:
-        notes.repairs.append(f"{split} collinear split hinge(s) joined")
+        notes.repairs.append(f"{numbered(split, 'collinear split hinge')} joined")
     notes.repairs += lines.repairs
     notes.warnings += lines.warnings
     if (off := off_panel_planes(sheet)) > DOUBLE.same_point:
@@ -160,7 +160,9 @@ def _with_loops(sc: SCGraph, loops: Sequence[Loop], notes: _Notes) -> SCGraph:
         added[loop.centre] += 1
     for centre, meet in ((Centre.INFINITE, "are parallel: planar"), (Centre.FINITE, "meet in a point: spherical")):
         if added[centre]:
-            notes.warnings.append(f"geometry: the axes of {added[centre]} loop(s) round holes or cuts {meet}")
+            notes.warnings.append(
+                f"geometry: the axes of {numbered(added[centre], 'loop')} round holes or cuts {meet}"
+            )
     return sc
 
 
@@ -200,7 +202,9 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
         if letter in HINGES and assignment[edge][0] not in HINGES:
             assignment[edge] = (letter, assignment[edge][1])
     if twice:
-        notes.repairs.append(f"{twice} edge(s) listed twice: a crease counts before a border or a flat edge")
+        notes.repairs.append(
+            f"{numbered(twice, 'edge')} listed twice: a crease counts before a border or a flat edge"
+        )
     unlisted = cuts = 0
     for edge, here in faces_at.items():
         if len(here) > 2:
@@ -211,13 +215,13 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
         cuts += len(here) == 2 and assignment[edge][0] in "BC"
     loose = sum(letter in HINGES and edge not in faces_at for edge, (letter, _) in assignment.items())
     if loose:
-        notes.warnings.append(f"{loose} crease line(s) on no face dropped")
+        notes.warnings.append(f"{numbered(loose, 'crease line')} on no face dropped")
     if unlisted:
         notes.repairs.append(
-            f"{unlisted} side(s) between two faces not listed as edges: taken as unassigned creases"
+            f"{numbered(unlisted, 'side')} between two faces not listed as edges: taken as unassigned creases"
         )
     if cuts:
-        notes.warnings.append(f"{cuts} border or cut edge(s) between two faces: taken as cuts")
+        notes.warnings.append(f"{numbered(cuts, 'border or cut edge')} between two faces: taken as cuts")
     return faces_at, assignment, notes
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.errors import numbered
 from graphs.mechanism.sheet import COLLINEAR, Edge
 
 __all__ = ["BENT", "HingeLines", "lines_of_hinges"]
@@ -65,7 +66,11 @@ class HingeLines:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What could not be decided, in words."""
-        return (f"{self.unclear} hinge(s) may or may not be on one line: kept apart",) if self.unclear else ()
+        return (
+            (f"{numbered(self.unclear, 'hinge')} may or may not be on one line: kept apart",)
+            if self.unclear
+            else ()
+        )
 
 
 def lines_of_hinges(

@@ -76,7 +76,7 @@ def traced_anew(sheet: Sheet) -> Sheet | None:
     ends = flat.places[np.array([*sheet.edges, *(tuple(side) for side in unlisted)])]
     found = trace_sheet(Lines(ends, letters, angles), title=sheet.title)
     turned = (flat.turned,) if flat.turned else ()
-    return replace(found, repairs=(*turned, *sheet.repairs, *found.repairs))
+    return replace(found, repairs=(*turned, *sheet.repairs, *found.repairs), precision=sheet.precision)
 
 
 def _overlap(places: Floats, faces: tuple[tuple[int, ...], ...]) -> bool:

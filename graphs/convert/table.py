@@ -21,7 +21,7 @@ from graphs.ids import JointId
 from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.linkage import JointedLinkage
 from graphs.joints.recognising import recognised
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
@@ -43,7 +43,7 @@ __all__ = [
     "to_vertex_edge",
 ]
 
-Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | ConicalLinkage | HingedSolids | JointedLinkage
+Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | SurfaceLinkage | HingedSolids | JointedLinkage
 """What a file may hold (an SCDGraph is an SCGraph)."""
 
 
@@ -78,7 +78,7 @@ def to_sc(thing: Mechanism) -> SCGraph:
         return sc_from_vertex_edge(thing)
     if isinstance(thing, Sheet):
         return mechanism_of_sheet(thing).sc
-    if isinstance(thing, ConicalLinkage | HingedSolids):
+    if isinstance(thing, SurfaceLinkage | HingedSolids):
         return thing.chain
     if isinstance(thing, JointedLinkage):
         return revolutes_of(thing).chain

@@ -7,7 +7,7 @@ where they meet, and the faces are walked round. Theory: docs/theory/crease-patt
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,8 +15,9 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.welding import Lines, Network, either_way, networks_of
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
 from graphs.geometry import signed_area
+from graphs.mechanism.reading import Reading, Repair, RepairKind
 from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
 
 __all__ = ["MOST", "TOLERANCES", "trace_sheet"]
@@ -26,6 +27,16 @@ TOLERANCES = (1e-6, 1e-5, 1e-4, 3e-4, 6e-4, 1e-3, 2e-3)
 
 MOST = 1e12
 """Largest coordinate that is traced: products of four of them stay finite."""
+
+_WHAT: Mapping[RepairKind, tuple[str, str]] = {
+    "crossing split": ("crossing split", "crossings split"),
+    "line split at an end": ("end on a line: the line split", "ends on a line: the line split"),
+    "line drawn twice": ("line drawn twice", "lines drawn twice"),
+    "line of no length": ("line of no length dropped", "lines of no length dropped"),
+    "line pruned": ("line that ends nowhere pruned", "lines that end nowhere pruned"),
+    "vertex taken out": ("vertex in the middle of a line removed", "vertices in the middle of a line removed"),
+}
+"""Repairs that are counted, in words for one and for several."""
 
 
 def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None) -> Sheet:
@@ -72,7 +83,7 @@ def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None
     >>> ends += [(corners[0], corners[2]), (corners[1], corners[3])]
     >>> sheet = trace_sheet(Lines(np.array(ends, dtype=float), "BBBBMV"))
     >>> sheet.vertices, len(sheet.edges), len(sheet.faces), sheet.repairs
-    (5, 8, 4, ('1 crossing(s) split',))
+    (5, 8, 4, ('1 crossing split',))
     """
     if not len(lines.letters) or not lines.size:
         raise InvariantError("lines", "the pattern has no line of any length", "lines")
@@ -80,12 +91,20 @@ def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None
     traced = [_Traced(network) for network in networks_of(lines, tried)]
     chosen = _standing(traced, TOLERANCES[-1] * lines.size)
     network = chosen.network
-    notes = [f"{number} {what}" for what, number in sorted(network.notes.items()) if number]
-    if network.tolerance > 2 * TOLERANCES[0] * lines.size:
-        notes.append(f"ends welded within {network.tolerance / lines.size:.0e} of the size")
+    repairs = [
+        Repair(kind, numbered(len(places), *_WHAT[kind]), tuple(places))
+        for kind, places in sorted(network.repairs.items(), key=lambda item: _WHAT[item[0]])
+    ]
+    finest = TOLERANCES[0] * lines.size
+    if network.tolerance > 2 * finest:
+        far = np.unique(network.gathered[network.gathered[:, 2] > finest, :2], axis=0)
+        what = f"ends welded within {network.tolerance / lines.size:.0e} of the size"
+        repairs.append(Repair("ends welded", what, tuple(((float(x), float(y)),) for x, y in far)))
     if chosen.holes:
-        notes.append(f"{chosen.holes} face(s) with borders all round taken as holes")
-    return _sheet(network, chosen.faces, title, tuple(notes))
+        what = f"{numbered(len(chosen.holes), 'face')} with borders all round taken as holes"
+        rows = (network.points[list(hole)].tolist() for hole in chosen.holes)
+        repairs.append(Repair("hole", what, tuple(tuple((x, y) for x, y in row) for row in rows)))
+    return _sheet(network, chosen.faces, title, Reading(tuple(repairs)))
 
 
 @dataclass(frozen=True)
@@ -104,9 +123,10 @@ class _Traced:
         return _without_holes(self._all_faces, self.network.edges)
 
     @property
-    def holes(self) -> int:
-        """How many faces are holes."""
-        return len(self._all_faces) - len(self.faces)
+    def holes(self) -> list[tuple[int, ...]]:
+        """The faces that are holes."""
+        left = set(self.faces)
+        return [face for face in self._all_faces if face not in left]
 
     @property
     def simple(self) -> bool:
@@ -212,7 +232,7 @@ def _without_holes(faces: list[tuple[int, ...]], edges: dict[Edge, str]) -> list
     ]
 
 
-def _sheet(network: Network, faces: list[tuple[int, ...]], title: str, notes: tuple[str, ...]) -> Sheet:
+def _sheet(network: Network, faces: list[tuple[int, ...]], title: str, reading: Reading) -> Sheet:
     used = sorted({v for edge in network.edges for v in edge})
     number = {v: i for i, v in enumerate(used)}
     return Sheet(
@@ -222,7 +242,8 @@ def _sheet(network: Network, faces: list[tuple[int, ...]], title: str, notes: tu
         tuple(tuple(number[v] for v in face) for face in faces),
         tuple((float(x), float(y)) for x, y in network.points[used]),
         title,
-        notes,
+        tuple(repair.what for repair in reading.repairs),
         None if not any(network.angles.values()) else tuple(network.angles[edge] for edge in network.edges),
         spread=network.spread,
+        reading=reading,
     )

@@ -6,7 +6,7 @@ What becomes of the network: :mod:`graphs.convert.tracing`. Theory: docs/theory/
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
@@ -19,6 +19,7 @@ from scipy.sparse.csgraph import connected_components
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
+from graphs.mechanism.reading import Place, RepairKind
 from graphs.mechanism.sheet import Edge
 from graphs.work_limits import check_work
 
@@ -62,17 +63,30 @@ class Network:
     """Vertices, float[n, 2], and edges with their assignments, after welding and splitting.
 
     A vertex may have no edge. `tolerance` is the length within which ends were welded, and `spread` the root mean
-    square of how far ends of one vertex were apart; fold angles are in degrees as in files. `notes` counts the
-    repairs, and `dangling` the lines that ended nowhere.
+    square of how far ends of one vertex were apart; fold angles are in degrees as in files. `repairs` has the
+    places of each kind of repair, `gathered`, float[m, 3], where ends were moved to and how far; `dangling` counts
+    the lines that ended nowhere.
     """
 
     points: Floats
     edges: dict[Edge, str]
     tolerance: float
     angles: dict[Edge, float | None] = field(default_factory=dict)
-    notes: Counter[str] = field(default_factory=Counter)
+    repairs: dict[RepairKind, list[Place]] = field(default_factory=dict)
+    gathered: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     dangling: int = 0
     spread: float = 0.0
+
+    @property
+    def notes(self) -> Counter[str]:
+        """How many repairs of each kind there are."""
+        return Counter({kind: len(places) for kind, places in self.repairs.items()})
+
+    def repaired(self, kind: RepairKind, places: Iterable[Floats]) -> None:
+        """Note repairs, each by its points."""
+        row = [tuple((float(x), float(y)) for x, y in place) for place in places]
+        if row:
+            self.repairs[kind] = [*self.repairs.get(kind, []), *row]
 
 
 def network_of(lines: Lines, tolerance: float) -> Network:
@@ -89,7 +103,7 @@ def networks_of(lines: Lines, tolerances: Sequence[float]) -> list[Network]:
     networks = []
     for group in _alike(lines.ends, tolerances):
         welded = _welded_network(lines, group[0])
-        welded.notes["line(s) drawn twice"] += again
+        welded.repaired("line drawn twice", again)
         _prune(welded)
         networks += [_straightened(welded, tolerance) for tolerance in group]
     return networks
@@ -132,14 +146,14 @@ def _welded_network(lines: Lines, tolerance: float) -> Network:
     kept = [int(i) for i in np.flatnonzero(long)]
     letters = [lines.letters[i] for i in kept]
     angles = [None if lines.angles is None else lines.angles[i] for i in kept]
-    notes = Counter({"line(s) of no length dropped": int((~long).sum())})
     ends = lines.ends[long]
     tree = shapely.STRtree(shapely.linestrings(ends))
     found = crossings(ends, tolerance)
     check_work("crossings", len(found), "crossings of lines")
     loose = np.concatenate([ends.reshape(-1, 2), found])
     points, of_point = _welded(loose, tolerance)
-    notes["crossing(s) split"] = len(set(of_point[2 * len(ends) :]) - set(of_point[: 2 * len(ends)]))
+    crossed = sorted(set(of_point[2 * len(ends) :].tolist()) - set(of_point[: 2 * len(ends)].tolist()))
+    met, twice = list[int](), list[Edge]()
     at = _points_on_lines(points, ends, tree, tolerance)
     ends_of = of_point[: 2 * len(ends)].reshape(-1, 2)
     edges: dict[Edge, str] = {}
@@ -148,7 +162,7 @@ def _welded_network(lines: Lines, tolerance: float) -> Network:
     for line, letter in enumerate(letters):
         a, b = map(int, ends_of[line])
         inner = [v for v in at[line] if v not in (a, b)]
-        notes["end(s) on a line: the line split"] += sum(v in true_ends for v in inner)
+        met += [v for v in inner if v in true_ends]
         direction = points[b] - points[a]
         path = [a, *sorted(inner, key=lambda v: float((points[v] - points[a]) @ direction)), b]
         for u, v in pairwise(path):
@@ -157,12 +171,20 @@ def _welded_network(lines: Lines, tolerance: float) -> Network:
             edge = either_way(u, v)
             before = edges.get(edge)
             if before is not None:
-                notes["line(s) drawn twice"] += 1
+                twice.append(edge)
             if before is None or _RANK.index(letter) < _RANK.index(before):
                 edges[edge] = letter
                 angle_of[edge] = angles[line]
     moved = (loose - points[of_point])[: 2 * len(ends)]
-    return Network(points, edges, tolerance, angle_of, notes, spread=_spread(moved, of_point[: len(moved)]))
+    apart = np.linalg.norm(moved, axis=1)
+    gathered = np.column_stack([points[of_point[: len(moved)]], apart])[apart > 0.0]
+    spread = _spread(moved, of_point[: len(moved)])
+    network = Network(points, edges, tolerance, angle_of, gathered=gathered, spread=spread)
+    network.repaired("line of no length", lines.ends[~long])
+    network.repaired("crossing split", points[crossed][:, None])
+    network.repaired("line split at an end", points[met][:, None])
+    network.repaired("line drawn twice", (points[list(edge)] for edge in twice))
+    return network
 
 
 def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
@@ -230,8 +252,8 @@ def _pairs(
     return one, two
 
 
-def _distinct(lines: Lines) -> tuple[Lines, int]:
-    """Leave one of lines that are equal, whichever end comes first; return also how many were left out."""
+def _distinct(lines: Lines) -> tuple[Lines, Floats]:
+    """Leave one of lines that are equal, whichever end comes first; return also the ends of those left out."""
     there, back = lines.ends.reshape(-1, 4), lines.ends[:, ::-1].reshape(-1, 4)
     turned = (lines.ends[:, 0] > lines.ends[:, 1])[:, 0] | (
         (lines.ends[:, 0, 0] == lines.ends[:, 1, 0]) & (lines.ends[:, 0, 1] > lines.ends[:, 1, 1])
@@ -243,7 +265,7 @@ def _distinct(lines: Lines) -> tuple[Lines, int]:
     kept = np.sort(best[first])
     angles = None if lines.angles is None else tuple(lines.angles[i] for i in kept)
     letters = "".join(lines.letters[i] for i in kept)
-    return Lines(lines.ends[kept], letters, angles), len(rank) - len(kept)
+    return Lines(lines.ends[kept], letters, angles), np.delete(lines.ends, kept, axis=0)
 
 
 def _points_on_lines(
@@ -264,18 +286,20 @@ def _prune(network: Network) -> None:
         for vertex in edge:
             at[vertex].add(edge)
     loose = [vertex for vertex, edges in at.items() if len(edges) == 1]
+    pruned = []
     while loose:
         vertex = loose.pop()
         if len(at[vertex]) != 1:
             continue
         (edge,) = at[vertex]
         del network.edges[edge]
-        network.dangling += 1
+        pruned.append(edge)
         for end in edge:
             at[end].discard(edge)
             if len(at[end]) == 1:
                 loose.append(end)
-    network.notes["line(s) that end nowhere pruned"] = network.dangling
+    network.dangling = len(pruned)
+    network.repaired("line pruned", (network.points[list(edge)] for edge in pruned))
 
 
 def _straightened(welded: Network, tolerance: float) -> Network:
@@ -288,12 +312,13 @@ def _straightened(welded: Network, tolerance: float) -> Network:
         tolerance=tolerance,
         edges=dict(welded.edges),
         angles=dict(welded.angles),
-        notes=welded.notes.copy(),
+        repairs=dict(welded.repairs),
     )
     at: dict[int, set[int]] = defaultdict(set)
     for a, b in network.edges:
         at[a].add(b)
         at[b].add(a)
+    taken_out: list[int] = []
     for vertex in [v for v, others in at.items() if len(others) == 2]:
         a, b = at[vertex]
         one, two = either_way(a, vertex), either_way(vertex, b)
@@ -309,7 +334,8 @@ def _straightened(welded: Network, tolerance: float) -> Network:
         del network.edges[two]
         at[a] = at[a] - {vertex} | {b}
         at[b] = at[b] - {vertex} | {a}
-        network.notes["vertex(es) in the middle of a line taken out"] += 1
+        taken_out.append(vertex)
+    network.repaired("vertex taken out", network.points[taken_out][:, None])
     return network
 
 

@@ -26,8 +26,9 @@ from graphs.count.equations import (
     wampler_rods,
     wampler_scissors,
 )
-from graphs.errors import shown
+from graphs.errors import numbered, shown
 from graphs.loops.loop import Centre
+from graphs.mechanism.arrangement import Arrangement, arrangement_of
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -54,7 +55,7 @@ class EquationResult:
     --------
     >>> result = mobility_report(SCGraph(3, [(0, 1), (1, 2), (2, 0)])).equations["spherical_system"]
     >>> result.applies, result.why
-    (False, '1 of 1 loop(s) are spatial')
+    (False, '1 of 1 loop spatial')
     """
 
     value: int | None
@@ -69,7 +70,7 @@ class MobilityReport:
     Attributes
     ----------
     mechanism_class : str
-        ``spherical``, ``planar``, ``spherical system``, ``hybrid``, ``spatial``, ``exceptional`` (closed
+        ``spherical``, ``planar``, ``spherical system``, ``hybrid``, ``spatial``, ``closed`` (closed
         surfaces and concentric loops), or ``polyhedron model`` where only vertices and rods are known.
     links, joints, loops : int or None
         N, J, L (independent loops); None where the input does not tell them apart.
@@ -81,6 +82,8 @@ class MobilityReport:
     counts : mapping of str to int
         Further counts: V, C, E_ext, E_int, spatial loops, parts, ... as far as the input tells.
     repairs, warnings : tuple of str
+    arrangement : str or None
+        How the centres are arranged (`graphs.mechanism.arrangement.ARRANGEMENTS`); None of a polyhedron model.
 
     Examples
     --------
@@ -99,6 +102,7 @@ class MobilityReport:
     counts: Mapping[str, int]
     repairs: tuple[str, ...] = ()
     warnings: tuple[str, ...] = field(default=())
+    arrangement: Arrangement | None = None
 
     def with_notes(self, repairs: Iterable[str] = (), warnings: Iterable[str] = ()) -> Self:
         """Return the report with more repairs and warnings."""
@@ -112,6 +116,7 @@ class MobilityReport:
             "joints": self.joints,
             "loops": self.loops,
             "centres": self.centres,
+            "arrangement": self.arrangement,
             "mobility": self.mobility,
             "equations": {
                 name: {"value": one.value, "applies": one.applies, "why": one.why}
@@ -147,7 +152,7 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
     closed = mechanism.is_closed
     results = _equations(mechanism, kind)
     mobility = results["closed_surface" if closed else "loop_form"].value
-    negative = "the count is negative: a general member cannot move, and what moves has special geometry"
+    negative = "the count is negative: a generic realisation is rigid, and one that moves has special geometry"
     return MobilityReport(
         mechanism_class=kind,
         links=len(mechanism),
@@ -158,6 +163,7 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
         equations=results,
         counts=_counts(mechanism),
         warnings=(*_warnings(mechanism), *([negative] if mobility is not None and mobility < 0 else [])),
+        arrangement=arrangement_of(mechanism),
     )
 
 
@@ -170,8 +176,8 @@ def mechanism_class(sc: SCGraph) -> str:
 
     Returns
     -------
-    {"spherical", "planar", "spherical system", "hybrid", "spatial", "exceptional"}
-        ``exceptional``: some loop that depends on others has a centre too.
+    {"spherical", "planar", "spherical system", "hybrid", "spatial", "closed"}
+        ``closed``: some loop that depends on others has a centre too.
 
     Examples
     --------
@@ -185,7 +191,7 @@ def mechanism_class(sc: SCGraph) -> str:
     'spherical system'
     """
     if sc.is_closed:
-        return "exceptional"
+        return "closed"
     if not sc.centred_loops:
         return "spatial"
     if sc.spatial_loops:
@@ -198,8 +204,8 @@ def mechanism_class(sc: SCGraph) -> str:
 
 _WHY_NOT_CGK = {
     "spherical system": "Eq. 1 presumes one centre for all loops; the centres here differ",
-    "hybrid": "loops with a centre constrain 3 freedoms and spatial loops 6: no one constraint space",
-    "exceptional": "the loops of a closed surface or of concentric loops are not independent constraints",
+    "hybrid": "loops with a centre constrain 3 degrees of freedom and spatial loops 6: no single constraint space",
+    "closed": "the loops of a closed surface or of concentric loops are not independent constraints",
 }
 
 
@@ -241,11 +247,11 @@ def _equations(sc: SCGraph, kind: str) -> dict[str, EquationResult]:
 
 
 def _why_no_system(sc: SCGraph, kind: str) -> str:
-    if kind == "exceptional":
+    if kind == "closed":
         return _WHY_NOT_CGK[kind]
     if not sc.independent_loops:
         return "an open chain: no loop has a centre"
-    return f"{sc.spatial_loops} of {sc.independent_loops} loop(s) are spatial"
+    return f"{sc.spatial_loops} of {numbered(sc.independent_loops, 'loop')} spatial"
 
 
 def _polyhedron_result(sc: SCGraph) -> EquationResult:
@@ -257,7 +263,7 @@ def _polyhedron_result(sc: SCGraph) -> EquationResult:
     value = polyhedron_equation(counts.vertices, counts.implicit_centres, counts.edges)
     if sc.is_closed and len(sc.centre_classes()) < _MANY:
         return EquationResult(value, False, "a closed surface with fewer than three centres")
-    return EquationResult(value, True, "Eq. 4: holds for every class, in general position")
+    return EquationResult(value, True, "Eq. 4: holds for generic realisations of every class")
 
 
 def _closed_result(sc: SCGraph) -> EquationResult:
@@ -306,7 +312,7 @@ def _warnings(sc: SCGraph) -> Iterable[str]:
     if sc.components > 1:
         yield (
             f"{sc.components} parts that are not joined: their relative motion, "
-            f"{6 * (sc.components - 1)} freedoms more, is not counted"
+            f"{6 * (sc.components - 1)} more degrees of freedom, is not counted"
         )
     groups = sc.parallel_joints()
     if groups:
@@ -315,14 +321,15 @@ def _warnings(sc: SCGraph) -> Iterable[str]:
         yield f"joints {names}{more} join the same two links: rigid, unless they are collinear"
     pairs = sum(len(loop.joints) == 2 and loop.has_centre for loop in (*sc.loops, *sc.closing))
     if pairs:
-        yield f"{pairs} loop(s) of two joints constrain 2 freedoms, not 3 (1 if collinear): the count is low"
+        two = f"{numbered(pairs, 'loop')} of two joints constrain{'s' * (pairs == 1)} 2 degrees of freedom"
+        yield f"{two}, not 3 (1 if collinear): the count is low"
     through: dict[object, int] = {}
     for one in sc.centre_classes():
         for joint in one.joints:
             through[joint] = through.get(joint, 0) + 1
     lined_up = [joint for joint, number in through.items() if number >= _MANY]
     if lined_up:
-        yield f"joint {shown(lined_up[0])} passes through three centres or more: these must lie in line"
+        yield f"joint {shown(lined_up[0])} passes through three centres or more: these must be collinear"
 
 
 def _report_of_model(model: PolyhedronModel) -> MobilityReport:
@@ -341,7 +348,7 @@ def _report_of_model(model: PolyhedronModel) -> MobilityReport:
         missing = [name for name, number in extra.items() if number and name not in covered]
         if missing:
             return EquationResult(value, False, "leaves out " + " and ".join(missing))
-        return EquationResult(value, True, "covers every term of the model, in general position")
+        return EquationResult(value, True, "covers every term of the model, for generic realisations")
 
     on, centred = "points on planes or lines", "remote centres"
     eq7 = result(wampler_remote(vertices, rods, points, lines, [3] * len(remote)), on, centred)

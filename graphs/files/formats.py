@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from graphs.convert.table import Mechanism, to_sc, to_sheet
@@ -35,11 +36,12 @@ from graphs.files.losses import (
 )
 from graphs.files.native.documents import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
+from graphs.files.patterns.legend import UNSTATED, Legend, Told
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
 from graphs.given import check_given
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import flattened
 from graphs.mechanism.sheet import Sheet
 
@@ -67,7 +69,7 @@ class Entry:
     mechanism: Mechanism
 
 
-def read_all(path: str | Path) -> Iterator[Entry]:
+def read_all(path: str | Path, *, colours: Told | None = None, layers: Told | None = None) -> Iterator[Entry]:
     """Yield every mechanism of a file; most files hold one, graph6 files one a line, an id is one.
 
     Parameters
@@ -75,6 +77,8 @@ def read_all(path: str | Path) -> Iterator[Entry]:
     path : str or Path
         A file of any extension of `READERS`, an id (``k1:...``, ``m1:...``), or a line of a graph6 file,
         ``chains.g6:7``.
+    colours, layers : mapping of str to str or sequence of str, optional
+        As in `read`.
 
     Yields
     ------
@@ -85,7 +89,7 @@ def read_all(path: str | Path) -> Iterator[Entry]:
     FileError
         If the file cannot be read.
     InvariantError
-        If an id is none.
+        If an id is none, or a colour or an assignment.
 
     Examples
     --------
@@ -104,7 +108,7 @@ def read_all(path: str | Path) -> Iterator[Entry]:
         yield Entry(str(path), mechanism_of_id(str(path)))
         return
     path, line = line_named(path)
-    found = list(_reader(path)(path))
+    found = list(_reader(path, Legend.of(colours, layers))(path))
     for place, mechanism in found:
         if line in (None, place):
             yield Entry(f"{path}:{place}" if len(found) > 1 else str(path), mechanism)
@@ -112,7 +116,7 @@ def read_all(path: str | Path) -> Iterator[Entry]:
         raise FileError(path, f"line {line}", "no mechanism", f"one of {len(found)} lines")
 
 
-def read(path: str | Path) -> Mechanism:
+def read(path: str | Path, *, colours: Told | None = None, layers: Told | None = None) -> Mechanism:
     """Return the one mechanism of a file, or of an id.
 
     Parameters
@@ -120,11 +124,20 @@ def read(path: str | Path) -> Mechanism:
     path : str or Path
         A file whose extension names its format, or an id, ``k1:...`` or ``m1:...`` (a file so named is written
         ``./k1:...``), or a line of a graph6 file, ``chains.g6:7``.
+    colours : mapping of str to str or sequence of str, optional
+        Of a drawing (SVG, DXF): assignment (M, V, B, C, F, U, J, or ``-`` for lines to leave out) to the look of
+        its lines: a colour of CSS or the number of one in DXF, a kind of dash (``dashed``, ``dash-dot``,
+        ``dotted``, ``solid``), or both, ``"dashed #000000"``. Other lines are read as they are by themselves.
+    layers : mapping of str to str or sequence of str, optional
+        Assignment to names of layers or groups; they count before colours.
 
     Raises
     ------
     FileError
-        If the file cannot be read, or holds several mechanisms.
+        If the file cannot be read, or holds several mechanisms; if more than half of the lines of a drawing have
+        strokes that are not understood; if colours or layers are stated of a file that is no drawing.
+    InvariantError
+        If a colour or an assignment is none.
 
     Examples
     --------
@@ -133,21 +146,22 @@ def read(path: str | Path) -> Mechanism:
     ...
     graphs.errors.OpenError: no such file.json: no such file; expected a file
     """
-    entries = list(read_all(path))
+    entries = list(read_all(path, colours=colours, layers=layers))
     if len(entries) != 1:
         named = f"one; name it by its line, {entries[0].label}" if entries else "one"
         raise FileError(path, "", f"{len(entries)} mechanisms", named)
     return entries[0].mechanism
 
 
-def read_linkage(path: str | Path) -> ConicalLinkage:
-    """Return the linkage of a file of a linkage on a cone.
+def read_linkage(path: str | Path) -> SurfaceLinkage:
+    """Return the linkage of a file of a linkage on a cone or a cylinder.
 
     Raise FileError if the file cannot be read, or has another mechanism, which has no angles.
     """
     linkage = read(path)
-    if not isinstance(linkage, ConicalLinkage):
-        raise FileError(path, "", "a mechanism without angles", "a linkage on a cone, 'synthedra/conical'")
+    if not isinstance(linkage, SurfaceLinkage):
+        expected = "a linkage on a surface, 'synthedra/conical' or 'synthedra/cylindrical'"
+        raise FileError(path, "", "a mechanism without angles", expected)
     return linkage
 
 
@@ -246,8 +260,13 @@ def _check_type(again: Mechanism, suffix: str, mechanism: Mechanism, lost: tuple
         )
 
 
-def _reader(path: Path) -> Callable[[Path], Iterator[tuple[str, Mechanism]]]:
-    reader = READERS.get(path.suffix.lower())
+def _reader(path: Path, legend: Legend) -> Callable[[Path], Iterator[tuple[str, Mechanism]]]:
+    suffix = path.suffix.lower()
+    reader = READERS.get(suffix)
+    if reader is not None and legend != UNSTATED:
+        if suffix not in _DRAWINGS:
+            raise FileError(path, "", "colours or layers are stated, and it has none", "an .svg or .dxf file")
+        return partial(_DRAWINGS[suffix], legend=legend)
     if reader is None and path.is_dir():
         raise OpenError(path, "", "a directory", "a file")
     if reader is None and not path.exists():
@@ -294,16 +313,16 @@ def _read_opx(path: Path) -> Iterator[tuple[str, Mechanism]]:
     yield "", sheet_from_opx(path)
 
 
-def _read_dxf(path: Path) -> Iterator[tuple[str, Mechanism]]:
+def _read_dxf(path: Path, legend: Legend = UNSTATED) -> Iterator[tuple[str, Mechanism]]:
     from graphs.files.patterns.dxf.sheets import sheet_from_dxf
 
-    yield "", sheet_from_dxf(path)
+    yield "", sheet_from_dxf(path, legend)
 
 
-def _read_svg(path: Path) -> Iterator[tuple[str, Mechanism]]:
+def _read_svg(path: Path, legend: Legend = UNSTATED) -> Iterator[tuple[str, Mechanism]]:
     from graphs.files.patterns.svg import sheet_from_svg
 
-    yield "", sheet_from_svg(path)
+    yield "", sheet_from_svg(path, legend)
 
 
 def _read_obj(path: Path) -> Iterator[tuple[str, Mechanism]]:
@@ -326,6 +345,9 @@ READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
     ".txt": _read_edges,
 }
 """Extension to the reader: path to (place in the file, mechanism)."""
+
+_DRAWINGS: dict[str, Callable[..., Iterator[tuple[str, Mechanism]]]] = {".svg": _read_svg, ".dxf": _read_dxf}
+"""Readers that take a legend too: what lines are is told by how they look."""
 
 
 def _write_json(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:

@@ -10,7 +10,7 @@ from graphs.files.names_as_text import are_kept
 from graphs.files.native.names import is_count
 from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -126,8 +126,8 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
         told += (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
     if isinstance(mechanism, SCDGraph):
         told.append(f"the order of the sides of {_number(len(sc), 'link')}")
-    if isinstance(mechanism, ConicalLinkage):
-        told.append("angles on the cone")
+    if isinstance(mechanism, SurfaceLinkage):
+        told.append(f"where joints lie on the {mechanism.kind}")
     if isinstance(mechanism, HingedSolids):
         told.append("the axes of its joints")
     if isinstance(mechanism, JointedLinkage) and mechanism.places:
@@ -165,8 +165,8 @@ def _lost_as_sheet(mechanism: Mechanism) -> Lost:
     told += _some(_loops_of(sc, Centre.INFINITE), "centre at infinity", "centres at infinity")
     if sc.ground is not None:
         told.append("the ground link")
-    if isinstance(mechanism, ConicalLinkage):
-        told.append("angles on the cone")
+    if isinstance(mechanism, SurfaceLinkage):
+        told.append(f"where joints lie on the {mechanism.kind}")
     if isinstance(mechanism, HingedSolids):
         told.append("the axes of its joints")
     if isinstance(mechanism, JointedLinkage):

@@ -75,7 +75,11 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
         else:
             made.add(joint, _rows(kind, whole.places[joint], size), along=_turned_along(kind, whole.places[joint]))
     old = whole.chain
-    chain = SCGraph(made.links, made.joints, old.loops, closing=old.closing, ground=old.ground)
+    loops, closing = (
+        [loop for loop in some if loop.has_centre and set(loop.joints) <= made.joints.keys()]
+        for some in (old.loops, old.closing)
+    )  # a slide that the linkage of Sarrus stands for is no axis of a planar loop
+    chain = SCGraph(made.links, made.joints, loops, closing=closing, ground=old.ground)
     return HingedSolids(chain, made.axes)
 
 

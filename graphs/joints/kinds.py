@@ -51,6 +51,11 @@ class JointKind(Enum):
         return {JointKind.UNIVERSAL: 2, JointKind.SPHERICAL: 0}.get(self, 1)
 
     @property
+    def planar(self) -> bool:
+        """Whether it can be in a planar loop: it turns about the normal, slides along the plane, or does both."""
+        return self in (JointKind.REVOLUTE, JointKind.PRISMATIC, JointKind.PLANAR)
+
+    @property
     def word(self) -> str:
         """The kind in a word."""
         return self.name.lower()

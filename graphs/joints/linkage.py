@@ -16,6 +16,7 @@ from graphs.errors import InvariantError, numbered, shown
 from graphs.extent import LEAST, MOST, check_extent, in_reach
 from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind, kind_named
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
 __all__ = ["JointPlace", "JointedLinkage", "Leg", "legs", "plain_vector"]
@@ -57,7 +58,8 @@ class JointedLinkage:
     Parameters
     ----------
     chain : SCGraph
-        Links and joints; loops that are given a centre have revolutes only.
+        Links and joints. Loops with a finite centre have revolutes only; planar ones, whose centre is infinite,
+        may have slides along their plane and planar joints.
     kinds : mapping of joint id to JointKind, or its letter or word
         Joints that are left out are revolutes.
     places : mapping of joint id to JointPlace, optional
@@ -88,9 +90,7 @@ class JointedLinkage:
         whole = {joint: _kind(self.kinds.get(joint, JointKind.REVOLUTE)) for joint in self.chain.joints}
         for loop in (*self.chain.loops, *self.chain.closing):
             for joint in loop.joints:
-                if loop.has_centre and whole[joint] is not JointKind.REVOLUTE:
-                    told = f"joint {shown(joint)} of {loop.label}, which has a centre, is {whole[joint].word}"
-                    raise InvariantError("kinds", told, "a revolute", ("joints", joint))
+                _check_in_loop(loop, joint, whole[joint])
         places = {joint: _checked(joint, whole[joint], self.places) for joint in whole} if self.places else {}
         check_extent([place.point for place in places.values()])
         object.__setattr__(self, "kinds", MappingProxyType(whole))
@@ -175,6 +175,16 @@ def _walked(
         first, second = at[link]
         joint = second if first == joint else first
         joints.append(joint)
+
+
+def _check_in_loop(loop: Loop, joint: JointId, kind: JointKind) -> None:
+    """Raise InvariantError for a joint that loops with such a centre cannot have."""
+    suits = kind.planar if loop.centre is Centre.INFINITE else kind is JointKind.REVOLUTE
+    if loop.has_centre and not suits:
+        where = "is planar" if loop.centre is Centre.INFINITE else "has a finite centre"
+        told = f"joint {shown(joint)} of {loop.label}, which {where}, is {kind.word}"
+        expected = "a revolute, a slide or a planar joint" if loop.centre is Centre.INFINITE else "a revolute"
+        raise InvariantError("kinds", told, expected, ("joints", joint))
 
 
 def _kind(given: JointKind | str) -> JointKind:

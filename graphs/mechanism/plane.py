@@ -10,7 +10,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, best_plane, unit
-from graphs.mechanism.precision import extent_of, off_plane, precision_of_sheet
+from graphs.mechanism.precision import extent_of, off_plane, precision_as_written
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
 
@@ -111,7 +111,7 @@ def _normal_of_sheet(sheet: Sheet, places: Floats, scaled: Floats) -> Floats | N
         upright: Floats = np.eye(3)[still[-1]]
         return upright
     has_decimals = np.abs(places).max() <= _WHOLE
-    tolerance = Tolerances.of(precision_of_sheet(sheet).size).flat if has_decimals else DOUBLE.flat
+    tolerance = Tolerances.of(precision_as_written(sheet).size).flat if has_decimals else DOUBLE.flat
     return None if off_plane(scaled) > tolerance else _normal(scaled, tolerance)
 
 

@@ -18,6 +18,7 @@ from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass, centre_classes
 from graphs.loops.cycle_space import check_independent, dependent_loop
 from graphs.loops.loop import Centre, Loop, cyclic_order
+from graphs.mechanism.special import SpecialGeometry
 
 __all__ = ["SCGraph"]
 
@@ -43,6 +44,8 @@ class SCGraph(nx.MultiGraph):
         outer one of concentric loops (thesis 3.3.6).
     ground : link id, optional
         The fixed link; without it the graph is a kinematic chain.
+    special : SpecialGeometry, optional
+        A mark that members of special dimensions move. The type is the same with and without it.
 
     Attributes
     ----------
@@ -75,6 +78,7 @@ class SCGraph(nx.MultiGraph):
     loops: tuple[Loop, ...]
     closing: tuple[Loop, ...]
     ground: LinkId | None
+    special: SpecialGeometry | None
     centres_assumed: bool = False
 
     def __init__(
@@ -85,9 +89,10 @@ class SCGraph(nx.MultiGraph):
         *,
         closing: Iterable[Loop] = (),
         ground: LinkId | None = None,
+        special: SpecialGeometry | None = None,
     ) -> None:
         super().__init__()
-        self.loops, self.closing, self.ground = (), (), None
+        self.loops, self.closing, self.ground, self.special = (), (), None, special
         self._joints: dict[JointId, tuple[LinkId, LinkId]] = {}
         if links is None:
             return  # networkx makes an empty instance of the class before it fills a view
@@ -272,6 +277,13 @@ class SCGraph(nx.MultiGraph):
             _renamed(self.loops, of_joint),
             closing=_renamed(self.closing, of_joint),
             ground=None if self.ground is None else of_link.get(self.ground, self.ground),
+            special=self.special,
+        )
+
+    def marked(self, special: SpecialGeometry | None) -> SCGraph:
+        """Return the same mechanism with a mark of special geometry, or without one."""
+        return SCGraph(
+            self.nodes, self._joints, self.loops, closing=self.closing, ground=self.ground, special=special
         )
 
     def is_identical(self, other: object) -> bool:
@@ -295,16 +307,19 @@ class SCGraph(nx.MultiGraph):
 
     def _features(self) -> list[str]:
         """Return what a short description names."""
+        special = () if self.special is None else (str(self.special),)
         return [
             numbered(len(self), "link"),
             numbered(len(self._joints), "joint"),
             numbered(len(self.centre_classes()), "centre"),
+            *special,
         ]
 
     def __str__(self) -> str:
         return (
             f"{type(self).__name__} with {len(self)} links, {len(self._joints)} joints, "
             f"{len(self.centred_loops)} centred and {self.spatial_loops} spatial loops"
+            f"{'' if self.special is None else f', {self.special}'}"
         )
 
 

@@ -19,6 +19,7 @@ from graphs.mechanism.drawing import Drawing, FaceKind
 from graphs.mechanism.rotation import Face, Side
 from graphs.mechanism.rules import check_rules
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.special import SpecialGeometry
 
 __all__ = ["FeatureCounts", "SCDGraph"]
 
@@ -65,7 +66,7 @@ class SCDGraph(SCGraph):
 
     Parameters
     ----------
-    links, joints, loops, closing, ground
+    links, joints, loops, closing, ground, special
         As in :class:`graphs.mechanism.sc.SCGraph`. The graph is connected.
     rotation : mapping of link to sequence of sides
         The sides of each link counter-clockwise: joint ids, and None for an open edge.
@@ -112,8 +113,9 @@ class SCDGraph(SCGraph):
         outer: tuple[JointId, str] | None = None,
         closing: Iterable[Loop] = (),
         ground: LinkId | None = None,
+        special: SpecialGeometry | None = None,
     ) -> None:
-        super().__init__(links, joints, loops, closing=closing, ground=ground)
+        super().__init__(links, joints, loops, closing=closing, ground=ground, special=special)
         self.outer = None
         if links is None:
             return
@@ -163,7 +165,20 @@ class SCDGraph(SCGraph):
 
     def sc_graph(self) -> SCGraph:
         """Forget the rotations."""
-        return SCGraph(self.nodes, self.joints, self.loops, closing=self.closing, ground=self.ground)
+        return super().marked(self.special)
+
+    def marked(self, special: SpecialGeometry | None) -> SCDGraph:
+        """Return the same mechanism with a mark of special geometry, or without one."""
+        return SCDGraph(
+            self.nodes,
+            self.joints,
+            self.loops,
+            rotation=self.rotation,
+            outer=self.outer,
+            closing=self.closing,
+            ground=self.ground,
+            special=special,
+        )
 
     def with_loops(self, loops: Iterable[Loop], closing: Iterable[Loop] = ()) -> SCDGraph:
         """Return the SCD graph with the same drawing and other loops."""
@@ -196,6 +211,7 @@ class SCDGraph(SCGraph):
             outer=None if self.outer is None else (of_joint.get(self.outer[0], self.outer[0]), self.outer[1]),
             closing=bare.closing,
             ground=bare.ground,
+            special=bare.special,
         )
 
     def _identity(self) -> tuple[Any, ...]:

@@ -15,6 +15,7 @@ from typing import Protocol, TypeVar
 from graphs.errors import InvariantError, shown
 from graphs.extent import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.reading import Reading, WrittenPrecision
 
 __all__ = [
     "COLLINEAR",
@@ -86,8 +87,12 @@ class Sheet:
         One for each edge, in degrees as in files; None where an edge has none.
     spread : float, optional
         How far points were apart that were made one vertex, in the mean, in the length unit of the coordinates.
+    precision : WrittenPrecision, optional
+        How precise the coordinates are as they are written or stated; two sheets are equal whatever theirs is.
     frames : Frames, optional
         The frames of the file it was read from; two sheets are equal whatever theirs are.
+    reading : Reading, optional
+        What was done to the drawing it was read from, with places; two sheets are equal whatever theirs are.
 
     Raises
     ------
@@ -113,6 +118,8 @@ class Sheet:
     fold_angles: tuple[float | None, ...] | None = None
     frames: Frames | None = field(default=None, compare=False)
     spread: float = field(default=0.0, compare=False)
+    reading: Reading | None = field(default=None, compare=False)
+    precision: WrittenPrecision | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         _check_vertices(self.edges, self.vertices, "edge")

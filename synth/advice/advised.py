@@ -162,8 +162,8 @@ def _locks(pose: GeneralPose, size: int, kept: _Kept, limit: int) -> _Locks:
     if most < size:
         least = pose.freedoms - most
         raise UnsolvableError(
-            f"of {numbered(pose.freedoms, 'freedom')} at least {least} stay: the joints that are not protected "
-            f"hold {most}, and {size} are to be held"
+            f"at least {least} of {numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')} remain: "
+            f"locking all joints that are not protected removes {most}, and {size} are to be removed"
         )
     flaps = set(pose.flaps)
     moves = np.round((pose.rates**2).sum(axis=1), _DIGITS)
@@ -185,7 +185,7 @@ def _allowance(matrix: Floats) -> Allowance:
 def _with_left_out(lock: Locked, sheet: Sheet | None) -> Locked:
     """Return a set with what a flat sheet has without its creases."""
     if sheet is None or not lies_flat(sheet):
-        raise UnsolvableError("creases are left out of flat sheets: what is folded is locked where it is")
+        raise UnsolvableError("creases are left out of flat sheets only; those of a folded one can be locked")
     joints = [joint for joint in lock.joints if isinstance(joint, int)]  # numbers of edges
     return replace(lock, left_out=freedoms_when_left_out(sheet, joints))
 
@@ -229,7 +229,8 @@ def _creased(at: Configuration, pose: GeneralPose, freedoms: int, kept: _Kept, m
     """Return the smallest sets of diagonals that bring the freedoms wanted."""
     if pose.sheet is None or not isinstance(at, SheetConfiguration):
         raise UnsolvableError(
-            f"{numbered(pose.freedoms, 'freedom')}, and {freedoms} wanted: only panels of a sheet can be creased"
+            f"{numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')}, and {freedoms} required: "
+            "only panels of a sheet can be creased"
         )
     largest, limit = most
     diagonals = diagonals_of(pose, kept.links)

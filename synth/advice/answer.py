@@ -17,7 +17,7 @@ from synth.motion.configuration import Configuration
 
 __all__ = ["Advice", "Creased", "Locked"]
 
-_USED_UP = "; the search ended, its allowance of work was used up"
+_USED_UP = "; the search ended at its work limit"
 _LOOSE = 1e4
 """Play that is made so many times larger is told as more."""
 
@@ -83,8 +83,8 @@ class Creased:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        told = [{"panel": one.panel, "face": one.face, "vertices": list(one.ends)} for one in self.diagonals]
-        return {"diagonals": told, "flaps": self.flaps, "freedoms": self.freedoms}
+        diagonals = [{"panel": one.panel, "face": one.face, "vertices": list(one.ends)} for one in self.diagonals]
+        return {"diagonals": diagonals, "flaps": self.flaps, "freedoms": self.freedoms}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -154,15 +154,19 @@ class Advice(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        where = "at the pose given" if self.branch is None else f"beside it, on way {self.branch}"
-        lines: list[Block] = [f"mended: {repair}" for repair in self.configuration.mended]
-        lines.append(f"{numbered(self.freedoms, 'freedom')} {where}; wanted {self.wanted}")
+        where = (
+            "at this configuration" if self.branch is None else f"near this configuration, on branch {self.branch}"
+        )
+        freedoms = numbered(self.freedoms, "degree of freedom", "degrees of freedom")
+        lines: list[Block] = [f"{freedoms} {where}; required: {self.wanted}"]
+        if self.wanted < self.freedoms:
+            lines += self._locking()
+        else:
+            lines += self._creasing() if self.wanted > self.freedoms else ["nothing to change"]
         if self.flaps:
             joints = ", ".join(map(shown, self.flaps))
-            lines.append(f"in no loop, each a freedom by itself (flaps): {joints}")
-        if self.wanted < self.freedoms:
-            return [*lines, *self._locking()]
-        return [*lines, *self._creasing()] if self.wanted > self.freedoms else [*lines, "nothing to do"]
+            lines.append(f"flap joints (in no loop, 1 degree of freedom each): {joints}")
+        return [*lines, *(f"repaired: {repair}" for repair in self.configuration.mended)]
 
     def _locking(self) -> list[Block]:
         size = numbered(self.freedoms - self.wanted, "joint")
@@ -178,38 +182,33 @@ class Advice(Printed):
             )
             for one in self.locks
         ]
-        columns: tuple[str, ...] = ("lock", "weight", "flaps", "still then", "play", "freedoms", "left out")
+        columns: tuple[str, ...] = ("lock", "weight", "flaps", "then immobile", "play", "DOF", "DOF if left out")
         if all(one.left_out is None for one in self.locks):
             columns, rows = columns[:-1], [row[:-1] for row in rows]
-        told = f"lock {size}: " + self._how_many(len(self.locks))
-        return [told, TableBlock(columns, rows, ["weight", "play", "freedoms", "left out"])]
+        heading = f"lock {size}: " + self._how_many(len(self.locks))
+        return [heading, TableBlock(columns, rows, ["weight", "play", "DOF", "DOF if left out"])]
 
     def _creasing(self) -> list[Block]:
         lines: list[Block] = []
         if self.refused:
-            lines.append(
-                f"{numbered(self.refused, 'set')} of diagonals could begin to move so, and when folded did not"
-            )
+            rejected = f"rejected {numbered(self.refused, 'set')} of diagonals"
+            lines.append(f"{rejected}: enough DOF to first order, too few when folded")
         if not self.creases:
-            ended = "all were looked through"
+            ended = "all were checked"
             if self.more:
                 ended = "the search ended at a limit" + (_USED_UP if self.used_up else "")
-            return [*lines, f"no set of {numbered(self.searched or 0, 'diagonal')} or fewer was found: {ended}"]
+            return [f"no set of {numbered(self.searched or 0, 'diagonal')} or fewer was found: {ended}", *lines]
         size = numbered(len(self.creases[0].diagonals), "diagonal")
         rows = [
             (
-                ", ".join(f"{one.ends[0]}-{one.ends[1]} (panel {one.panel})" for one in made.diagonals),
-                str(made.flaps),
-                str(made.freedoms),
+                ", ".join(f"{one.ends[0]}-{one.ends[1]} (panel {one.panel})" for one in creased.diagonals),
+                str(creased.flaps),
+                str(creased.freedoms),
             )
-            for made in self.creases
+            for creased in self.creases
         ]
-        told = f"crease {size}: " + self._how_many(len(self.creases))
-        return [
-            *lines,
-            told,
-            TableBlock(("from vertex to vertex", "flaps", "freedoms"), rows, ["flaps", "freedoms"]),
-        ]
+        heading = f"crease {size}: " + self._how_many(len(self.creases))
+        return [heading, TableBlock(("from vertex to vertex", "flaps", "DOF"), rows, ["flaps", "DOF"]), *lines]
 
     def _how_many(self, listed: int) -> str:
         ended = _USED_UP if self.used_up else ""

@@ -13,7 +13,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
-from graphs.errors import NumericalError, UnsolvableError
+from graphs.errors import NumericalError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.beginning import Wanted, beginning
@@ -79,9 +79,11 @@ def general_pose(configuration: Configuration, branch: int | str | None = None) 
     """
     linkage, found = configuration.linkage, configuration.branches
     if not configuration.joints:
-        raise UnsolvableError("there is nothing to advise: no joints are between links")
+        raise UnsolvableError("there is nothing to advise: no joints between links")
     if found is None:
-        raise UnsolvableError("advice needs the ways to move, and for so large a mechanism not all are looked for")
+        raise UnsolvableError(
+            "advice requires the motion branches, and for so large a mechanism not all are looked for"
+        )
     sheet = configuration if isinstance(configuration, SheetConfiguration) else None
     here: tuple[Sheet | None, SheetMechanism | None] = (None, None)
     if sheet is not None:
@@ -106,9 +108,10 @@ def _rates(linkage: PosedLinkage, found: Branches, number: int | None) -> Floats
     rates = rates_at(ClosureEquations(linkage), linkage.angles)
     freedoms = found.branches[number or 0].freedoms
     if freedoms != rates.shape[1]:
-        told = "freedoms that are not known" if freedoms is None else f"{freedoms} freedom(s) of finite motion"
+        first = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+        finite = "an unknown number" if freedoms is None else str(freedoms)
         raise NumericalError(
-            f"no general pose was found: {rates.shape[1]} rates close to first order beside {told}, "
-            f"with folds up to {degrees(float(np.abs(linkage.angles).max())):.3g} degrees"
+            f"no regular configuration was found: {first} beside {finite} of finite motion, "
+            f"at fold angles up to {degrees(float(np.abs(linkage.angles).max())):.3g}°"
         )
     return rates

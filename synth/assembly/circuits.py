@@ -51,9 +51,9 @@ def members_of_circuits(closure: ClosureEquations, positions: Sequence[Floats], 
         passed = _Passed({other: positions[other] for other in range(len(positions)) if other not in places})
         circuit = circuit_through(closure, start, events=[TurningPoint(driver), passed])
         if circuit.stopped:
-            notes.append(f"circuit {circuits + 1} was not followed all round: {circuit.stopped}")
+            notes.append(f"circuit {circuits + 1} was not traced all round: {circuit.stopped}")
         if circuit.meets:
-            notes.append(f"circuit {circuits + 1} meets another one; it was followed straight on")
+            notes.append(f"circuit {circuits + 1} meets another one; it was traced straight on")
         branches = len(circuit.turning) if not circuit.stopped and circuit.turning else len(circuit.turning) + 1
         for other, frame in {**passed.frames, number: 0}.items():
             places[other] = circuits, bisect_right(circuit.turning, frame) % branches

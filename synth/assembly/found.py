@@ -1,30 +1,35 @@
-"""All positions of a spherical linkage whose driven joints have given angles. Theory: docs/theory/positions.md."""
+"""All positions of a linkage whose driven joints have given angles. Theory: docs/theory/positions.md."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import isfinite
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.arrays import Flags, Floats
 from graphs.canonical import canonical_order
 from graphs.errors import InvariantError, SynthedraError, shown
 from graphs.given import check_given
 from graphs.ids import JointId
-from graphs.tolerances import DOUBLE
+from graphs.rank.spaces import rank_of
+from graphs.tolerances import DOUBLE, EPSILON
 from synth.assembly.answer import Position, Positions
 from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of
-from synth.assembly.general import GeneralPositions, apart, general_positions
+from synth.assembly.general import GeneralPositions, apart, as_real, general_positions, same
 from synth.assembly.kernel import CLOSED, Complexes
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
 
-__all__ = ["positions", "solutions"]
+__all__ = ["Solutions", "positions", "solutions"]
 
 _POLISHED = 4
+_TOWARDS_SINGULAR, _LEVENBERG = 30, 1e-3
+"""Steps of Newton's method towards a singular position, regularised by a share of what does not close."""
+_NEAR_END = 1e-2
+"""A path that could not go on ended so near to a singular position, radians and units of the extent."""
 _SURER = (SMALL, SMALL / 30, SMALL / 1000)
 """Corrections that are allowed: less, where two paths came to one place or one was lost."""
 
@@ -32,14 +37,16 @@ _SURER = (SMALL, SMALL / 30, SMALL / 1000)
 def positions(
     thing: Movable, drive: Mapping[JointId, float], *, circuits: bool = True, seed: int = 0
 ) -> Positions:
-    """Find all positions of a spherical linkage at given angles of as many joints as it has freedoms.
+    """Find all positions of a spherical or planar linkage at given angles of as many joints as it has freedoms.
 
     Parameters
     ----------
     thing : Mechanism or PosedLinkage
-        With coordinates; all loops about finite centres, which need not be one.
+        With coordinates. The axes of each loop meet in a point, which need not be the same for all, or are
+        parallel; prismatic joints slide across them.
     drive : mapping of joint id to float
-        Radians; of creases fold angles, of other joints from the pose given.
+        Radians; of creases fold angles, of other joints from the pose given. Of prismatic joints lengths, in the
+        unit of the coordinates. Empty for a linkage of mobility 0, whose assemblies are found.
     circuits : bool, optional
         Tell the circuits and branches of a linkage of one freedom.
     seed : int, optional
@@ -48,7 +55,7 @@ def positions(
     Raises
     ------
     UnsolvableError
-        If it has no coordinates, or a loop without a finite centre; if the driven joints are not as many as the
+        If it has no coordinates, or a spatial loop; if the driven joints are not as many as the
         freedoms by count, or do not determine the others.
     InvariantError
         If a driven joint is in no loop, or an angle is no number.
@@ -66,7 +73,7 @@ def positions(
     (2, 2, True)
     """
     check_given("positions", thing, Movable)
-    at = configuration_of(thing)
+    at = configuration_of(thing, slides=True)
     linkage = at.linkage
     for joint, angle in drive.items():
         if not isfinite(angle):
@@ -74,32 +81,59 @@ def positions(
     family, axes = family_of(linkage, list(drive))
     general = general_positions(family, seed)
     names = list(linkage.graph.joints)
-    zero = linkage.angles[[names.index(joint) for joint in drive]]
-    member = np.concatenate([axes, np.array(list(drive.values())) - zero])
-    values, far, lost = solutions(family, general, member, seed)
-    real = np.abs(values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    found = _in_order([_angles(linkage, family, member, one) for one in values.real[real]])
+    places = [names.index(joint) for joint in drive]
+    units = _units(linkage)
+    inputs = np.array(list(drive.values()), dtype=float) / units[places]
+    member = np.concatenate([axes, inputs - linkage.angles[places]])
+    ends = solutions(family, general, member, seed)
+    real = np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
+    angles = [_angles(linkage, family, member, one) for one in ends.values.real[real]]
+    order = canonical_order(angles)
     answer = Positions(
         at,
         tuple(names),
         dict(drive),
-        tuple(Position(one) for one in found),
+        tuple(Position(angles[place] * units, bool(ends.regular[real][place])) for place in order),
         len(general.values),
         int((~real).sum()),
-        far,
-        lost,
+        ends.far,
+        ends.singular,
+        ends.lost,
         general.curves,
     )
     return _with_circuits(answer) if circuits and len(drive) == 1 else answer
 
 
-def solutions(
-    family: Family, general: GeneralPositions, member: Floats, seed: int = 0
-) -> tuple[Complexes, int, int]:
+@dataclass(frozen=True, slots=True)
+class Solutions:
+    """Where the positions of a general member came to in one member.
+
+    Attributes
+    ----------
+    values : complex[N, U]
+        Unknowns of the positions, real or not, each once.
+    regular : bool[N]
+        Whether the closure equations are independent there, so that the position is rigid at its inputs.
+    far : int
+        Paths that went to infinity.
+    singular : int
+        Paths that end where closure equations depend on each other: where the linkage moves though its inputs are
+        held, or positions come together.
+    lost : int
+        Paths whose ends are not known.
+    """
+
+    values: Complexes
+    regular: Flags
+    far: int
+    singular: int
+    lost: int
+
+
+def solutions(family: Family, general: GeneralPositions, member: Floats, seed: int = 0) -> Solutions:
     """Return all positions of one member, real or not, by following those of a general one.
 
-    Returns the positions, complex[N, U], each once; how many have gone to infinity; and how many are not known,
-    since they were lost on the way or have come together with others. The seed is for the curve of parameters.
+    The seed is for the curve of parameters.
     """
     random = np.random.default_rng(seed)
     count = len(general.values)
@@ -107,15 +141,46 @@ def solutions(
     for small in _SURER:
         bend = random.uniform(-1.0, 1.0, len(member)) + 1j * random.uniform(-1.0, 1.0, len(member))
         start, end, bent = (np.tile(one, (count, 1)) for one in (general.parameters, member.astype(complex), bend))
-        found = family.followed((start, end, bent), general.values, small)
-        apart_now = apart(_polished(family, end, found))
-        lost = count - int(found.far.sum()) - len(apart_now)
-        if best is None or lost < best[2]:
-            best = apart_now, int(found.far.sum()), lost
-        if not lost:
+        followed = family.followed((start, end, bent), general.values, small)
+        ends = _ends(family, end, followed)
+        if best is None or ends.lost < best.lost:
+            best = ends
+        if not ends.lost:
             break
     assert best is not None
     return best
+
+
+def _ends(family: Family, end: Complexes, followed: Followed) -> Solutions:
+    """Return where paths ended."""
+    polished, parameters = _polished(family, end, followed), end[0]
+    values = apart(polished, family.turning)
+    regular = np.array([_is_regular(family, parameters, one) for one in values], dtype=bool)
+    paths = np.array([int(same(polished, one, family.turning).sum()) for one in values], dtype=int)
+    stopped = followed.values[~(followed.arrived | followed.far)]
+    singular = int((paths - 1)[~regular].sum()) + sum(_is_singular(family, parameters, one) for one in stopped)
+    far = int(followed.far.sum())
+    return Solutions(values, regular, far, singular, len(end) - far - len(values) - singular)
+
+
+def _is_regular(family: Family, parameters: Complexes, values: Complexes, zero: float = DOUBLE.zero) -> bool:
+    """Return whether the closure equations are independent of each other."""
+    parts = as_real(family.derivatives(parameters, values))
+    return bool(rank_of(parts, zero) == min(parts.shape))
+
+
+def _is_singular(family: Family, parameters: Complexes, start: Complexes) -> bool:
+    """Return whether a singular position is near, where a path could not go on."""
+    values = start.copy()
+    for _ in range(_TOWARDS_SINGULAR):
+        residual, derivatives = family.at(parameters, values)
+        gram = derivatives @ derivatives.conj().T
+        regular = max(_LEVENBERG * float(np.abs(residual).max()), EPSILON * float(np.abs(gram).max()))
+        values = values - derivatives.conj().T @ np.linalg.solve(gram + regular * np.eye(len(gram)), residual)
+    residual, _ = family.at(parameters, values)
+    near = float(np.abs(values - start).max()) <= _NEAR_END
+    closed = bool(np.abs(residual).max() <= CLOSED)
+    return near and closed and not _is_regular(family, parameters, values, DOUBLE.singular)
 
 
 def _polished(family: Family, parameters: Complexes, found: Followed) -> Complexes:
@@ -128,19 +193,27 @@ def _polished(family: Family, parameters: Complexes, found: Followed) -> Complex
 
 
 def _angles(linkage: PosedLinkage, family: Family, member: Floats, unknowns: Floats) -> Floats:
-    """Return the angles of all joints, above -180 and up to 180 degrees; joints in no loop stay as they are."""
+    """Return the angles of all joints, above -180 and up to 180 degrees; joints in no loop stay as they are.
+
+    Joints that slide have lengths, in units of the extent.
+    """
     names = list(linkage.graph.joints)
     whole = linkage.angles.copy()
-    inputs = member[2 * len(family.joints) :]
+    inputs = member[2 * len(family.axes) :]
     for joint, column in zip(family.joints, family.column.tolist(), strict=True):
         whole[names.index(joint)] += unknowns[column] if column >= 0 else inputs[-1 - column]
     half_turn = np.pi + DOUBLE.parallel  # 180 degrees but for rounding, and not -180
-    return np.asarray(half_turn - np.remainder(half_turn - whole, 2 * np.pi))
+    wrapped = np.asarray(half_turn - np.remainder(half_turn - whole, 2 * np.pi))
+    slides = list(linkage.slides)
+    wrapped[slides] = whole[slides]
+    return wrapped
 
 
-def _in_order(found: list[Floats]) -> list[Floats]:
-    """Return positions in an order that does not depend on how they were found."""
-    return [found[place] for place in canonical_order(found)]
+def _units(linkage: PosedLinkage) -> Floats:
+    """Return what joint angles and lengths are multiplied by to be in the unit of the coordinates: float[J]."""
+    units = np.ones(len(linkage.angles))
+    units[list(linkage.slides)] = linkage.extent
+    return units
 
 
 def _with_circuits(answer: Positions) -> Positions:
@@ -148,10 +221,12 @@ def _with_circuits(answer: Positions) -> Positions:
     driver = answer.joints.index(next(iter(answer.driven)))
     try:
         members = members_of_circuits(
-            answer.configuration.closure, [one.angles for one in answer.positions], driver
+            answer.configuration.closure,
+            [one.angles / _units(answer.configuration.linkage) for one in answer.positions],
+            driver,
         )
     except SynthedraError as error:
-        return replace(answer, notes=(*answer.notes, f"circuits are not told: {error}"))
+        return replace(answer, notes=(*answer.notes, f"circuits unknown: {error}"))
     found = tuple(
         replace(position, circuit=circuit, branch=branch)
         for position, (circuit, branch) in zip(answer.positions, members.places, strict=True)

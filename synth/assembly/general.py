@@ -11,13 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from graphs.arrays import Flags, Floats
 from graphs.errors import NumericalError, UnsolvableError
 from graphs.rank.spaces import rank_of
 from graphs.tolerances import DOUBLE
 from synth.assembly.family import Family
 from synth.assembly.kernel import CLOSED, Complexes
 
-__all__ = ["GeneralPositions", "apart", "general_positions"]
+__all__ = ["GeneralPositions", "apart", "as_real", "general_positions", "same"]
 
 _STARTS, _STEPS = 64, 25
 _QUIET = 6
@@ -54,49 +55,61 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
 
     Examples
     --------
-    >>> four_bar = Family(np.array([[0, 1, 2, 3]]), np.ones((1, 4)), (0, 1, 2, 3), np.array([-1, 0, 1, 2]))
+    >>> ring, directions = np.array([[0, 1, 2, 3]]), np.array([[0, 0], [1, 0], [2, 0], [3, 0]])
+    >>> four_bar = Family(ring, np.ones((1, 4)), directions, (0, 1, 2, 3), np.array([-1, 0, 1, 2]))
     >>> len(general_positions(four_bar).values)
     2
     """
     random = np.random.default_rng(seed)
-    number, inputs = len(family.joints), family.driven
+    number, inputs = len(family.axes), family.driven
     here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
     known = np.zeros((1, family.unknowns), dtype=complex)  # the pose at which the axes are told
     derivatives = family.derivatives(here, known[0])
-    parts = np.block([[derivatives.real, -derivatives.imag], [derivatives.imag, derivatives.real]])
+    parts = as_real(derivatives)
     if rank_of(parts) < min(parts.shape):
         raise UnsolvableError("the driven joints do not determine the others: drive joints that do")
-    known = apart(np.concatenate([known, _by_newton(family, here, random)]))
+    known = apart(np.concatenate([known, _by_newton(family, here, random)]), family.turning)
     quiet = 0
     for curves in range(1, _MOST_CURVES + 1):
         turn = np.concatenate([_random_axes(random, number), _random(random, inputs, np.pi, np.pi)])
         there = _carried(family, (here, turn), known, random)
         back = _carried(family, (turn, here), there, random)
-        more = apart(np.concatenate([known, back]))
+        more = apart(np.concatenate([known, back]), family.turning)
         quiet = quiet + 1 if len(more) == len(known) else 0
         known = more
         if quiet == _QUIET:
             return GeneralPositions(here, known, curves)
-    raise NumericalError(f"after {_MOST_CURVES} curves new positions turn up still, {len(known)} by now")
+    raise NumericalError(f"after {_MOST_CURVES} curves new positions still appear, {len(known)} so far")
 
 
-def apart(values: Complexes, same: float = DOUBLE.same_configuration) -> Complexes:
-    """Return solutions each once; angles are alike if they are so but for whole turns.
+def apart(values: Complexes, turning: Flags) -> Complexes:
+    """Return solutions each once; angles, which `turning` (bool[U]) marks, are the same but for whole turns.
 
-    >>> apart(np.array([[0.0], [2 * np.pi], [1.0]])).tolist()
+    >>> apart(np.array([[0.0], [2 * np.pi], [1.0]]), np.array([True])).tolist()
     [[0.0], [1.0]]
     """
     kept: list[Complexes] = []
-    for one in values:
-        off = [np.abs(_unturned(one - other)).max(initial=0.0) for other in kept]
-        if not off or min(off) > same:
-            kept.append(one)
+    for solution in values:
+        if not same(np.array(kept).reshape(-1, len(turning)), solution, turning).any():
+            kept.append(solution)
     return np.array(kept).reshape(-1, values.shape[1])
 
 
-def _unturned(angles: Complexes) -> Complexes:
-    """Return angles without whole turns."""
-    return np.asarray(angles - 2 * np.pi * np.rint(angles.real / (2 * np.pi)))
+def same(values: Complexes, solution: Complexes, turning: Flags) -> Flags:
+    """Return which of some solutions, complex[N, U], are one solution, complex[U]: bool[N]."""
+    return np.asarray(
+        np.abs(_unturned(values - solution, turning)).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
+    )
+
+
+def as_real(matrix: Complexes) -> Floats:
+    """Return a complex matrix as a real one of twice its size, and twice its rank."""
+    return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
+
+
+def _unturned(unknowns: Complexes, turning: Flags) -> Complexes:
+    """Return unknowns, angles without whole turns."""
+    return np.asarray(unknowns - 2 * np.pi * np.where(turning, np.rint(unknowns.real / (2 * np.pi)), 0.0))
 
 
 def _by_newton(family: Family, parameters: Complexes, random: np.random.Generator) -> Complexes:

@@ -1,7 +1,9 @@
-"""Compiled: closure equations of spherical linkages with complex angles, and solutions followed along parameters.
+"""Compiled: closure equations with complex unknowns, and solutions followed along parameters.
 
-A loop closes if the product of the quaternions of its joints is 1 or -1: its vector part is zero. Axes are given
-by two angles each, the tilt from the z axis and the turn about it. Theory: docs/theory/positions.md.
+A loop closes if the product of the quaternions of its joints is 1 or -1: its vector part is zero. About a finite
+centre these are the quaternions of rotations. A plane is a sphere without curvature: where x and y are measured in
+a very large radius, products of two of them vanish, and what is left are the motions of the plane.
+Theory: docs/theory/positions.md.
 """
 
 from __future__ import annotations
@@ -12,11 +14,31 @@ import numpy.typing as npt
 from enumerate.kernel.compiled import compiled
 from graphs.tolerances import DOUBLE
 
-__all__ = ["ARRIVED", "CLOSED", "FAR", "STOPPED", "Complexes", "corrected_all", "evaluated", "followed_all"]
+__all__ = [
+    "ARRIVED",
+    "CLOSED",
+    "DIRECTION",
+    "FAR",
+    "POINT",
+    "SLIDE",
+    "STOPPED",
+    "Complexes",
+    "Type",
+    "corrected_all",
+    "evaluated",
+    "followed_all",
+]
 
 Complexes = npt.NDArray[np.complex128]
 Places = npt.NDArray[np.int64]
 Signs = npt.NDArray[np.float64]
+Type = tuple[Places, Signs, Places, Places]
+"""The axes of each loop, int[L, K], filled up with -1; whether the loop passes them forwards (1) or backwards
+(-1); the joint of each axis, and how its parameters give it, int[A, 2]; the place of each joint among the
+unknowns, or of a driven one -1 - (its place among the driven)."""
+
+DIRECTION, POINT, SLIDE = 0, 1, 2
+"""How two parameters give an axis: tilt and turn of a direction, a point of the plane, the heading of a slide."""
 
 STOPPED, ARRIVED, FAR = 0, 1, 2
 """What became of a path: it could not go on, is at its end, or went to infinity."""
@@ -26,72 +48,83 @@ _NUDGE = 1e-6
 _CORRECTIONS = 3
 CLOSED = 100.0 * DOUBLE.closed
 """Loops that miss by no more are closed where angles are complex: sines, and rounding, are large there."""
-_FAR = 30.0
-"""Imaginary part of an angle that has gone to infinity."""
+_FAR, _FAR_ALONG = 30.0, 1e4
+"""Imaginary part of an angle, and length of a slide in units of the extent, that have gone to infinity."""
 _MOST = 5000
 
 
 @compiled
-def evaluated(
-    loops: Places,
-    signs: Signs,
-    column: Places,
-    parameters: Complexes,
-    unknowns: Complexes,
-    residual: Complexes,
-    jacobian: Complexes,
-) -> None:
-    """Write what does not close, complex[3 L], and its derivatives by the unknown angles, complex[3 L, U].
-
-    ``loops`` has the joints of each loop, filled up with -1; ``column`` the place of each joint among the unknown
-    angles, or of a driven one -1 - (its place among the driven).
-    """
-    joints = len(column)
-    quaternions = np.empty((joints, 4), np.complex128)
-    axes = np.empty((joints, 3), np.complex128)
-    for j in range(joints):
-        angle = unknowns[column[j]] if column[j] >= 0 else parameters[2 * joints - 1 - column[j]]
-        tilt, turn = parameters[2 * j], parameters[2 * j + 1]
-        axes[j, 0], axes[j, 1], axes[j, 2] = np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)
-        sine = np.sin(0.5 * angle)
-        quaternions[j, 0] = np.cos(0.5 * angle)
+def placed_axes(kind: Type, parameters: Complexes, unknowns: Complexes) -> tuple[Complexes, Complexes]:
+    """Return all axes, complex[A, 3], and the quaternions of the joints' rotations about them, complex[A, 4]."""
+    axes_of, column = kind[2], kind[3]
+    count = len(axes_of)
+    quaternions = np.empty((count, 4), np.complex128)
+    axes = np.empty((count, 3), np.complex128)
+    for i in range(count):
+        place = column[axes_of[i, 0]]
+        value = unknowns[place] if place >= 0 else parameters[2 * count - 1 - place]
+        first, second = parameters[2 * i], parameters[2 * i + 1]
+        sine, quaternions[i, 0] = np.sin(0.5 * value), np.cos(0.5 * value)
+        if axes_of[i, 1] == DIRECTION:
+            axes[i, 0], axes[i, 1] = np.sin(first) * np.cos(second), np.sin(first) * np.sin(second)
+            axes[i, 2] = np.cos(first)
+        elif axes_of[i, 1] == POINT:
+            axes[i, 0], axes[i, 1], axes[i, 2] = first, second, 1.0
+        else:  # a slide is a rotation by a small angle about an axis that is far away
+            axes[i, 0], axes[i, 1], axes[i, 2] = -np.sin(first), np.cos(first), 0.0
+            sine, quaternions[i, 0] = 0.5 * value, 1.0
         for k in range(3):
-            quaternions[j, 1 + k] = sine * axes[j, k]
+            quaternions[i, 1 + k] = sine * axes[i, k]
+    return axes, quaternions
+
+
+@compiled
+def evaluated(
+    kind: Type, parameters: Complexes, unknowns: Complexes, residual: Complexes, jacobian: Complexes
+) -> None:
+    """Write what does not close, complex[3 L], and its derivatives by the unknowns, complex[3 L, U].
+
+    Unknowns are the angles, or lengths of slides, of joints that are not driven.
+    """
+    loops, signs, axes_of, column = kind
+    axes, quaternions = placed_axes(kind, parameters, unknowns)
     for row in range(len(jacobian)):
         for place in range(jacobian.shape[1]):
             jacobian[row, place] = 0.0
     for loop in range(len(loops)):
+        curved = 1.0 if axes_of[loops[loop, 0], 1] == DIRECTION else 0.0
         w, x, y, z = 1.0 + 0.0j, 0.0j, 0.0j, 0.0j
         for i in range(loops.shape[1]):
             j = loops[loop, i]
             if j < 0:
                 break
             sign = signs[loop, i]
-            if column[j] >= 0:  # the axis where the joints before it have taken it
+            place = column[axes_of[j, 0]]
+            if place >= 0:  # the axis where the joints before it have taken it
                 a, b, c = axes[j, 0], axes[j, 1], axes[j, 2]
-                u, v, t = y * c - z * b, z * a - x * c, x * b - y * a
-                jacobian[3 * loop, column[j]] = 0.5 * sign * (a + 2.0 * (w * u + y * t - z * v))
-                jacobian[3 * loop + 1, column[j]] = 0.5 * sign * (b + 2.0 * (w * v + z * u - x * t))
-                jacobian[3 * loop + 2, column[j]] = 0.5 * sign * (c + 2.0 * (w * t + x * v - y * u))
+                u, v, t = y * c - z * b, z * a - x * c, curved * (x * b - y * a)
+                jacobian[3 * loop, place] = 0.5 * sign * (a + 2.0 * (w * u + y * t - z * v))
+                jacobian[3 * loop + 1, place] = 0.5 * sign * (b + 2.0 * (w * v + z * u - x * t))
+                jacobian[3 * loop + 2, place] = 0.5 * sign * (c + 2.0 * (w * t + curved * (x * v - y * u)))
             p, q = quaternions[j, 0], sign * quaternions[j, 1]
             r, s = sign * quaternions[j, 2], sign * quaternions[j, 3]
             w, x, y, z = (
-                w * p - x * q - y * r - z * s,
+                w * p - curved * (x * q + y * r) - z * s,
                 w * q + x * p + y * s - z * r,
                 w * r - x * s + y * p + z * q,
-                w * s + x * r - y * q + z * p,
+                w * s + curved * (x * r - y * q) + z * p,
             )
         residual[3 * loop], residual[3 * loop + 1], residual[3 * loop + 2] = x, y, z
         for i in range(loops.shape[1]):
             j = loops[loop, i]
             if j < 0:
                 break
-            if column[j] >= 0:
-                place = column[j]
+            place = column[axes_of[j, 0]]
+            if place >= 0:
                 a, b, c = jacobian[3 * loop, place], jacobian[3 * loop + 1, place], jacobian[3 * loop + 2, place]
                 jacobian[3 * loop, place] = w * a + b * z - c * y
                 jacobian[3 * loop + 1, place] = w * b + c * x - a * z
-                jacobian[3 * loop + 2, place] = w * c + a * y - b * x
+                jacobian[3 * loop + 2, place] = w * c + curved * (a * y - b * x)
 
 
 @compiled
@@ -122,15 +155,13 @@ def solved(matrix: Complexes, right: Complexes) -> bool:
 
 
 @compiled
-def corrected(
-    loops: Places, signs: Signs, column: Places, parameters: Complexes, unknowns: Complexes, steps: int
-) -> tuple[float, float]:
-    """Correct unknown angles in place; return the length of the first step and by how much loops do not close."""
+def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int) -> tuple[float, float]:
+    """Correct unknowns in place; return the length of the first step and by how much loops do not close."""
     n = len(unknowns)
     residual, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
     first = 0.0
     for step in range(steps):
-        evaluated(loops, signs, column, parameters, unknowns, residual, jacobian)
+        evaluated(kind, parameters, unknowns, residual, jacobian)
         if not solved(jacobian, residual):
             return np.inf, np.inf
         length = 0.0
@@ -141,7 +172,7 @@ def corrected(
             first = length
         if not np.isfinite(length):
             return np.inf, np.inf
-    evaluated(loops, signs, column, parameters, unknowns, residual, jacobian)
+    evaluated(kind, parameters, unknowns, residual, jacobian)
     error = 0.0
     for i in range(n):
         error = max(error, abs(residual[i]))
@@ -159,31 +190,41 @@ def parameters_at(start: Complexes, end: Complexes, bend: Complexes, s: float) -
 
 @compiled
 def tangent(
-    loops: Places,
-    signs: Signs,
-    column: Places,
+    kind: Type,
     curve: tuple[Complexes, Complexes, Complexes],
     s: float,
     unknowns: Complexes,
     rates: Complexes,
 ) -> bool:
-    """Write how the unknown angles go on along a curve; False if that is not known."""
+    """Write how the unknowns go on along a curve; False if that is not known."""
     n = len(unknowns)
     beside, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
     ahead = parameters_at(curve[0], curve[1], curve[2], s + _NUDGE)
-    evaluated(loops, signs, column, ahead, unknowns, beside, jacobian)
+    evaluated(kind, ahead, unknowns, beside, jacobian)
     here = parameters_at(curve[0], curve[1], curve[2], s)
-    evaluated(loops, signs, column, here, unknowns, rates, jacobian)
+    evaluated(kind, here, unknowns, rates, jacobian)
     for i in range(n):
         rates[i] = (rates[i] - beside[i]) / _NUDGE
     return solved(jacobian, rates)
 
 
 @compiled
+def gone_far(kind: Type, unknowns: Complexes) -> bool:
+    """Return whether an angle or a slide has gone to infinity."""
+    _, _, axes_of, column = kind
+    for axis in range(len(axes_of)):
+        place = column[axes_of[axis, 0]]
+        if place >= 0:
+            if axes_of[axis, 1] == SLIDE and abs(unknowns[place]) > _FAR_ALONG:
+                return True
+            if axes_of[axis, 1] != SLIDE and abs(unknowns[place].imag) > _FAR:
+                return True
+    return False
+
+
+@compiled
 def followed(
-    loops: Places,
-    signs: Signs,
-    column: Places,
+    kind: Type,
     curve: tuple[Complexes, Complexes, Complexes],
     unknowns: Complexes,
     small: float,
@@ -198,25 +239,23 @@ def followed(
     s, step = 0.0, _FIRST
     for _ in range(_MOST):
         length = min(step, 1.0 - s)
-        good = tangent(loops, signs, column, curve, s, unknowns, rates[0])
+        good = tangent(kind, curve, s, unknowns, rates[0])
         for stage in range(1, 4):
             part = length if stage == 3 else 0.5 * length
             for i in range(n):
                 tried[i] = unknowns[i] + part * rates[stage - 1, i]
-            good = good and tangent(loops, signs, column, curve, s + part, tried, rates[stage])
+            good = good and tangent(kind, curve, s + part, tried, rates[stage])
         if good:
             for i in range(n):
                 change = rates[0, i] + 2.0 * rates[1, i] + 2.0 * rates[2, i] + rates[3, i]
                 tried[i] = unknowns[i] + length / 6.0 * change
             onwards = 1.0 if length >= 1.0 - s else s + length
             there = parameters_at(curve[0], curve[1], curve[2], onwards)
-            first, error = corrected(loops, signs, column, there, tried, _CORRECTIONS)
+            first, error = corrected(kind, there, tried, _CORRECTIONS)
             if first <= small and error <= CLOSED:
-                farthest = 0.0
                 for i in range(n):
                     unknowns[i] = tried[i]
-                    farthest = max(farthest, abs(tried[i].imag))
-                if farthest > _FAR:
+                if gone_far(kind, unknowns):
                     return FAR
                 if onwards == 1.0:
                     return ARRIVED
@@ -230,9 +269,7 @@ def followed(
 
 @compiled
 def followed_all(
-    loops: Places,
-    signs: Signs,
-    column: Places,
+    kind: Type,
     curves: tuple[Complexes, Complexes, Complexes],
     values: Complexes,
     small: float,
@@ -241,16 +278,14 @@ def followed_all(
     ends = np.empty(len(values), np.int64)
     for path in range(len(values)):
         curve = (curves[0][path], curves[1][path], curves[2][path])
-        ends[path] = followed(loops, signs, column, curve, values[path], small)
+        ends[path] = followed(kind, curve, values[path], small)
     return ends
 
 
 @compiled
-def corrected_all(
-    loops: Places, signs: Signs, column: Places, parameters: Complexes, values: Complexes, steps: int
-) -> Signs:
+def corrected_all(kind: Type, parameters: Complexes, values: Complexes, steps: int) -> Signs:
     """Correct solutions, in place; return by how much loops do not close: float[P]."""
     errors = np.empty(len(values))
     for path in range(len(values)):
-        errors[path] = corrected(loops, signs, column, parameters[path], values[path], steps)[1]
+        errors[path] = corrected(kind, parameters[path], values[path], steps)[1]
     return errors

@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from enumerate.runner.columns import Column, ListColumn
+from graphs.mechanism.arrangement import ARRANGEMENTS
 
 __all__ = ["COLUMNS", "KINDS", "SCHEMA", "AtlasColumn", "stored_columns"]
 
-SCHEMA = 1
+SCHEMA = 2
 """Version of the columns and of what they mean."""
 
 KINDS = ("chain", "sc", "scd", "string", "order")
@@ -45,6 +46,7 @@ COLUMNS: dict[str, AtlasColumn] = {
     "loops": AtlasColumn(int, "independent loops", _GRAPHS, indexed=True),
     "spatial": AtlasColumn(int, "loops without a centre", _DRAWN),
     "centres": AtlasColumn(int, "spherical centres, classes of loops with one centre", _DRAWN, indexed=True),
+    "arrangement": AtlasColumn(str, "how centres are arranged: " + ", ".join(ARRANGEMENTS), _DRAWN, indexed=True),
     "infinite": AtlasColumn(int, "centres at infinity", _DRAWN),
     "explicit": AtlasColumn(int, "centres that are vertices of the links", ("scd",)),
     "implicit": AtlasColumn(int, "remote centres, which the links do not reach", ("scd",)),
@@ -73,6 +75,7 @@ COLUMNS: dict[str, AtlasColumn] = {
     "panels": AtlasColumn(str, "id of a string as panels", ("string",), indexed=True),
     "distance": AtlasColumn(str, "of the ends of a string: coincident, fixed or variable", ("string",)),
     "modes": AtlasColumn(int, "ways in which the vertices of a string may lie", ("string",)),
+    "comment": AtlasColumn(str, "of a string: axes that are parallel, freedoms fewer than creases", ("string",)),
     "circuits": AtlasColumn(ListColumn(" ", kind=str), "how each loop winds round the cone", ("order",)),
     "open_loops": AtlasColumn(int, "loops that are open circuits", ("order",)),
     "layers": AtlasColumn(int, "fewest layers on the cone", ("order",)),

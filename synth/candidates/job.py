@@ -25,8 +25,9 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.native.documents import dumps
 from graphs.identity.chains import chain_id
 from graphs.ids import JointId, LinkId
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Cone, Cylinder, Surface
 from synth.candidates.rows import CandidateChain, order_rows, placed_rows
 from synth.conformed.cycles import loops_of_chain
 from synth.conformed.rates import ConformedChain
@@ -84,9 +85,8 @@ class CandidateJob:
     samples : int, optional
         So many sets of angles, at random, for each cyclic order.
     seed : int
-    cone_angle : float, optional
-        lambda, radians: link angles and Grashof classes on that cone. Without it the classes are those on a
-        cylinder.
+    surface : Cone or Cylinder, optional
+        Link angles, or lengths, and Grashof classes on it. Without it the classes are those on a cylinder.
     filters : tuple of Filter
         Only rows that meet all.
 
@@ -114,14 +114,15 @@ class CandidateJob:
     opposites: bool = False
     samples: int | None = None
     seed: int = 0
-    cone_angle: float | None = None
+    surface: Surface | None = None
     filters: tuple[Filter, ...] = ()
 
     def __post_init__(self) -> None:
         if sum((self.slots is not None, self.opposites, self.samples is not None)) > 1:
             raise InvariantError("candidates", "slots, opposites and samples together", "one of them")
-        if self.cone_angle is not None and not self.placed:
-            raise InvariantError("lambda", "a cone angle for orders without angles", "slots or samples with it")
+        if self.surface is not None and not self.placed:
+            told = f"a {self.surface.kind} for orders without angles"
+            raise InvariantError("surface", told, "slots or samples with it")
         for ground in self.grounds:
             ConformedChain.of(self.chain, ground)  # connected, and the ground is a link
         if not self.chain.independent_loops:
@@ -162,7 +163,7 @@ class CandidateJob:
     def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         candidate = self._candidate_chains[self.grounds[0]]
-        return candidate.columns(self.placed, self.opposites, self.cone_angle is not None, self.slots is not None)
+        return candidate.columns(self.placed, self.opposites, self.surface, self.slots is not None)
 
     @property
     def key(self) -> dict[str, Any]:
@@ -172,7 +173,8 @@ class CandidateJob:
             **self.query.key,
             "samples": self.samples,
             "seed": self.seed if self.samples is not None else None,
-            "lambda_deg": None if self.cone_angle is None else round(degrees(self.cone_angle), 12),
+            "lambda_deg": round(degrees(self.surface.angle), 12) if isinstance(self.surface, Cone) else None,
+            **({"radius": self.surface.radius} if isinstance(self.surface, Cylinder) else {}),
             "filters": [[kept.column, kept.value, kept.least, kept.most] for kept in self.filters],
         }
 
@@ -203,10 +205,10 @@ class CandidateJob:
         elif self.samples is not None:
             places = self._sampled(slots, payload)
             slots, symmetry = (np.repeat(rows, self.samples, axis=0) for rows in (slots, symmetry))
-            rows = placed_rows(candidate, places, slots, symmetry, False, self.cone_angle)
+            rows = placed_rows(candidate, places, slots, symmetry, False, self.surface)
         else:
             places = np.asarray(slots * (2 * np.pi / self.query.rounds.slots), dtype=float)
-            rows = placed_rows(candidate, places, slots, symmetry, True, self.cone_angle)
+            rows = placed_rows(candidate, places, slots, symmetry, True, self.surface)
         if self.filters:
             names = list(self.columns)
             conditions = [(names.index(kept.column), kept) for kept in self.filters]
@@ -240,7 +242,7 @@ class CandidateJob:
             return np.asarray(np.radians(row["azimuths_deg"]))
         return np.array(row["slots"]) * (2 * np.pi / self.query.rounds.slots)
 
-    def linkage(self, row: Mapping[str, Any]) -> ConicalLinkage:
+    def linkage(self, row: Mapping[str, Any]) -> SurfaceLinkage:
         """Return the linkage of a row; of an order, one whose joints, with the opposites, are evenly spaced.
 
         Parameters
@@ -251,10 +253,10 @@ class CandidateJob:
         chain = self.chain
         ground = next((link for link in chain if str(link) == row.get("ground")), None)
         fixed = SCGraph(chain.nodes, chain.joints, chain.loops, ground=ground)
-        return ConicalLinkage.placed(fixed, self.places(row).tolist(), self.cone_angle)
+        return SurfaceLinkage.placed(fixed, self.places(row).tolist(), self.surface)
 
     def mechanism_text(self, row: Mapping[str, Any]) -> str:
-        """Return the file of the linkage of a row, ``synthedra/conical``."""
+        """Return the file of the linkage of a row, ``synthedra/conical`` or ``synthedra/cylindrical``."""
         return dumps(self.linkage(row))
 
 

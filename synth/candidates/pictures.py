@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from math import radians
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Row, Sink
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import FolderBeside
 from graphs.files.unfinished import remove_left
+from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
 from synth.conformed.layers import links_in_layers
 from synth.conformed.rates import ConformedChain
@@ -23,8 +23,8 @@ from synth.drawing.scene.writing import save_scene
 __all__ = ["PictureSink", "picture_of_row", "title_of_picture"]
 
 _MOST = 10_000
-_LAMBDA = np.radians(30.0)
-"""Cone angle of the picture (radians) where the candidate has none of its own."""
+_ANY = Cone(radians(30.0))
+"""The cone of the picture where the candidate has no surface of its own."""
 
 
 def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Scene:
@@ -52,8 +52,7 @@ def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Scene:
     linkage = job.linkage(row)
     chain = ConformedChain.of(linkage.chain, linkage.chain.ground)
     told = title_of_picture(row, int(links_in_layers(chain, job.places(row)).layers.max()) + 1)
-    cone_angle = _LAMBDA if job.cone_angle is None else job.cone_angle
-    return draw_conformed(chain, job.places(row), cone_angle, told, grounded=bool(row["ground"]))
+    return draw_conformed(chain, job.places(row), job.surface or _ANY, told, grounded=bool(row["ground"]))
 
 
 def title_of_picture(row: Mapping[str, Any], layers: int) -> str:

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from enumerate.runner.columns import Column, ListColumn, RangeColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Floats, Ints
+from graphs.mechanism.surfaces import Cone, Surface
 from synth.candidates.values import four_bar_classes, half_turns, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
@@ -30,6 +31,7 @@ from synth.conformed.layers import layers
 from synth.conformed.rates import ConformedChain, first_order
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.cone import link_angles
+from synth.surfaces.cylinder import chords
 
 __all__ = ["CandidateChain", "order_rows", "placed_rows"]
 
@@ -101,7 +103,7 @@ class CandidateChain:
         told = ["fixed", *words[1:]]
         return tuple((name, told[k]) for name, k in zip(self.links, self._turned, strict=True))
 
-    def columns(self, placed: bool, opposites: bool, cone: bool, slots: bool) -> dict[str, Column]:
+    def columns(self, placed: bool, opposites: bool, surface: Surface | None, slots: bool) -> dict[str, Column]:
         """Return names and types of columns."""
         common: dict[str, Column] = {"chain": str, "ground": str, "order": _WORDS}
         where: dict[str, Column] = {"slots": _NUMBERS} if slots or not placed else {}
@@ -129,10 +131,11 @@ class CandidateChain:
             "layers": int, "rank": int, "freedoms": int, "singular": bool, "least_singular_value": float,
             "grashof": _WORDS, "grashof_loops": int,
         }  # fmt: skip
-        angles: dict[str, Column] = {}
-        if cone:
-            angles = {"lambda_deg": float, "link_angles_deg": ListColumn(" ", "-", ":", None)}
-        return {**common, **where, **circuits, **evaluated, **angles, **ways}
+        sizes: dict[str, Column] = {}
+        if surface is not None:
+            names = ("lambda_deg", "link_angles_deg") if isinstance(surface, Cone) else ("radius", "link_lengths")
+            sizes = {names[0]: float, names[1]: ListColumn(" ", "-", ":", None)}
+        return {**common, **where, **circuits, **evaluated, **sizes, **ways}
 
     def common(self, slots: Ints, opposites: bool) -> Iterator[tuple[Any, ...]]:
         """Yield chain, ground and order, slots of rows."""
@@ -236,9 +239,9 @@ def placed_rows(
     slots: Ints,
     symmetry: Ints,
     on_slots: bool,
-    cone_angle: float | None,
+    surface: Surface | None,
 ) -> list[Row]:
-    """Return rows of joints at azimuths, float[r, J], between 0 and 2 pi, on a cone of angle lambda, in radians.
+    """Return rows of joints at azimuths, float[r, J], between 0 and 2 pi, on a surface or on any.
 
     `slots`, int64[r, J], are slots, named in rows with `on_slots`, or the cyclic order; `symmetry` is int64[r].
     """
@@ -248,11 +251,11 @@ def placed_rows(
     least = np.take_along_axis(motion.singular_values, rank[:, np.newaxis] - 1, -1)[:, 0]
     singular = rank < motion.singular_values.shape[-1]
     pairs, half = half_turns(chain, places)
-    classes = four_bar_classes(candidate.loops, places, cone_angle)
+    classes = four_bar_classes(candidate.loops, places, surface)
     circuits = candidate.circuits_of_loops(places)
     deep = layers(chain, places).tolist()
     azimuths = [tuple(float(f"{x:.12g}") for x in row) for row in np.degrees(places).round(12).tolist()]
-    angles = _link_angles(chain, places, pairs, cone_angle)
+    sizes = None if surface is None else _link_sizes(places, pairs, surface)
     ways = _placed_ways(candidate, places) if candidate.grounded else None
     joined = [(candidate.names[a], candidate.names[b]) for a, b in pairs]
     made: list[Row] = []
@@ -263,25 +266,24 @@ def placed_rows(
         row += [azimuths[i], here, len(here), deep[i]]
         row += [int(rank[i]), int(motion.freedoms[i]), bool(singular[i]), float(f"{least[i]:.9g}")]
         row += [of_loops, of_loops.count("Grashof")]
-        if angles is not None and cone_angle is not None:
-            row += [round(float(np.degrees(cone_angle)), 10)]
-            row += [tuple((*pair, float(f"{x:.10g}")) for pair, x in zip(joined, angles[i], strict=True))]
+        if surface is not None and sizes is not None:
+            row += [round(float(np.degrees(surface.angle)), 10) if isinstance(surface, Cone) else surface.radius]
+            row += [tuple((*pair, float(f"{x:.10g}")) for pair, x in zip(joined, sizes[i], strict=True))]
         if ways is not None:
             row += ways[i]
         made.append(tuple(row))
     return made
 
 
-def _link_angles(
-    chain: ConformedChain, places: Floats, pairs: Sequence[tuple[int, int]], cone_angle: float | None
-) -> list[list[float]] | None:
-    """Return the link angles between joints of each link, degrees."""
-    if cone_angle is None:
-        return None
+def _link_sizes(places: Floats, pairs: Sequence[tuple[int, int]], surface: Surface) -> list[list[float]]:
+    """Return the link angles, degrees, or lengths between joints of each link."""
     first, second = (list(side) for side in zip(*pairs, strict=True))
     steps = wrapped(places[:, second] - places[:, first])
-    angles: list[list[float]] = np.degrees(link_angles(steps, cone_angle)).tolist()
-    return angles
+    if isinstance(surface, Cone):
+        angles: list[list[float]] = np.degrees(link_angles(steps, surface.angle)).tolist()
+        return angles
+    lengths: list[list[float]] = chords(steps, surface.radius).tolist()
+    return lengths
 
 
 def _placed_ways(candidate: CandidateChain, places: Floats) -> list[list[Any]]:

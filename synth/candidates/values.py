@@ -12,6 +12,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
+from graphs.mechanism.surfaces import Cone, Surface
 from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
 from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
@@ -51,17 +52,16 @@ def half_turns(
 
 
 def four_bar_classes(
-    loops: Sequence[Sequence[int]], places: npt.ArrayLike, cone_angle: float | None
+    loops: Sequence[Sequence[int]], places: npt.ArrayLike, surface: Surface | None
 ) -> list[npt.NDArray[np.str_]]:
     """Return ``Grashof``, ``non-Grashof`` or ``folding`` for each loop of four joints; other loops are skipped.
 
-    The class depends on lambda, radians (None for a cylinder): a crossed loop is Grashof on a cylinder, on a steep
-    cone it need not be (docs/misprints.md 000-6). Azimuths are float[..., J].
+    The class depends on the cone; without a surface it is that on a cylinder. Azimuths are float[..., J].
 
     A crossed loop is Grashof on a cylinder; on a steep cone it need not be (docs/misprints.md 000-6).
 
     >>> places = np.radians([0, 150, 20, 160])
-    >>> [str(four_bar_classes([(0, 1, 2, 3)], places, lam)[0]) for lam in (None, 0.3)]
+    >>> [str(four_bar_classes([(0, 1, 2, 3)], places, one)[0]) for one in (None, Cone(0.3))]
     ['Grashof', 'non-Grashof']
     """
     t = np.asarray(places, dtype=float)
@@ -71,9 +71,9 @@ def four_bar_classes(
             continue
         mine = t[..., list(loop)]
         steps = wrapped(np.roll(mine, -1, axis=-1) - mine)
-        if cone_angle is None:
-            differences = planar_differences(chords(steps, 1.0))
+        if isinstance(surface, Cone):
+            differences = spherical_differences(link_angles(steps, surface.angle))
         else:
-            differences = spherical_differences(link_angles(steps, cone_angle))
+            differences = planar_differences(chords(steps, 1.0))
         classes.append(grashof_class(differences))
     return classes

@@ -14,14 +14,17 @@ __all__ = ["completion"]
 _SHELLS = ("bash", "zsh", "fish")
 
 
-@click.command("completion", short_help="Have the shell complete commands and options.")
+@click.command("completion", short_help="Print or install a shell completion script.")
 @click.argument("shell", type=click.Choice(_SHELLS))
-@click.option("--install", is_flag=True, help="Write the script where the shell looks for it, for this user.")
+@click.option(
+    "--install", is_flag=True, help="Write the script to the folder where the shell looks for it, for this user."
+)
 @FORCE
 def completion(shell: str, install: bool, force: bool) -> None:
-    """Print the script that lets a shell complete the names of commands, options and files.
+    """Print or install a script with which a shell completes the names of commands, options and files.
 
-    With --install it is written to the user's folder of such scripts, and holds from the next shell on.
+    With --install the script is written to the user's folder of completion scripts, and is active in the next
+    shell.
 
     \b
     Examples:

@@ -17,7 +17,7 @@ from synth.cli.groups import NamedGroup
 __all__ = ["main"]
 
 _SECTIONS: dict[str, dict[str, str]] = {
-    "Ask how it moves": {
+    "Analyse motion": {
         "mobility": "synth.cli.graphs.mobility:mobility",
         "fold": "synth.cli.things.fold:fold",
         "positions": "synth.cli.things.positions:positions",
@@ -26,21 +26,21 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "states": "synth.cli.compliance.states:states",
         "limits": "synth.cli.compliance.limits:limits",
     },
-    "See it and make it": {
+    "Draw and make": {
         "draw": "synth.cli.things.draw:draw",
         "view": "synth.cli.things.view:view",
         "template": "synth.cli.things.template:template",
         "generate": "synth.cli.things.generate:generate",
         "realise": "synth.cli.things.realise:realise",
     },
-    "Change it and name it": {
+    "Edit, convert and identify": {
         "reduce": "synth.cli.graphs.reduce:reduce_command",
         "edit": "synth.cli.graphs.edit:edit",
         "convert": "synth.cli.graphs.convert:convert",
         "reconstruct": "synth.cli.graphs.reconstruct:reconstruct",
         "id": "synth.cli.graphs.id:id_command",
     },
-    "List all of a kind": {
+    "Enumerate": {
         "enumerate": "synth.cli.enumerate.group:enumerate_group",
         "atlas": "synth.cli.enumerate.atlas:atlas_group",
     },
@@ -48,7 +48,7 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "cone": "synth.cli.surfaces.cone:cone_group",
         "cylinder": "synth.cli.surfaces.cylinder:cylinder_group",
     },
-    "Guide a body": {
+    "Guide a body through orientations": {
         "order": "synth.cli.guidance.order:order",
         "dyads": "synth.cli.guidance.dyads:dyads",
         "fourbar": "synth.cli.guidance.fourbar:fourbar",
@@ -144,9 +144,11 @@ def _told_version(ctx: click.Context, parameter: click.Parameter, asked: bool) -
     is_eager=True,
     expose_value=False,
     callback=_told_version,
-    help="Show versions and exit.",
+    help="Show the versions of synth and of the packages that results depend on, and exit.",
 )
-@click.option("--debug", is_flag=True, help="Print the traceback of a fault of the program (SYNTHEDRA_DEBUG=1).")
+@click.option(
+    "--debug", is_flag=True, help="Print the traceback if the program itself fails (or set SYNTHEDRA_DEBUG=1)."
+)
 def main(debug: bool) -> None:
     """Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
 
@@ -158,7 +160,7 @@ def main(debug: bool) -> None:
       synth enumerate chains --links 8 --dof 1
       synth cone map --angles 120,95,45,85
 
-    Exit status: 0 done, 1 the answer is no, 2 bad input or usage, or output that cannot be written;
-    70 a fault of the program, to be reported; 128 + n stopped by signal n (130: Ctrl-C).
+    Exit status: 0, done; 1, the answer is no; 2, bad input or usage, or output that cannot be written; 70, a fault
+    of the program, please report it; 128 + n, stopped by signal n (130: Ctrl-C).
     """
     del debug  # looked at where a fault is caught

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphs.printing import UNWRAPPED, console_for, plain
-from graphs.printing import rich_table as table
+from graphs.printing import UNWRAPPED, console_for, plain, rich_table as table
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -43,11 +42,11 @@ _FIGURES = 12
 """Of numbers in JSON; rows of enumerations have no more."""
 
 FORCE = click.option(
-    "--force", is_flag=True, help="Replace a file that is there. Folders, symbolic links and devices never are."
+    "--force", is_flag=True, help="Overwrite an existing file, but never a folder, symbolic link or device."
 )
 """The option of every command that writes a file."""
 
-LOSSY = click.option("--lossy", is_flag=True, help="Write also where the type would be another.")
+LOSSY = click.option("--lossy", is_flag=True, help="Write even if the output reads back as another type.")
 """The option of every command that writes a mechanism."""
 
 PATIENCE = 2.0
@@ -134,11 +133,12 @@ def entries(files: Sequence[str], failures: list[str], patience: float = PATIENC
     """
     from graphs.errors import FileError
     from graphs.files.formats import read_all
+    from synth.cli.reading import stated
 
     start, shown = monotonic(), False
     for number, file in enumerate(files, start=1):
         try:
-            yield from read_all(file)
+            yield from read_all(file, **stated())
         except FileError as error:
             failures.append(str(error))
         if sys.stderr.isatty() and monotonic() - start > patience:

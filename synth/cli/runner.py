@@ -109,19 +109,22 @@ def runner_options(function: F) -> F:
     """Add the options of the runner to a subcommand."""
     for option in (
         click.option("--json", "as_json", is_flag=True, help="Print one JSON document."),
-        click.option("--quiet", is_flag=True, help="Show no progress, nor what was written."),
+        click.option("--quiet", is_flag=True, help="Show neither progress nor the names of written files."),
         FORCE,
-        click.option("--resume", is_flag=True, help="Go on with a .sqlite store that a stopped run left."),
+        click.option("--resume", is_flag=True, help="Continue a stopped run from its .sqlite store."),
         click.option("--scheduler", metavar="ADDRESS", help="Work on a Dask cluster, such as tcp://host:8786."),
         click.option(
-            "--workers", type=click.IntRange(min=1), metavar="N", help="Processes; one a core by default."
+            "--workers",
+            type=click.IntRange(min=1),
+            metavar="N",
+            help="Number of processes. By default one per core.",
         ),
         click.option(
             "-o",
             "--output",
             metavar="FILE",
             help="Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; "
-            "--count: .sqlite.",
+            "counts go to .sqlite.",
         ),
     ):
         function = option(function)

@@ -9,6 +9,7 @@ side links. Theory: docs/theory/behaviour.md.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import IntEnum
 
@@ -19,16 +20,19 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, FirstOrder, first_order
+from synth.surfaces.circuit import HALF_TURN
 
 __all__ = [
     "Behaviour",
     "Way",
     "behaviour",
     "behaviour_of_motion",
+    "half_turn_arcs",
     "icrl",
     "instant_centres",
     "link_arcs",
     "shadow_allows",
+    "ways_over",
 ]
 
 
@@ -159,11 +163,7 @@ def behaviour_of_motion(
     'BOTH'
     """
     t = np.asarray(places, dtype=float)
-    ranges = _outward_ranges(motion.motions, np.asarray(arcs, dtype=float))
-    scale = np.abs(motion.motions[..., ::2]).max(axis=(-2, -1))
-    small = (DOUBLE.zero_rate * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
-    out, into = ranges[..., 1] > small, ranges[..., 0] < -small
-    ways = np.where(out & into, Way.BOTH, out.astype(int) - into.astype(int)).astype(np.int8)
+    ways, ranges, small = _ways_and_ranges(motion.motions, np.asarray(arcs, dtype=float))
     one_sided = np.abs(ways) == 1
     first = np.take_along_axis(ways, one_sided.argmax(axis=-1)[..., np.newaxis], -1)
     turn = np.where(one_sided.any(axis=-1, keepdims=True) & (first == -1), -1, 1)
@@ -174,6 +174,21 @@ def behaviour_of_motion(
     ranges = np.where((turn == -1)[..., np.newaxis], -ranges[..., ::-1], ranges)
     turned = replace(motion, rates=motion.rates * turn, motions=motion.motions * turn[..., np.newaxis])
     return Behaviour(ways, one_way, _tangent(chain, t, motion, small), ranges, turned)
+
+
+def ways_over(motions: Floats, arcs: npt.ArrayLike) -> npt.NDArray[np.int8]:
+    """Return the `Way` of links over arcs, float[..., N, 2], in the sense of motions, float[..., N, 3]."""
+    return _ways_and_ranges(motions, np.asarray(arcs, dtype=float))[0]
+
+
+def _ways_and_ranges(motions: Floats, arcs: Floats) -> tuple[npt.NDArray[np.int8], Floats, Floats]:
+    """Return ways, outward rates at least and at most, and how small a rate is none."""
+    ranges = _outward_ranges(motions, arcs)
+    scale = np.abs(motions[..., ::2]).max(axis=(-2, -1))
+    small = (DOUBLE.zero_rate * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
+    out, into = ranges[..., 1] > small, ranges[..., 0] < -small
+    ways = np.where(out & into, Way.BOTH, out.astype(int) - into.astype(int)).astype(np.int8)
+    return ways, ranges, small
 
 
 def _outward_ranges(motions: Floats, arcs: Floats) -> Floats:
@@ -202,18 +217,20 @@ def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats
     return tangent
 
 
-def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Floats:
+def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None) -> Floats:
     """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
 
     Parameters
     ----------
     chain : ConformedChain
     places : float[..., J]
+    begins : mapping of int to int, optional
+        Number of a link to the number of the joint at which its arc begins: of one that spans half a turn.
 
     Returns
     -------
     float[..., N, 2]
-        Start and length, radians. A binary link's arc is its minor arc; of two halves, either.
+        Start and length, radians. A binary link's arc is its minor arc; of two halves, either (`half_turn_arcs`).
 
     Examples
     --------
@@ -221,17 +238,47 @@ def link_arcs(chain: ConformedChain, places: npt.ArrayLike) -> Floats:
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 140]))).round(9).tolist()
     [[0.0, 140.0], [0.0, 40.0], [40.0, 50.0], [90.0, 50.0]]
+    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})[0]).round(9).tolist()
+    [180.0, 180.0]
     """
     t = np.asarray(places, dtype=float)
     arcs = []
-    for joints in chain.joints_of:
+    for number, joints in enumerate(chain.joints_of):
         mine = np.sort(np.remainder(t[..., list(joints)], 2 * np.pi), axis=-1)
         gaps = np.roll(mine, -1, axis=-1) - mine
         gaps[..., -1] += 2 * np.pi
         widest = gaps.argmax(axis=-1)[..., np.newaxis]
         start = np.take_along_axis(np.roll(mine, -1, axis=-1), widest, -1)[..., 0]
-        arcs.append(np.stack([start, 2 * np.pi - np.take_along_axis(gaps, widest, -1)[..., 0]], axis=-1))
+        length = 2 * np.pi - np.take_along_axis(gaps, widest, -1)[..., 0]
+        if begins is not None and number in begins:
+            start = np.remainder(t[..., begins[number]], 2 * np.pi)
+        arcs.append(np.stack([start, length], axis=-1))
     return np.stack(arcs, axis=-2)
+
+
+def half_turn_arcs(
+    chain: ConformedChain, places: npt.ArrayLike
+) -> dict[int, tuple[tuple[int, int], tuple[int, int]]]:
+    """Return the links that span half a turn, which may curve either way: each with its two arcs.
+
+    An arc is told by the numbers of the joints at which it begins and ends, azimuths growing. Places are float[J].
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> half_turn_arcs(four_bar, np.radians([0, 40, 90, 180]))
+    {0: ((0, 3), (3, 0))}
+    """
+    t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
+    found = {}
+    for number, joints in enumerate(chain.joints_of):
+        mine = sorted(joints, key=lambda joint: float(t[joint]))
+        gaps = np.diff(t[mine], append=t[mine[0]] + 2 * np.pi) if mine else np.zeros(0)
+        wide = np.flatnonzero(gaps >= HALF_TURN).tolist()
+        if len(wide) == 2:
+            # an arc that leaves out a gap begins where the gap ends
+            ends = [(mine[(gap + 1) % len(mine)], mine[gap]) for gap in wide]
+            found[number] = (ends[1], ends[0])
+    return found
 
 
 def icrl(motions: npt.ArrayLike) -> Floats:

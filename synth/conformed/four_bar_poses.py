@@ -13,10 +13,11 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import rotated
+from graphs.mechanism.surfaces import checked_cone_angle
 from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.fourbar.position import output_spherical
 from synth.surfaces.circuit import azimuths
-from synth.surfaces.cone import checked_cone_angle, link_angles
+from synth.surfaces.cone import link_angles
 
 __all__ = ["FourBarPoses", "poses_from_conformed"]
 

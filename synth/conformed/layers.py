@@ -5,6 +5,7 @@ Theory: docs/theory/conical-candidates.md.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -79,7 +80,9 @@ def layers(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     return fewest_layers(arc_choices(chain, t))
 
 
-def links_in_layers(chain: ConformedChain, places: npt.ArrayLike) -> LinksInLayers:
+def links_in_layers(
+    chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None
+) -> LinksInLayers:
     """Put the links of a linkage into the fewest layers, `layers` of them.
 
     Parameters
@@ -87,6 +90,8 @@ def links_in_layers(chain: ConformedChain, places: npt.ArrayLike) -> LinksInLaye
     chain : ConformedChain
     places : float[J]
         Azimuths, radians.
+    begins : mapping of int to int, optional
+        Number of a link to the number of the joint at which its arc begins: of one that spans half a turn.
 
     Raises
     ------
@@ -104,7 +109,12 @@ def links_in_layers(chain: ConformedChain, places: npt.ArrayLike) -> LinksInLaye
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
     if len(t) > _MOST_JOINTS:
         raise UnsolvableError(f"{len(t)} joints; layers are laid of {_MOST_JOINTS} at most")
-    chosen, layer_of = layers_of_links(arc_choices(chain, t[np.newaxis])[0])
+    choices = arc_choices(chain, t[np.newaxis])[0]
+    for number, joint in (begins or {}).items():
+        mine = sorted(chain.joints_of[number], key=lambda one: float(t[one]))
+        left_out = (mine.index(joint) - 1) % len(mine)
+        choices[number, [gap for gap in range(choices.shape[1]) if gap != left_out]] = 0
+    chosen, layer_of = layers_of_links(choices)
     arcs = np.empty((len(chain.joints_of), 2))
     for number, (joints, left_out) in enumerate(zip(chain.joints_of, chosen.tolist(), strict=True)):
         ends = np.sort(t[list(joints)])

@@ -1,47 +1,72 @@
-"""What linkages do in the conformed position, as the command line asks: of angles, of steps, or of a file.
+"""What linkages do in the conformed position, as the command line asks: of sizes, of steps, or of a file.
 
 Theory: docs/theory/behaviour.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import product
 from math import degrees, pi
 from typing import Any
 
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.ids import LinkId
-from graphs.mechanism.conical import ConicalLinkage, ring
+from graphs.edit.named import joint_named, link_named
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.on_surface import SurfaceLinkage, as_planar, ring
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Cone, Cylinder, Surface, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
-from synth.conformed.behaviours import Behaviour, Way, behaviour, icrl, instant_centres
+from synth.conformed.behaviours import (
+    Behaviour,
+    Way,
+    behaviour,
+    half_turn_arcs,
+    icrl,
+    instant_centres,
+    link_arcs,
+    ways_over,
+)
 from synth.conformed.rates import ConformedChain
 from synth.conformed.twelve_cases import TableRow, table_row
-from synth.surfaces.circuit import azimuths, closing_step
+from synth.surfaces.circuit import HALF_TURN, azimuths, closing_step, wrapped
 from synth.surfaces.cone import map_to_cones
+from synth.surfaces.cylinder import map_to_cylinders
 from synth.surfaces.linkages import map_linkage
 from synth.surfaces.mapping import in_degrees, joints_text
 
-__all__ = ["LinkageBehaviour", "OnCone", "cone_of_number", "linkage_on_cones", "loop_of_steps", "loop_on_cones"]
+__all__ = [
+    "ArcChoice",
+    "LinkageBehaviour",
+    "OnSurface",
+    "linkage_on_surfaces",
+    "loop_of_steps",
+    "loop_on_cones",
+    "loop_on_cylinders",
+    "surface_of_number",
+]
 
 _FAR = 1e12
 
 
 @dataclass(frozen=True, slots=True)
-class OnCone:
-    """A linkage at its conformed position; without a cone angle, on any cone.
+class OnSurface:
+    """A linkage at its conformed position; without a surface, on any cone or cylinder.
 
     Attributes
     ----------
     chain : SCGraph
     places : float[J]
         Azimuths of the joints, radians, in the order of the chain's joints.
-    cone_angle : float or None
-        lambda, radians; None: any.
+    surface : Cone, Cylinder or None
+        None: any.
+    arcs : mapping of link to joint
+        Of links that span half a turn, and may curve either way: the joint at which the arc begins, azimuths
+        growing.
 
     Examples
     --------
@@ -51,17 +76,89 @@ class OnCone:
 
     chain: SCGraph
     places: Sequence[float]
-    cone_angle: float | None
+    surface: Surface | None = None
+    arcs: Mapping[LinkId, JointId] = field(default_factory=dict)
 
-    def linkage(self) -> ConicalLinkage:
-        """Return the linkage as it lies here, by steps and lambda, as it can be written."""
-        return ConicalLinkage.placed(self.chain, self.places, self.cone_angle)
+    @property
+    def cone_angle(self) -> float | None:
+        """lambda, radians, of a cone."""
+        return self.surface.angle if isinstance(self.surface, Cone) else None
+
+    def linkage(self) -> SurfaceLinkage:
+        """Return the linkage as it lies here, by steps and its surface, as it can be written."""
+        return SurfaceLinkage.placed(self.chain, self.places, self.surface)
+
+    def curved(self, arcs: Mapping[str, str]) -> OnSurface:
+        """Return the linkage with the arcs of links that span half a turn chosen, by names.
+
+        Parameters
+        ----------
+        arcs : mapping of str to str
+            Link to the joint at which its arc begins, azimuths growing.
+
+        Raises
+        ------
+        InvariantError
+            If there is no such link or joint, or the link does not span half a turn.
+
+        Examples
+        --------
+        Only one of the two arcs of link 4 lets all links move outward:
+
+        >>> either = loop_of_steps(np.radians([40, 50, 90]))
+        >>> [either.curved({"4": joint}).behaviour().mobile() for joint in "14"]
+        [(False, True), (False, False)]
+        """
+        chosen = {link_named(self.chain, link): joint_named(self.chain, joint) for link, joint in arcs.items()}
+        made = replace(self, arcs={**self.arcs, **chosen})
+        made.begins(ConformedChain.of(self.chain))
+        return made
+
+    def begins(self, chain: ConformedChain) -> dict[int, int]:
+        """Return the arcs that are chosen by the numbers of links and joints."""
+        halves = half_turn_arcs(chain, self.places)
+        found = {chain.links.index(link): chain.joints.index(joint) for link, joint in self.arcs.items()}
+        for number, joint in found.items():
+            link = shown(chain.links[number])
+            if number not in halves:
+                raise InvariantError(
+                    "arc", f"link {link} does not span half a turn", "one that can curve either way"
+                )
+            if joint not in dict(halves[number]):
+                first, second = (shown(chain.joints[begin]) for begin, _ in halves[number])
+                told = f"the arc of link {link} from joint {shown(chain.joints[joint])}"
+                raise InvariantError("arc", told, f"one from joint {first} or {second}")
+        return found
 
     def behaviour(self, ground: LinkId | None = None) -> LinkageBehaviour:
         """Return what the linkage does, one link fixed: its own ground link, or the first, if none is named."""
         chain = ConformedChain.of(self.chain, ground)
-        places = np.array(self.places)
-        return LinkageBehaviour(chain, places, self.cone_angle, behaviour(chain, places))
+        places, begins = np.array(self.places), self.begins(chain)
+        return LinkageBehaviour(
+            chain, places, self.surface, behaviour(chain, places, link_arcs(chain, places, begins)), begins
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class ArcChoice:
+    """One choice of arcs for links that span half a turn.
+
+    Attributes
+    ----------
+    arcs : mapping of int to (int, int)
+        Number of a link to those of the joints at which its arc begins and ends.
+    intramobile, extramobile : bool
+        Whether the linkage can move so that all its links stay inside, or outside.
+
+    Examples
+    --------
+    >>> [one.extramobile for one in loop_of_steps(np.radians([40, 50, 90])).behaviour().choices()]
+    [True, False]
+    """
+
+    arcs: Mapping[int, tuple[int, int]]
+    intramobile: bool
+    extramobile: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,15 +171,18 @@ class LinkageBehaviour(Printed):
         Its first link is fixed.
     places : float[J]
         Azimuths of the joints, radians.
-    cone_angle : float or None
-        lambda, radians; None for any cone.
+    surface : Cone, Cylinder or None
+        None: any cone or cylinder.
     behaviour : Behaviour
+    begins : mapping of int to int
+        Number of a link that spans half a turn to the joint at which its arc begins, where that is chosen.
     """
 
     chain: ConformedChain
     places: Floats
-    cone_angle: float | None
+    surface: Surface | None
     behaviour: Behaviour
+    begins: Mapping[int, int] = field(default_factory=dict)
 
     def table_row(self) -> TableRow | None:
         """Return the row of Table 4 (Hyatt et al. 2021) of a four-bar that has one."""
@@ -95,10 +195,62 @@ class LinkageBehaviour(Printed):
             return None
 
     def mobile(self) -> tuple[bool, bool]:
-        """Return whether the linkage can be intramobile, and extramobile."""
-        row = self.table_row()
-        both = bool(self.behaviour.one_way)
-        return (both, both) if row is None else (row.intramobile, row.extramobile)
+        """Return whether the linkage can be intramobile, and extramobile, with one choice of arcs or another."""
+        choices = self.choices()
+        return any(one.intramobile for one in choices), any(one.extramobile for one in choices)
+
+    def choices(self) -> tuple[ArcChoice, ...]:
+        """Return what the linkage can be with each choice of the arcs of links that span half a turn.
+
+        To first order, but for joints half a turn from a fixed joint of their link, which go outward to second.
+        """
+        halves, outward = self._halves(), self._goes_outward()
+        if not halves:
+            row, both = self.table_row(), bool(self.behaviour.one_way)
+            inward = both and not outward
+            return (
+                ArcChoice({}, inward, both) if row is None else ArcChoice({}, row.intramobile, row.extramobile),
+            )
+        found = []
+        for arcs in product(*halves.values()):
+            chosen = dict(zip(halves, arcs, strict=True))
+            ways = self._ways_with(chosen)
+            both = self.behaviour.motion.freedoms == 1 and len(ways) == 1 and ways <= {Way.INWARD, Way.OUTWARD}
+            found.append(ArcChoice(chosen, both and not outward, both))
+        return tuple(found)
+
+    def _goes_outward(self) -> bool:
+        """Tell whether a joint moves along the surface, half a turn from a fixed joint of its link: outward."""
+        fixed, t = set(self.chain.joints_of[0]), self.places
+        return any(
+            abs(float(wrapped(t[joint] - t[centre]))) >= HALF_TURN
+            for number, joints in enumerate(self.chain.joints_of)
+            if self.behaviour.ways[number] != Way.STILL
+            for centre in fixed.intersection(joints)
+            for joint in joints
+        )
+
+    def _halves(self) -> dict[int, tuple[tuple[int, int], ...]]:
+        """Return the moving links that span half a turn, each with its arcs, or the one that is chosen."""
+        return {
+            number: tuple(arc for arc in arcs if self.begins.get(number, arc[0]) == arc[0])
+            for number, arcs in half_turn_arcs(self.chain, self.places).items()
+            if number
+        }
+
+    def _ways_with(self, arcs: Mapping[int, tuple[int, int]]) -> set[Way]:
+        """Return all ways of moving links with some arcs, in the sense of the behaviour's motion."""
+        ways = [Way(int(way)) for way in self.behaviour.ways]
+        for number, arc in arcs.items():
+            ways[number] = self._way_over(number, arc)
+        return {way for way in ways if way is not Way.STILL}
+
+    def _way_over(self, number: int, arc: tuple[int, int]) -> Way:
+        """Return the way of a link that spans half a turn over one of its arcs."""
+        if self.behaviour.ways[number] in (Way.UNKNOWN, Way.STILL):
+            return Way(int(self.behaviour.ways[number]))
+        spans = link_arcs(self.chain, self.places, {number: arc[0]})
+        return Way(int(ways_over(self.behaviour.motion.motions, spans)[number]))
 
     def _around(self) -> list[int] | None:
         """Return the joints O, A, B, C of a four-bar whose ground link is C O."""
@@ -120,33 +272,51 @@ class LinkageBehaviour(Printed):
         if row is not None:
             special = ", a chord is a diameter" if row.special else ""
             blocks.append(f"Table 4: case {row.case}, {row.configuration}, {row.column}{special}")
-        lines = icrl(self.behaviour.motion.motions) + 0.0  # no minus before a zero
+        lines = icrl(self.behaviour.motion.motions)
         rows = [
             (
-                plain(link),
-                joints_text([chain.joints[joint] for joint in joints]),
-                "fixed" if number == 0 else self.way_of(number),
-                "" if np.isnan(lines[number]) else f"{degrees(lines[number]):.6g}",
+                plain(chain.links[number]) + ("" if arc is None else f", {self._names(arc)}"),
+                joints_text([chain.joints[joint] for joint in chain.joints_of[number]]),
+                "fixed" if number == 0 else way,
+                "" if np.isnan(lines[number]) else f"{in_degrees([lines[number]])[0]:.6g}",
             )
-            for number, (link, joints) in enumerate(zip(chain.links, chain.joints_of, strict=True))
+            for number, arc, way in self._rows()
         ]
         return [*blocks, TableBlock(("link", "joints", "moves", "ICRL (deg)"), rows, ["ICRL (deg)"])]
 
+    def _rows(self) -> Iterator[tuple[int, tuple[int, int] | None, str]]:
+        """Yield the number of each link, its arc if it spans half a turn, and its way: a row for each arc."""
+        halves = self._halves()
+        for number in range(len(self.chain.links)):
+            if number not in halves:
+                yield number, None, self.way_of(number)
+            for arc in halves.get(number, ()):
+                yield number, arc, self._way_over(number, arc).name.lower()
+
+    def _names(self, arc: tuple[int, int]) -> str:
+        return "from {} to {}".format(*(plain(self.chain.joints[joint]) for joint in arc))
+
     def _verdict(self) -> str:
         """Say in a line which way the linkage can go."""
-        where = "any cone" if self.cone_angle is None else f"lambda {degrees(self.cone_angle):.10g} degrees"
+        where = "any cone or cylinder" if self.surface is None else str(self.surface)
         motion = self.behaviour.motion
         freedoms = int(motion.freedoms)
         if motion.undecided:
             verdict = "indeterminate: a singular value is near the noise"
         elif freedoms == 1:
-            words = [word for word, so in zip(("intramobile", "extramobile"), self.mobile(), strict=True) if so]
-            verdict = "can be " + " or ".join(words) if words else "transmobile"
+            verdict = "; ".join(map(self._told, self.choices()))
         else:
             verdict = f"{freedoms} infinitesimal freedoms: no one way"
         if motion.nearly:
             verdict += f"; nearly mobile: {int(motion.nearly)} more freedom(s) but for small errors"
         return f"{where}, link {plain(self.chain.links[0])} fixed: {verdict}"
+
+    def _told(self, choice: ArcChoice) -> str:
+        both = (("intramobile", choice.intramobile), ("extramobile", choice.extramobile))
+        words = [word for word, so in both if so]
+        told = "can be " + " or ".join(words) if words else "transmobile"
+        arcs = [f"link {plain(self.chain.links[link])} {self._names(arc)}" for link, arc in choice.arcs.items()]
+        return told + (f" with {' and '.join(arcs)}" if arcs else "")
 
     def to_json(self) -> dict[str, Any]:
         """Return the behaviour as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -154,7 +324,7 @@ class LinkageBehaviour(Printed):
         lines, row = icrl(motion.motions), self.table_row()
         intra, extra = self.mobile()
         return {
-            "lambda_deg": None if self.cone_angle is None else degrees(self.cone_angle),
+            **surface_json(self.surface),
             "azimuths_deg": dict(zip(map(str, chain.joints), in_degrees(self.places.tolist()), strict=True)),
             "ground": chain.links[0],
             "freedoms": None if motion.undecided else int(motion.freedoms),
@@ -163,15 +333,24 @@ class LinkageBehaviour(Printed):
             "singular_values": motion.singular_values.tolist(),
             "intramobile": intra,
             "extramobile": extra,
+            "choices": [
+                {
+                    "arcs": {str(chain.links[link]): self._joints(arc) for link, arc in one.arcs.items()},
+                    "intramobile": one.intramobile,
+                    "extramobile": one.extramobile,
+                }
+                for one in self.choices()
+            ],
             "links": [
                 {
-                    "link": link,
-                    "joints": [chain.joints[joint] for joint in joints],
-                    "way": self.way_of(number),
+                    "link": chain.links[number],
+                    "joints": [chain.joints[joint] for joint in chain.joints_of[number]],
+                    "arc": None if arc is None else self._joints(arc),
+                    "way": way,
                     "icrl_deg": _finite(degrees(lines[number])),
                     "instant_centre": _centre(motion.motions[number]),
                 }
-                for number, (link, joints) in enumerate(zip(chain.links, chain.joints_of, strict=True))
+                for number, arc, way in self._rows()
             ],
             "tangent": [joint for joint, is_so in zip(chain.joints, self.behaviour.tangent, strict=True) if is_so],
             "table4": None
@@ -184,6 +363,9 @@ class LinkageBehaviour(Printed):
             },
         }
 
+    def _joints(self, arc: tuple[int, int]) -> list[JointId]:
+        return [self.chain.joints[joint] for joint in arc]
+
 
 def _finite(value: float) -> float | None:
     return value if abs(value) < float("inf") else None
@@ -194,28 +376,28 @@ def _centre(motion: Floats) -> list[float] | None:
     return [x, y] if abs(x) < _FAR and abs(y) < _FAR else None
 
 
-def linkage_on_cones(
-    linkage: ConicalLinkage, cone_angle: float | None = None, *, tolerance: float = 1e-7
-) -> list[OnCone]:
-    """Return a linkage on each of its cones, from link angles or from steps.
+def linkage_on_surfaces(
+    linkage: SurfaceLinkage, surface: Surface | None = None, *, tolerance: float = 1e-7
+) -> list[OnSurface]:
+    """Return a linkage on each of its surfaces, from link angles or lengths, or from steps.
 
     Parameters
     ----------
-    linkage : ConicalLinkage
-    cone_angle : float, optional
-        lambda, radians, for steps; by default that of the linkage, or any.
+    linkage : SurfaceLinkage
+    surface : Cone or Cylinder, optional
+        For steps; by default that of the linkage, or any.
     tolerance : float, optional
-        How well loops of link angles must close together, radians.
+        How well loops of given sizes must close together, radians.
 
     Returns
     -------
-    list of OnCone
+    list of OnSurface
         One, if the linkage is given by steps.
 
     Raises
     ------
     UnsolvableError
-        If a cone angle is named for link angles, which tell it themselves.
+        If a surface is named for link angles or lengths, which tell it themselves.
 
     Examples
     --------
@@ -224,46 +406,47 @@ def linkage_on_cones(
     >>> from graphs.loops.loop import Loop
     >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> [one] = linkage_on_cones(ConicalLinkage(chain, steps=dict.fromkeys(pairs[:3], np.pi / 2)))
-    >>> np.degrees(one.places).round(9).tolist(), one.cone_angle
+    >>> [one] = linkage_on_surfaces(SurfaceLinkage(chain, steps=dict.fromkeys(pairs[:3], np.pi / 2)))
+    >>> np.degrees(one.places).round(9).tolist(), one.surface
     ([0.0, 90.0, 180.0, 270.0], None)
     >>> angles = dict(zip(pairs, np.radians([120, 95, 45, 85])))
-    >>> [round(degrees(one.cone_angle), 3) for one in linkage_on_cones(ConicalLinkage(chain, angles=angles))]
-    [13.998, 29.044]
+    >>> [str(one.surface) for one in linkage_on_surfaces(SurfaceLinkage(chain, angles=angles))]
+    ['lambda 13.99835668 degrees', 'lambda 29.04446943 degrees']
     """
     if linkage.steps is not None:
-        return [OnCone(linkage.chain, linkage.places(), cone_angle or linkage.cone_angle)]
-    if cone_angle is not None:
-        raise UnsolvableError("link angles tell the cone themselves: leave --lambda out")
+        return [OnSurface(linkage.chain, linkage.places(), surface or linkage.surface)]
+    if surface is not None:
+        option, sizes = ("lambda", "link angles") if linkage.kind == "cone" else ("radius", "lengths")
+        raise UnsolvableError(f"{sizes} tell the {linkage.kind} themselves: leave --{option} out")
     return [
-        OnCone(linkage.chain, [cone.places[joint] for joint in linkage.chain.joints], cone.cone_angle)
-        for cone in map_linkage(linkage, tolerance).cones
+        OnSurface(linkage.chain, [one.places[joint] for joint in linkage.chain.joints], one.surface)
+        for one in map_linkage(linkage, tolerance).surfaces
     ]
 
 
-def cone_of_number(cones: Sequence[OnCone], number: int | None) -> OnCone:
-    """Return the cone of a number, from 1, of the cones of a linkage; it is needed where there are several.
+def surface_of_number(surfaces: Sequence[OnSurface], number: int | None, kind: str = "cone") -> OnSurface:
+    """Return the surface of a number, from 1, of those of a linkage; it is needed where there are several.
 
-    Raises `UnsolvableError` if there is no cone, or several and no number, or none of this number.
+    Raises `UnsolvableError` if there is none of the kind, or several and no number, or none of this number.
 
-    >>> cone_of_number(loop_on_cones(np.radians([120, 95, 45, 85])), None)
+    >>> surface_of_number([], None, "cylinder")
     Traceback (most recent call last):
     ...
-    graphs.errors.UnsolvableError: the linkage lies on 2 cones, of 13.9984, 29.0445 degrees: expected --cone
+    graphs.errors.UnsolvableError: the linkage lies on no cylinder
     """
-    if not cones:
-        raise UnsolvableError("the linkage lies on no cone")
-    if number is None and len(cones) > 1:
-        told = ", ".join(f"{degrees(one.cone_angle or 0.0):.6g}" for one in cones)
-        raise UnsolvableError(f"the linkage lies on {len(cones)} cones, of {told} degrees: expected --cone")
-    if number is not None and number > len(cones):
+    if not surfaces:
+        raise UnsolvableError(f"the linkage lies on no {kind}")
+    if number is None and len(surfaces) > 1:
+        told = ", ".join(str(one.surface) for one in surfaces)
+        raise UnsolvableError(f"the linkage lies on {len(surfaces)} {kind}s, of {told}: expected --{kind}")
+    if number is not None and number > len(surfaces):
         raise UnsolvableError(
-            f"the linkage lies on {numbered(len(cones), 'cone')}: there is none of number {number}"
+            f"the linkage lies on {numbered(len(surfaces), kind)}: there is none of number {number}"
         )
-    return cones[(number or 1) - 1]
+    return surfaces[(number or 1) - 1]
 
 
-def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
+def loop_on_cones(angles: Sequence[float]) -> list[OnSurface]:
     """Return a loop of link angles (radians) on each of its cones.
 
     Parameters
@@ -273,7 +456,7 @@ def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
 
     Returns
     -------
-    list of OnCone
+    list of OnSurface
 
     Examples
     --------
@@ -281,23 +464,48 @@ def loop_on_cones(angles: Sequence[float]) -> list[OnCone]:
     ['both', 'both']
     """
     return [
-        OnCone(ring(len(angles)), azimuths(cone.steps).tolist(), cone.size) for cone in map_to_cones(angles).cones
+        OnSurface(ring(len(angles)), azimuths(cone.steps).tolist(), Cone(cone.size))
+        for cone in map_to_cones(angles).cones
     ]
 
 
-def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> OnCone:
-    """Return a loop from its steps round the cone (radians); the last is added if the rest do not close.
+def loop_on_cylinders(lengths: Sequence[float]) -> list[OnSurface]:
+    """Return a loop of lengths on each of its cylinders.
+
+    Parameters
+    ----------
+    lengths : float[n]
+        In loop order, any one unit.
+
+    Returns
+    -------
+    list of OnSurface
+
+    Examples
+    --------
+    >>> [str(loop.surface) for loop in loop_on_cylinders([4, 3, 5, 1])]
+    ['radius 2.536145625', 'radius 2.590911136']
+    """
+    chain = as_planar(ring(len(lengths)))
+    return [
+        OnSurface(chain, azimuths(one.steps).tolist(), Cylinder(one.size))
+        for one in map_to_cylinders(lengths).cylinders
+    ]
+
+
+def loop_of_steps(steps: Sequence[float], surface: Surface | None = None) -> OnSurface:
+    """Return a loop from its steps round the surface (radians); the last is added if the rest do not close.
 
     Parameters
     ----------
     steps : float[n]
-        Signed, radians, in [-pi, pi], none 0.
-    cone_angle : float, optional
-        lambda, radians; any cone without it.
+        Signed, radians, in [-pi, pi], none 0. A step of half a turn says by its sign which way its link curves.
+    surface : Cone or Cylinder, optional
+        Any without it.
 
     Returns
     -------
-    OnCone
+    OnSurface
 
     Raises
     ------
@@ -309,6 +517,8 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> On
     >>> loop = loop_of_steps(np.radians([120, 95, 45]))
     >>> np.degrees(loop.places).round(9).tolist()
     [0.0, 120.0, 215.0, 260.0]
+    >>> [dict(loop_of_steps(np.radians([40, 50, 90, half])).arcs) for half in (180, -180)]
+    [{4: '4'}, {4: '1'}]
     """
     given = list(steps)
     for place, step in enumerate(given):
@@ -320,4 +530,13 @@ def loop_of_steps(steps: Sequence[float], cone_angle: float | None = None) -> On
         given.append(last)
     if len(given) < 3:
         raise InvariantError("step", f"{len(given)} steps", "three or more")
-    return OnCone(ring(len(given)), azimuths(given).tolist(), cone_angle)
+    chain = ring(len(given))
+    joints = list(chain.joints)
+    arcs: dict[LinkId, JointId] = {
+        place + 1: joints[place if step > 0 else (place + 1) % len(joints)]
+        for place, step in enumerate(steps)
+        if abs(step) >= HALF_TURN
+    }
+    if isinstance(surface, Cylinder):
+        chain = as_planar(chain)
+    return OnSurface(chain, azimuths(given).tolist(), surface, arcs)

@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.geometry import across, sectors, unit
+from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
 from synth.surfaces.circuit import azimuths
-from synth.surfaces.cone import checked_cone_angle
 
 __all__ = [
     "PoseCheck",
@@ -24,7 +24,6 @@ __all__ = [
     "dihedral_angles",
     "joint_axes",
     "measured_dihedral_angles",
-    "strip",
 ]
 
 
@@ -42,37 +41,6 @@ class PoseCheck:
 
     link_angles: Floats
     on_cone: Floats
-
-
-def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the directions of joint axes (Hyatt et al. 2020, Eq. 17).
-
-    Parameters
-    ----------
-    places : float[..., J]
-        Azimuths, radians.
-    cone_angle : float[...]
-        lambda of each linkage.
-
-    Returns
-    -------
-    float[..., J, 3]
-        Unit vectors (cos lambda sin t, -sin lambda, cos lambda cos t).
-
-    Raises
-    ------
-    InvariantError
-        If a cone angle is out of range.
-
-    Examples
-    --------
-    >>> joint_axes([0.0], np.radians(20)).round(12)
-    array([[ 0.        , -0.34202014,  0.93969262]])
-    """
-    t = np.asarray(places, dtype=float)
-    lam = checked_cone_angle(cone_angle)[..., np.newaxis]
-    c, s = np.cos(lam), np.sin(lam)
-    return np.stack([c * np.sin(t), np.broadcast_to(-s, t.shape), c * np.cos(t)], axis=-1)
 
 
 def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
@@ -135,18 +103,6 @@ def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
     e = np.asarray(axes, dtype=float)
     u, v = across(np.roll(e, 1, axis=-2), e), across(np.roll(e, -1, axis=-2), e)
     return np.asarray(np.arctan2((np.cross(u, v) * unit(e)).sum(axis=-1), (u * v).sum(axis=-1)))
-
-
-def strip(start: float, end: float, cone_angle: float, radii: tuple[float, float], points: int = 24) -> Floats:
-    """Return points of a link that is a strip of the cone between two ruling lines: float[2, points, 3].
-
-    Start and end are azimuths, radians; radii are the distances of its two edges from the apex.
-
-    >>> strip(0, 1, 0.3, (1, 2)).shape
-    (2, 24, 3)
-    """
-    axes = joint_axes(np.linspace(start, end, points), cone_angle)
-    return np.stack([radii[0] * axes, radii[1] * axes])
 
 
 def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> PoseCheck:

@@ -1,4 +1,4 @@
-"""Pictures of a linkage at its conformed position: circle with ICRL and shadow, cone with the links as strips.
+"""Pictures of a linkage at its conformed position: circle with ICRL and shadow, surface with the links as strips.
 
 Both are seen from the side of the apex, where azimuths grow counter-clockwise. The layers drawn are those counted
 (`synth.conformed.layers`). Static pictures; Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
@@ -6,6 +6,7 @@ Both are seen from the side of the apex, where azimuths grow counter-clockwise. 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import cos, pi, sin
 
 import numpy as np
@@ -13,10 +14,11 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.geometry import unit
+from graphs.mechanism.surfaces import Cylinder, Surface
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
 from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.rates import ConformedChain, first_order
-from synth.drawing.on_cone import colour_of_link, cone_layer
+from synth.drawing.on_surface import colour_of_link, surface_layer
 from synth.drawing.scene.frame import Frame, captions_of, page_of
 from synth.drawing.scene.moving import moved
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
@@ -45,23 +47,26 @@ _WAYS = {
 def draw_conformed(
     chain: ConformedChain,
     places: npt.ArrayLike,
-    cone_angle: float | None = None,
+    surface: Surface | None = None,
     title: str = "",
     *,
     grounded: bool = True,
+    begins: Mapping[int, int] | None = None,
 ) -> Scene:
-    """Return a picture of a linkage on its circle and, with a cone angle, on its cone, in the fewest layers.
+    """Return a picture of a linkage on its circle and, if it is known, on its surface, in the fewest layers.
 
     Parameters
     ----------
     chain : ConformedChain
     places : float[J]
         Azimuths of the joints, radians.
-    cone_angle : float, optional
-        lambda, radians; None for a cylinder, of which only the circle is drawn.
+    surface : Cone or Cylinder, optional
+        None for any, of which only the circle is drawn.
     title : str, optional
     grounded : bool, optional
         Whether the first link is fixed; else nothing is drawn of motions.
+    begins : mapping of int to int, optional
+        Number of a link that spans half a turn to that of the joint at which its arc begins.
 
     Raises
     ------
@@ -71,16 +76,18 @@ def draw_conformed(
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
+    >>> from graphs.mechanism.surfaces import Cone
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
-    >>> [layer.name for layer in draw_conformed(chain, np.radians([40, 90, 140, 0]), 0.4).layers]
+    >>> [layer.name for layer in draw_conformed(chain, np.radians([40, 90, 140, 0]), Cone(0.4)).layers]
     ['circle', 'cone', 'legend', 'caption']
     """
     t = np.asarray(places, dtype=float)
-    laid = links_in_layers(chain, t)
-    shapes, told = _circle(chain, t, laid, grounded)
+    laid = links_in_layers(chain, t, begins)
+    seen = "seen along the axis" if isinstance(surface, Cylinder) else "seen from the apex"
+    shapes, told = _circle(chain, t, laid, grounded, seen)
     layers = [Layer("circle", tuple(shapes))]
-    if cone_angle is not None:
-        layers.append(moved(cone_layer(chain, t, laid, cone_angle, _SIDE), _SIDE, 0.0))
+    if surface is not None:
+        layers.append(moved(surface_layer(chain, t, laid, surface, _SIDE), _SIDE, 0.0))
     wide = _SIDE * len(layers)
     legend, high = _legend(told, wide)
     layers.append(Layer("legend", tuple(legend)))
@@ -98,7 +105,7 @@ def _at(azimuth: float, radius: float = 1.0) -> Point:
 
 
 def _circle(
-    chain: ConformedChain, t: Floats, laid: LinksInLayers, grounded: bool
+    chain: ConformedChain, t: Floats, laid: LinksInLayers, grounded: bool, seen: str
 ) -> tuple[list[Shape], list[tuple[str, str]]]:
     """Return circle, links as arcs and chords, ICRL, the shadow of a four-bar; and the words of the legend."""
     motion = first_order(chain, t)
@@ -126,7 +133,7 @@ def _circle(
         shapes.append(Disc(_at(place), 2.6, "paper", "ink", NORMAL, mark))
         shapes.append(Label(_at(place, 0.87), str(joint), SMALL, widest=8, data=mark))
     shapes += [Line([_at(turn, 0.04), _at(turn + pi, 0.04)], "ink", FINE) for turn in (0, pi / 2)]
-    notes = ["seen from the apex"] + ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * four_bar
+    notes = [seen] + ["ICRL dashed"] * bool(np.isfinite(lines).any()) + ["shadow grey"] * four_bar
     shapes.append(Label((_SIDE / 2, SMALL), ", ".join(notes), SMALL, "grey"))
     return shapes, told
 

@@ -9,6 +9,7 @@ sorted out by bounding boxes first. Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from math import ceil, radians
 
 import numpy as np
@@ -17,13 +18,17 @@ from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import area_vector, frame_about, unit
 from graphs.mechanism.precision import extent_of
 from graphs.tolerances import DOUBLE, Tolerances
+from synth.motion.closure import ClosureEquations
+from synth.motion.newton import corrected
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 
-__all__ = ["Collision", "Panels"]
+__all__ = ["Collision", "Crossed", "Panels"]
 
 _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
+_REFINED = 10
+"""Halvings of the way between two frames."""
 _BLOCK = 256
 """Pieces whose boxes are compared with all others at a time."""
 
@@ -107,6 +112,28 @@ class Panels:
         return np.where(both, low, np.inf), np.where(both, high, -np.inf)
 
 
+@dataclass(frozen=True, slots=True)
+class Crossed:
+    """Where panels pass through each other in the frames of a path.
+
+    Attributes
+    ----------
+    frame : int
+        The last one before they do, or the first of all.
+    angles : float[J]
+        Joint angles where they begin to, radians, to a thousandth of what they change between two frames.
+    panels : tuple of int
+        The two.
+    frames : tuple of int
+        Numbers of the frames in which any do.
+    """
+
+    frame: int
+    angles: Floats
+    panels: tuple[int, ...]
+    frames: tuple[int, ...]
+
+
 class Collision(Event):
     """Panels begin to pass through each other: a walk ends before, at its last frame.
 
@@ -148,9 +175,45 @@ class Collision(Event):
         if self._met is not None:
             walk.ended = self._record(walk, self._met)
 
+    def among(self, closure: ClosureEquations, angles: Floats, places: Floats) -> Crossed | None:
+        """Return where panels pass through each other in the frames of a path; None where they do in none.
+
+        Parameters
+        ----------
+        closure : ClosureEquations
+        angles : float[F, J]
+            Joint angles of the frames, radians.
+        places : float[F, vertices, 3]
+            The vertices there.
+        """
+        crossing = [self._panels.crossing(one) for one in places]
+        frames = [frame for frame, pair in enumerate(crossing) if pair is not None]
+        if not frames:
+            return None
+        first = frames[0]
+        panels, at = self._begun(closure, angles[max(first - 1, 0)], angles[first])
+        return Crossed(max(first - 1, 0), at, panels, tuple(frames))
+
+    def _begun(self, closure: ClosureEquations, free: Floats, crossed: Floats) -> tuple[tuple[int, ...], Floats]:
+        """Return which panels first pass through each other between two frames, and joint angles there.
+
+        By halves, on closed configurations near the straight line between the ends, as long as there are any.
+        """
+        panels: tuple[int, ...] = self._crossing(crossed) or ()
+        for _ in range(_REFINED):
+            middle = corrected(closure, (free + crossed) / 2.0)
+            if not middle.closed:
+                break
+            pair = self._crossing(middle.angles)
+            if pair is None:
+                free = middle.angles
+            else:
+                crossed, panels = middle.angles, pair
+        return panels, crossed
+
     def _record(self, walk: Walk, angles: Floats) -> str:
         walk.record("collision", angles, panels=self._crossing(angles) or ())
-        return walk.met[-1].told(range(walk.closure.joints) if walk.goal is None else walk.goal.names)
+        return walk.met[-1].line(range(walk.closure.joints) if walk.goal is None else walk.goal.names)
 
     def _crossing(self, angles: Floats) -> tuple[int, int] | None:
         return self._panels.crossing(self._places(angles[None])[0])

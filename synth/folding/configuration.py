@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import islice
 from math import degrees
 
 import numpy as np
@@ -18,30 +17,24 @@ from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
 from graphs.ids import JointId
-from graphs.mechanism.precision import precision_of_sheet
+from graphs.mechanism.precision import keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import DOUBLE
 from synth.folding.collisions import Collision, Panels
-from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.repair import Mended, flattened, mended, nearly_agreeing, precision_of
+from synth.folding.mending.near import covers
+from synth.folding.mending.nearest import Nearby, Written, beyond_precision, nearby
+from synth.folding.mending.repair import Mended, flattened
 from synth.folding.opened import opened
 from synth.folding.vertices import vertex_places
-from synth.motion.branches import MOST_BRANCHES
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration, Placed
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
-from synth.motion.misfit import EXACT, doubt_of, least_misfit
-from synth.motion.second_order import rate_spaces, rates_near
-from synth.motion.singular.quadrics import quadrics_of
+from synth.motion.misfit import EXACT, doubt_of, doubt_of_rigid
+from synth.motion.path import Path
+from synth.motion.walk.event import PathEvent
 
 __all__ = ["SheetConfiguration", "configuration_of_sheet"]
-
-_ALL_WAYS = 120
-"""Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
-
-_TURNED_WAYS = 4
-"""So many motions are tried of what is rigid."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,6 +53,12 @@ class SheetConfiguration(Configuration):
         Of this sheet.
     repairs : tuple of Mended
         What was done to the coordinates.
+    near : Nearby
+        What mending found: the mechanisms within the precision, or the nearest one beyond.
+    written : SheetConfiguration or None
+        As the coordinates are written, where vertices were moved.
+    alternatives : tuple of SheetConfiguration
+        Other mechanisms within the precision, which have branches that this one has not.
     """
 
     drawn: Sheet = field(kw_only=True)
@@ -67,11 +66,9 @@ class SheetConfiguration(Configuration):
     sheet: Sheet = field(kw_only=True)
     mechanism: SheetMechanism = field(kw_only=True)
     repairs: tuple[Mended, ...] = field(kw_only=True, default=())
-
-    @property
-    def verb(self) -> str:
-        """What it does."""
-        return "Folds"
+    near: Nearby = field(kw_only=True, default=Nearby())
+    written: SheetConfiguration | None = field(kw_only=True, default=None)
+    alternatives: tuple[SheetConfiguration, ...] = field(kw_only=True, default=())
 
     @cached_property
     def flat(self) -> bool:
@@ -93,16 +90,52 @@ class SheetConfiguration(Configuration):
         """What was done to rounded coordinates."""
         return tuple(map(str, self.repairs))
 
+    @property
+    def misfit(self) -> float:
+        """Largest displacement of a vertex, in units of the extent, from where it is written."""
+        return sum((repair.moved for repair in self.repairs), 0.0)
+
+    @property
+    def as_drawn(self) -> Written:
+        """What mending begins with."""
+        return Written(self.sheet, self.mechanism, self.linkage, self.precision, self.wanted)
+
+    @property
+    def nearly(self) -> bool:
+        """Whether rates nearly agree that do not agree exactly, by what the coordinates tell apart."""
+        return self.near.nearly
+
+    @property
+    def unsettled(self) -> bool:
+        """Whether it may move within the precision in ways for which no mechanism was found."""
+        return self.near.unsettled
+
     @cached_property
+    def nearest(self) -> Mended | None:
+        """The nearest mechanism that was found, of what does not move: beyond the precision; None if none was."""
+        if self.near.within or self.near.beyond or self.near.unsettled:
+            return self.near.beyond
+        return beyond_precision(self.as_drawn)
+
+    @cached_property
+    def elsewhere(self) -> tuple[tuple[Configuration, int], ...]:
+        """Branches that exist within the precision, but on another mechanism than this: that, and their number."""
+        known = [] if self.branches is None else [branch.space for branch in self.branches.branches]
+        found: list[tuple[Configuration, int]] = []
+        for other in self.alternatives:
+            branches = () if other.branches is None else other.branches.branches
+            for number, branch in enumerate(branches):
+                if branch.freedoms and not any(covers(space, branch.space) for space in known):
+                    found.append((other, number))
+                    known.append(branch.space)
+        return tuple(found)
+
+    @property
     def doubt(self) -> str:
-        """What rounded coordinates leave open where nothing moves; empty if they are exact."""
-        precision = precision_of_sheet(self.sheet)
-        if precision.size <= EXACT or self.branches is None or self.branches.branches:
-            return doubt_of(precision)
-        wanted, most = self.wanted, _most(self.linkage)
-        near = nearly_agreeing(self.linkage, precision, wanted, most)
-        misfits = [least_misfit(self.closure, self.linkage.angles, rates) for rates in islice(near, _TURNED_WAYS)]
-        return doubt_of(precision, min(misfits, default=None))
+        """What is to be said of the coordinates where nothing moves or a motion ends; empty if nothing is."""
+        if self.branches is None or self.branches.branches:
+            return doubt_of(self.precision)
+        return doubt_of_rigid(self.precision, None if self.nearest is None else self.nearest.moved, self.unsettled)
 
     def placed(self, angles: Floats) -> Placed:
         """Return where vertices are at fold angles float[F, J], radians."""
@@ -132,6 +165,15 @@ class SheetConfiguration(Configuration):
         )
         return replace(self.sheet, coordinates=tuple(map(tuple, there.tolist())), fold_angles=turned, frames=None)
 
+    def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
+        """Return a path with the event that panels pass through each other, and the frames in which they do."""
+        crossed = self.collision().among(self.closure, path.angles, points)
+        if crossed is None:
+            return path, ()
+        event = PathEvent("collision", crossed.frame, driver, (driver,), crossed.angles, panels=crossed.panels)
+        events = sorted((*path.events, event), key=lambda one: one.frame)
+        return replace(path, events=tuple(events)), crossed.frames
+
     def collision(self) -> Collision:
         """Return what ends a walk before panels pass through each other."""
         panel_of = {face: panel for panel, faces in enumerate(self.mechanism.panels) for face in faces}
@@ -154,7 +196,12 @@ def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:
 
 
 def configuration_of_sheet(
-    sheet: Sheet, *, frame: int | None = None, hinge_flat: bool = False, mend: bool = True
+    sheet: Sheet,
+    *,
+    frame: int | None = None,
+    hinge_flat: bool = False,
+    mend: bool = True,
+    precision: float | None = None,
 ) -> SheetConfiguration:
     """Return a crease pattern at the configuration of its coordinates, opened along cuts and mended.
 
@@ -168,6 +215,8 @@ def configuration_of_sheet(
         Make hinges of flat (F) edges too.
     mend : bool, optional
         Move vertices within the precision of their coordinates if the sheet moves in more ways so.
+    precision : float, optional
+        The error that a coordinate may have, in their unit; by default as the sheet has it.
 
     Raises
     ------
@@ -183,68 +232,47 @@ def configuration_of_sheet(
     >>> at, at.branches.regular
     (<SheetConfiguration: <PosedLinkage: 2 links, 1 joints, 0 loops>>, True)
     """
-    sheet = lying(sheet, frame)
+    sheet = stated(lying(sheet, frame), precision)
     if sheet.coordinates is None:
         raise UnsolvableError(f"to move needs coordinates, and {sheet!r} has none")
-    precision = precision_of_sheet(sheet)
-    whole = with_all_edges(sheet)
-    flat = flattened(whole) if mend else None
-    repairs = [] if flat is None else [flat]
-    whole = whole if flat is None else flat.sheet
+    found = precision_of_sheet(sheet)
+    whole = keeping(with_all_edges(sheet), found)
+    flat = flattened(whole, found) if mend else None
+    whole = whole if flat is None else keeping(flat.sheet, found)
     dual = mechanism_of_sheet(whole, hinge_flat=hinge_flat)
     apart = opened(whole, dual)
+    if apart is not whole:
+        apart = keeping(apart, found)
     mechanism = dual if apart is whole else mechanism_of_sheet(apart, hinge_flat=hinge_flat)
     linkage = linkage_of_sheet(apart, mechanism)
-    closure = ClosureEquations(linkage)
-    check_closed(closure, linkage)
-    repair = _repair(apart, mechanism, linkage) if mend else None
-    if repair is not None:
-        apart, linkage = repair.sheet, linkage_of_sheet(repair.sheet, mechanism)
-        repairs.append(repair)
-    return SheetConfiguration(
+    check_closed(ClosureEquations(linkage), linkage)
+    at = SheetConfiguration(
         linkage,
-        precision,
-        precision.size <= EXACT or repair is not None,
+        found,
+        found.size <= EXACT,
         sheet,
         drawn=sheet,
         dual=dual,
         sheet=apart,
         mechanism=mechanism,
-        repairs=tuple(repairs),
+        repairs=() if flat is None else (flat,),
     )
+    return _mended(at) if mend else at
 
 
-def _repair(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> Mended | None:
-    """Return the sheet with its vertices moved, if it moves in fewer ways as it is written than it nearly does."""
-    places = VertexPlaces(sheet, mechanism, linkage)
-    precision = precision_of(places, sheet)
-    if precision.size <= EXACT:
-        return None
-    wanted, most = _wanted(_marks_of(sheet, linkage)), _most(linkage)
-    nearly_all = () if most is None else _ways(linkage, Tolerances.of(precision.size).zero)
-
-    def moves(linkage: PosedLinkage) -> bool:
-        if most is not None:
-            return _ways(linkage) >= nearly_all
-        return rates_near(ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), wanted) is not None
-
-    if places.bent <= EXACT and moves(linkage):
-        return None
-    return mended(sheet, places, linkage, wanted, lambda one: moves(linkage_of_sheet(one, mechanism)), most)
+def _mended(written: SheetConfiguration) -> SheetConfiguration:
+    """Return the configuration on the nearest mechanism with the assignment or the most branches."""
+    near = nearby(written.as_drawn)
+    others = [_on(written, one) for one in near.within]
+    if not others or near.written_first:
+        return replace(written, near=near, alternatives=tuple(others))
+    kept = [written] if near.written_too else []
+    return replace(others[0], near=near, written=written, alternatives=(*others[1:], *kept))
 
 
-def _wanted(marks: Floats) -> Floats:
-    """Return which way joints are to go: as they are marked, or all alike."""
-    return marks if marks.any() else np.ones(len(marks))
-
-
-def _most(linkage: PosedLinkage) -> int | None:
-    """Return how many spaces of rates are looked for; None for linkages too large to split their rates."""
-    return MOST_BRANCHES if len(linkage.graph.joints) <= _ALL_WAYS else None
-
-
-def _ways(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> tuple[int, ...]:
-    """Return the dimensions of the spaces of rates that agree, the largest first."""
-    quadrics = quadrics_of(linkage)
-    spaces, _ = rate_spaces(ClosureEquations(linkage), linkage.angles, quadrics, MOST_BRANCHES, zero)
-    return tuple(sorted((space.basis.shape[1] for space in spaces), reverse=True))
+def _on(written: SheetConfiguration, mended: Mended) -> SheetConfiguration:
+    """Return a configuration with its vertices moved."""
+    linkage = linkage_of_sheet(mended.sheet, written.mechanism)
+    repairs = (*written.repairs, mended)
+    sheet = keeping(mended.sheet, written.precision)
+    return replace(written, linkage=linkage, exact=True, sheet=sheet, repairs=repairs)

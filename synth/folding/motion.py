@@ -25,6 +25,7 @@ def fold(
     branch: int | str | None = None,
     frames: int = FRAMES,
     collisions: bool = False,
+    precision: float | None = None,
     report: Callable[[int], None] | None = None,
 ) -> Motion:
     """Fold a crease pattern from its pose, panels rigid, until driven creases have the angles asked for.
@@ -46,6 +47,9 @@ def fold(
         How many after the first.
     collisions : bool, optional
         End before the first frame on whose way panels pass through each other.
+    precision : float, optional
+        The error that a coordinate may have, in their unit; by default as they are written, or as the geometry
+        shows. A Configuration has its own.
     report : callable, optional
         Called with the number of frames after each.
 
@@ -71,7 +75,7 @@ def fold(
     """
     check_given("fold", sheet, Sheet)
     return motion_of(
-        configuration_of_sheet(sheet),
+        configuration_of_sheet(sheet, precision=precision),
         Asked(drive or {}, along or {}, branch, frames, report),
         collisions=collisions,
     )

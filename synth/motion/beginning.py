@@ -15,7 +15,7 @@ from graphs.rank.spaces import null_space
 from graphs.tolerances import DOUBLE
 from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.configuration import Configuration
-from synth.motion.marked import rates_as_marked
+from synth.motion.marked import marked_rates, rates_as_marked
 from synth.motion.second_order import RateSpace
 from synth.motion.singular.nearest import begun_near
 from synth.motion.singular.sampling import rates_towards
@@ -23,6 +23,8 @@ from synth.motion.singular.sampling import rates_towards
 __all__ = ["Wanted", "beginning"]
 
 _LARGE = 10**9
+_STARTS = 8
+"""Of the search for rates with all marks at which several joints are driven."""
 _DIGITS = 6
 """Of a cosine: branches that point along rates alike are told apart by their order."""
 
@@ -57,34 +59,44 @@ def beginning(configuration: Configuration, wanted: Wanted) -> tuple[int | None,
     is no such branch.
     """
     found, towards = configuration.branches, wanted.towards(configuration)
-    if found is None:
+    if found is None or (configuration.one_way and wanted.branch is None):
         if wanted.branch is not None:
-            raise UnsolvableError(f"branches of more than {MOST_JOINTS} joints are not looked for")
-        near = begun_near(configuration.closure, configuration.linkage, towards).rates
+            raise UnsolvableError(
+                f"branches of more than {MOST_JOINTS} joints are not looked for, nor of large sheets with many "
+                "vertices of more than four creases"
+            )
+        near = (
+            begun_near(configuration.closure, configuration.linkage, towards).rates
+            if wanted.along
+            else configuration.begun.rates
+        )
         if near is None:
             raise UnsolvableError(
-                f"no motion near to how the edges are marked was found at this pose{configuration.doubt}"
+                f"no motion near the given assignment was found at this configuration{configuration.doubt}"
             )
         return None, near
     if not found.branches:
-        raise UnsolvableError(f"{_how_surely(found)}: no motion begins at this pose{configuration.doubt}")
+        written = "exactly as written, " if configuration.nearly else ""
+        raise UnsolvableError(f"{written}{_no_motion(found)}{configuration.doubt}")
     number = _chosen(configuration, found, wanted)
     marked = configuration.marked.rates
     if marked is not None and wanted.branch is None and len(wanted.driven) < 2 and not wanted.along:
         return None if found.regular else number, marked
-    rates = _rates(found.branches[number], wanted, towards)
+    rates = _rates(found.branches[number], wanted, towards, configuration.marks)
     return None if found.regular else number, rates
 
 
-def _how_surely(found: Branches) -> str:
-    """Return how it is known that nothing folds."""
-    told = {
-        "no rates": "no rates close even to first order",
+def _no_motion(found: Branches) -> str:
+    """Return that nothing moves from here, with the proof if there is one."""
+    proofs = {
+        "no rates": "no rates close the loops to first order",
         "definite stress": "a self-stress is definite on all flexes",
         "cases": "no rates agree to second order",
     }
     proof = found.rigidity.proof if found.rigidity is not None else None
-    return f"nothing folds, which is proved ({told[proof]})" if proof else "nothing that folds was found"
+    if proof:
+        return f"no motion begins at this configuration (proved: {proofs[proof]})"
+    return "no motion was found at this configuration"
 
 
 def _chosen(configuration: Configuration, found: Branches, wanted: Wanted) -> int:
@@ -114,11 +126,18 @@ def _cosine(branch: Branch, wanted: Wanted, towards: Floats) -> float:
     return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
 
 
-def _rates(branch: Branch, wanted: Wanted, towards: Floats) -> Floats:
-    """Return rates of a branch at which several driven joints begin in the proportions they are to turn in."""
+def _rates(branch: Branch, wanted: Wanted, towards: Floats, marks: Floats) -> Floats:
+    """Return rates of a branch at which several driven joints begin in the proportions they are to turn in.
+
+    With all marks, if there are such.
+    """
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
     if len(wanted.driven) < 2 and not wanted.along:
         return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
+    assigned = marked_rates(space, marks, _STARTS) if marks.any() and not wanted.along else []
+    for begun in assigned:
+        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+            return np.asarray(begun / np.abs(begun).max())
     for start in (towards, space.basis.sum(axis=1)):
         begun = rates_towards(space, start)
         if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:

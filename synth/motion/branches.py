@@ -9,24 +9,26 @@ the sign of all rates together; farther off, two branches may be one curve. Theo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from math import degrees, inf
 from typing import Any, Literal
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
+from graphs.arrays import Floats, Ints
+from graphs.canonical import canonical_basis, canonical_order, signed
 from graphs.ids import JointId
 from graphs.rank.singular_values import spectrum
+from graphs.rank.spaces import inertia, rank_of
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
+from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.second_order import RateSpace, largest_only, rates_at, rates_near, spaces_within
 from synth.motion.singular.flat_vertices import FlatVertices
+from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.nearest import spaces_near
-from synth.motion.singular.quadrics import Quadric, all_quadrics
+from synth.motion.singular.quadrics import Quadric, all_quadrics, local_forms
 from synth.motion.singular.rigidity import Rigidity, rigidity_of
 from synth.motion.singular.sampling import (
     Followed,
@@ -71,6 +73,8 @@ _START = 2e5
 """Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
+_MORE = 100
+"""So much more is looked for on request."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +93,8 @@ class Search:
         So many branches are followed; of others it is told that they may begin.
     towards : float[J], optional
         Signs of rates: if the search ends before it is through, the branch near to these is among the listed.
+    steps : int, optional
+        All branches together may be followed so many steps, and each twenty.
     """
 
     most: int = 4096
@@ -96,10 +102,13 @@ class Search:
     zero: float = DOUBLE.zero
     follow: int | None = None
     towards: Floats | None = None
+    steps: int = _STEPS
 
 
-def search_for(joints: int, towards: Floats | None) -> Search:
-    """Return how far branches of a linkage of so many joints are looked for in a few seconds."""
+def search_for(joints: int, towards: Floats | None, *, more: bool = False) -> Search:
+    """Return how far branches of so many joints are looked for: a few seconds, or a hundred times more."""
+    if more:
+        return Search(_MORE * MOST_BRANCHES, _MORE * MOST_WORK, towards=towards, steps=_MORE * _STEPS)
     return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
@@ -113,8 +122,9 @@ class Branch:
         At a general pose of the branch, to second order. None where no motion was found, or second order does not
         tell.
     certainty : {"proved", "numerical", "not known"}
-        Proved: the pose is regular, or the branch is linear in tan(fold / 2). Numerical: followed with closed
-        loops. Not known: rates agree to second order, and no motion was found.
+        Proved: the pose is regular, the branch is linear in tan(fold / 2), or all that second order adds is one
+        equation that is not degenerate. Numerical: followed with closed loops. Not known: rates agree to second
+        order, and no motion was found.
     space : RateSpace
         The rates at which it can begin.
     rates : float[J]
@@ -130,6 +140,8 @@ class Branch:
         By how much loops do not close there.
     followed : float
         How far the joint that moves most has moved there, radians.
+    begun : bool
+        Whether it was followed, or proved; False of those that the search had nothing left for.
 
     Examples
     --------
@@ -151,6 +163,7 @@ class Branch:
     sample: Floats
     error: float
     followed: float
+    begun: bool = True
 
     @property
     def signs(self) -> str:
@@ -181,8 +194,8 @@ class Branches:
         the joints.
     exhaustive : bool
         Whether there are no others: every choice of modes was tried, and rates that agree to second order are
-        all there are; the pose is regular, and the one branch has as many freedoms as there are rates; or nothing
-        moves, and that is proved.
+        all there are; the pose is regular, and the one branch has as many freedoms as there are rates; all that
+        second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
     regular : bool
         Whether the pose is a general one, with one branch.
     complete : bool
@@ -193,6 +206,8 @@ class Branches:
         where several equations are left that are no products.
     rigidity : Rigidity or None
         Where there are no branches: whether it is proved that nothing moves.
+    order : tuple of int
+        Places of the joints in an order that does not depend on the file.
     """
 
     branches: tuple[Branch, ...]
@@ -201,6 +216,7 @@ class Branches:
     complete: bool
     method: Method
     rigidity: Rigidity | None = None
+    order: tuple[int, ...] = ()
 
     @property
     def no_motion(self) -> Certainty | None:
@@ -234,19 +250,24 @@ def branches_of(
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
     >>> found = branches_of(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
     >>> [(branch.freedoms, branch.certainty) for branch in found.branches], found.exhaustive
-    ([(1, 'numerical'), (1, 'numerical')], False)
+    ([(1, 'proved'), (1, 'proved')], True)
     """
-    looking = _Looking(linkage, closure or ClosureEquations(linkage), search or Search())
+    looking = _Looking(linkage, closure, search or Search())
     spaces = looking.spaces()
     if not spaces and looking.complete:
-        rigidity = rigidity_of(linkage, looking.closure, looking.search.zero)
-        return Branches((), rigidity.certainty == "proved", False, True, looking.method(spaces), rigidity)
+        rigidity = rigidity_of(linkage, closure, looking.search.zero)
+        return Branches(
+            (), rigidity.certainty == "proved", False, True, looking.method(spaces), rigidity, looking.order
+        )
     regular = looking.is_regular(spaces)
-    branches = tuple(looking.branches(spaces, proved=regular and looking.full_row_rank()))
+    cone = looking.is_cone()
+    branches = looking.branches(spaces, proved=cone or (regular and looking.full_row_rank()))
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
-    all_told = agrees or (looking.vertices.linear and not any(space.left for space in spaces))
+    all_told = agrees or cone or (looking.vertices.linear and not any(space.left for space in spaces))
     method: Method = "regular pose" if regular else looking.method(spaces)
-    return Branches(branches, all_told and looking.complete, regular, looking.complete, method)
+    return Branches(
+        branches, all_told and looking.complete, regular, looking.complete, method, order=looking.order
+    )
 
 
 def first_branch(
@@ -279,23 +300,59 @@ def first_branch(
     '++-+'
     >>> first_branch(linkage, lambda rates: abs(rates).min() > 1.0)
     """
-    looking = _Looking(linkage, ClosureEquations(linkage), search or Search())
-    parts = ((space, rates) for space, rates in looking.parts(looking.spaces()) if admitted(rates))
+    looking = _Looking(linkage, None, search or Search())
+    parts = [(space, looking.ahead(rates)) for space, rates in looking.parts(looking.spaces())]
+    parts = [(space, rates) for space, rates in parts if admitted(looking.as_filed(rates))]
     ways = (looking.branch(space, rates, proved=False, late=False) for space, rates in parts)
-    return next((way for way in ways if way.certainty != "not known"), None)
+    return next((looking.branch_as_filed(way) for way in ways if way.certainty != "not known"), None)
 
 
 class _Looking:
-    """A search for branches: what it needs to know, and whether it came to its end."""
+    """A search for branches: what it needs to know, and whether it came to its end.
 
-    def __init__(self, linkage: PosedLinkage, closure: ClosureEquations, search: Search) -> None:
-        self.linkage, self.closure, self.search = linkage, closure, search
+    All arrays are in an order of the joints that does not depend on the file (`joint_order`), until branches are
+    told.
+    """
+
+    def __init__(self, linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> None:
+        self._order = joint_order(linkage, search.towards)
+        self._place = np.argsort(self._order)
+        self.linkage = in_order(linkage, self._order)
+        self.closure = ClosureEquations(self.linkage)
+        towards = None if search.towards is None else search.towards[self._order]
+        self.search = replace(search, towards=towards)
         self.complete = True
-        self.vertices = FlatVertices(linkage)
+        self.vertices = FlatVertices(self.linkage)
+        self._places_of_loops = _places_of(self.linkage.loops, linkage.loops, self._order)
         self._work = Allowance(search.work)
-        self._allowance = Allowance(_STEPS)
-        self._tangent = rates_at(closure, linkage.angles, search.zero)
-        self._quadrics: list[Quadric] = all_quadrics(linkage, self._tangent, search.zero)
+        self._allowance = Allowance(search.steps)
+        tangent = rates_at(closure or ClosureEquations(linkage), linkage.angles, search.zero)
+        self._tangent = canonical_basis(tangent[self._order])
+        self._stresses = self.closure.rows - len(self.linkage.angles) + self._tangent.shape[1]
+        self._quadrics: list[Quadric] = all_quadrics(self.linkage, self._tangent, search.zero)
+
+    @property
+    def order(self) -> tuple[int, ...]:
+        """The places in the file of the joints."""
+        return tuple(self._order.tolist())
+
+    def as_filed(self, values: Floats) -> Floats:
+        """Return values of the joints, float[J] or float[J, n], in the order of the file."""
+        return np.asarray(values[self._place])
+
+    def branch_as_filed(self, branch: Branch) -> Branch:
+        """Return a branch by the joints and loops in the order of the file."""
+        order = self._order
+        modes = [branch.modes[place] for place in self._places_of_loops]
+        pairs = [None if one is None else sorted(order[list(one)].tolist()) for one in modes]
+        return replace(
+            branch,
+            space=branch.space.in_order(self._place),
+            rates=self.as_filed(branch.rates),
+            still=tuple(sorted(order[list(branch.still)].tolist())),
+            modes=tuple(None if one is None else (one[0], one[1]) for one in pairs),
+            sample=self.as_filed(branch.sample),
+        )
 
     def spaces(self) -> list[RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
@@ -333,6 +390,19 @@ class _Looking:
             and spaces[0].basis.shape[1] == self._tangent.shape[1]
         )
 
+    def is_cone(self) -> bool:
+        """Tell whether one equation is all that second order adds, and its form is not degenerate.
+
+        Then the configurations near the pose are as its solutions are, by Morse's lemma. Joints in no loop turn
+        freely, whatever the equation says.
+        """
+        free = len(self.linkage.angles) - len({joint for loop in self.linkage.loops for joint in loop.joints})
+        if self._stresses != 1 or len(self._quadrics) != 1:
+            return False
+        forms = local_forms(self._tangent, self._quadrics)
+        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear)).signs != 0).sum())
+        return bool(rank == self._tangent.shape[1] - free)
+
     def method(self, spaces: list[RateSpace]) -> Method:
         """Return how branches are found at a singular pose."""
         if any(len(space.left) > 1 for space in spaces):
@@ -353,16 +423,26 @@ class _Looking:
             found += [(space, rates) for rates in here]
         return [found[place] for place in canonical_order([_rank_of(*part) for part in found])]
 
-    def branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
+    def branches(self, spaces: list[RateSpace], *, proved: bool) -> tuple[Branch, ...]:
+        """Return the branches of all spaces in the order of the file, those that were not followed last."""
+        found = [self.branch_as_filed(one) for one in self._branches(spaces, proved=proved)]
+        ranks = canonical_order([_rank_of(one.space, one.rates) for one in found])
+        return tuple(sorted((found[place] for place in ranks), key=_listed_last))
+
+    def _branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
         parts = self.parts(spaces)
         nearest = self._nearest(parts)
-        begun = 0
+        begun, follow = 0, self.search.follow
         for number, (space, rates) in enumerate(parts):
-            late = number != nearest and (self._work.used_up or begun == self.search.follow)
+            late = number != nearest and (self._work.used_up or (follow is not None and begun >= follow))
             begun += not late
             self.complete = self.complete and not late
-            yield self.branch(space, rates, proved=proved, late=late)
+            yield self.branch(space, self.ahead(rates), proved=proved, late=late)
+
+    def ahead(self, rates: Floats) -> Floats:
+        """Return rates or their negatives: those whose first is positive, in the order of the file."""
+        return np.asarray(signed(self.as_filed(rates))[self._order])
 
     def _nearest(self, parts: Sequence[tuple[RateSpace, Floats]]) -> int:
         """Return the number of the part on which most joints go as is wanted."""
@@ -376,6 +456,22 @@ class _Looking:
             agree.append(abs(float(np.sign(np.where(np.abs(there) > DOUBLE.zero_rate, there, 0.0)) @ towards)))
         return int(np.argmax(agree))
 
+    def _freedoms_beside(self, rates: Floats) -> int | None:
+        """Return the freedoms of the branch that begins at some rates; None where second order does not tell.
+
+        If the equations of all self-stresses have independent slopes there, the configurations beside the pose in
+        that direction are a manifold, by the implicit function theorem: the closure equations are divided by the
+        square of the time.
+        """
+        if len(self._quadrics) != self._stresses:
+            return None
+        slopes = np.zeros((self._stresses, self._tangent.shape[1]))
+        for row, quadric in zip(slopes, self._quadrics, strict=True):
+            joints = list(quadric.joints)
+            row[:] = rates[joints] @ quadric.form @ self._tangent[joints] / np.abs(quadric.form).max()
+        independent = rank_of(slopes, DOUBLE.clear) == self._stresses
+        return int(slopes.shape[1] - self._stresses) if independent else None
+
     def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
@@ -388,11 +484,19 @@ class _Looking:
             self._allowance.left = max(self._allowance.left, _AT_LEAST)
             came = followed(self.linkage, self.closure, rates, still, self._allowance)
         certainty: Certainty = "numerical" if came.far else "not known"
-        freedoms = came.freedoms
+        freedoms = self._freedoms_beside(rates) or came.freedoms if came.far else None
         if linear or proved:
-            freedoms, certainty = space.basis.shape[1], "proved"
+            freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         modes = self.vertices.modes(rates)
-        return Branch(freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far)
+        return Branch(
+            freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far, not late or linear
+        )
+
+
+def _places_of(loops: Sequence[PosedLoop], filed: Sequence[PosedLoop], order: Ints) -> list[int]:
+    """Return the place of each loop of a file among the same loops by joints in another order."""
+    place = {frozenset(order[list(loop.joints)].tolist()): number for number, loop in enumerate(loops)}
+    return [place[frozenset(loop.joints)] for loop in filed]
 
 
 def signs_of(rates: Floats) -> str:
@@ -402,6 +506,11 @@ def signs_of(rates: Floats) -> str:
     '+-0'
     """
     return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
+
+
+def _listed_last(branch: Branch) -> tuple[bool, bool]:
+    """Return a key that lists branches without a motion late, and those that were not followed last."""
+    return not branch.begun, branch.certainty == "not known"
 
 
 def _rank_of(space: RateSpace, rates: Floats) -> Floats:

@@ -27,7 +27,8 @@ __all__ = ["ClosureEquations", "carried", "frames_of"]
 class _Alike:
     """Loops of one kind and length k, at the pose: joints and signs [L, k], axes and points float[L, k, 3].
 
-    Frames, float[L, 3, 3], are those of loops with parallel axes: two directions across the axes, and theirs.
+    Frames, float[L, 3, 3], are those of loops with parallel axes: two directions across the axes, and theirs. Of
+    joints that slide `turning`, float[L, k], is 0, of others 1.
     """
 
     joints: Ints
@@ -36,6 +37,7 @@ class _Alike:
     signs: Floats
     centre: Centre
     frames: Floats
+    turning: Floats
 
     @property
     def equations(self) -> int:
@@ -45,13 +47,14 @@ class _Alike:
     def by_axes(self, angles: Floats) -> Floats:
         """Return derivatives by small motions of the axes, each a rotation and a shift: float[L, e, 6 k]."""
         loops, k = self.joints.shape
-        steps = rotations(self.axes, angles[self.joints] * self.signs)
+        values = angles[self.joints] * self.signs
+        steps, slid = rotations(self.axes, values * self.turning), self._slid(values)
         before = carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
         rotation, moved = np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3))
         made = np.empty((loops, 6, k, 6))
         for i in range(k):
             point = self.points[:, i, :, None]
-            moved = moved + (rotation @ (point - steps[:, i] @ point))[..., 0]
+            moved = moved + (rotation @ (point - steps[:, i] @ point + slid[:, i, :, None]))[..., 0]
             rotation = rotation @ steps[:, i]
             after = carried(rotation, moved)
             made[:, :, i] = before - after
@@ -65,18 +68,21 @@ class _Alike:
         """Return residuals float[L, e] and derivatives float[L, e, k]."""
         loops, k = self.joints.shape
         spherical = self.centre is Centre.FINITE
-        steps = rotations(self.axes, angles[self.joints] * self.signs)
+        values = angles[self.joints] * self.signs
+        steps = rotations(self.axes, values * self.turning)
+        slid = None if spherical else self._slid(values)
         rotation = np.broadcast_to(np.eye(3), (loops, 3, 3))
         moved = np.zeros((loops, 3))
         twists = np.empty((loops, 3 if spherical else 6, k))
         for i in range(k):
             axis = (rotation @ self.axes[:, i, :, None])[..., 0]
             twists[:, :3, i] = axis
-            if not spherical:
+            if slid is not None:
                 point = self.points[:, i, :, None]
                 twists[:, 3:, i] = np.cross((rotation @ point)[..., 0] + moved, axis)
-                moved = moved + (rotation @ (point - steps[:, i] @ point))[..., 0]
+                moved = moved + (rotation @ (point - steps[:, i] @ point + slid[:, i, :, None]))[..., 0]
             rotation = rotation @ steps[:, i]
+        twists = self._with_slides(twists)
         twists *= self.signs[:, None, :]
         off = _rotation_vectors(rotation)
         if not spherical:
@@ -84,6 +90,17 @@ class _Alike:
         if self.centre is Centre.INFINITE:
             return self._in_plane(off[..., None])[..., 0], self._in_plane(twists)
         return off, twists
+
+    def _slid(self, values: Floats) -> Floats:
+        """Return the translations of joints that slide, zeros for others: float[L, k, 3]."""
+        return (values * (1.0 - self.turning))[..., None] * self.axes
+
+    def _with_slides(self, twists: Floats) -> Floats:
+        """Return twists with those of joints that slide, whose direction is where their axis would be."""
+        if self.turning.all():
+            return twists
+        along = np.concatenate([np.zeros_like(twists[:, :3]), twists[:, :3]], axis=1)
+        return np.where(self.turning[:, None, :] == 1.0, twists, along)
 
     def _in_plane(self, twists: Floats) -> Floats:
         """Return the rotation about parallel axes and the shift across them: float[L, 3, n]."""
@@ -226,13 +243,17 @@ def _grouped(linkage: PosedLinkage) -> list[_Alike]:
     kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
     for loop in linkage.loops:
         kinds.setdefault((loop.centre, len(loop.joints)), []).append(loop)
+    turns = np.ones(len(linkage.angles))
+    turns[list(linkage.slides)] = 0.0
     groups = []
     for (centre, _), loops in kinds.items():
         joints = np.array([loop.joints for loop in loops], dtype=np.int64)
         signs = np.array([loop.signs for loop in loops], dtype=float)
-        axes = linkage.directions[joints]
-        frames = frames_of(axes) if centre is Centre.INFINITE else np.zeros((len(loops), 3, 3))
-        groups.append(_Alike(joints, axes, linkage.points[joints], signs, centre, frames))
+        axes, turning = linkage.directions[joints], turns[joints]
+        frames = (
+            frames_of(axes * turning[..., None]) if centre is Centre.INFINITE else np.zeros((len(loops), 3, 3))
+        )
+        groups.append(_Alike(joints, axes, linkage.points[joints], signs, centre, frames, turning))
     return groups
 
 

@@ -8,7 +8,7 @@ docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import pi, radians, tau
 from typing import Any, NamedTuple
@@ -17,22 +17,32 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered, shown
 from graphs.ids import JointId
+from graphs.loops.loop import Centre
 from graphs.mechanism.precision import Precision
+from graphs.mechanism.reading import Reading
+from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import Tolerances
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
-from synth.motion.marked import MarkedWay, agreeing_best, marked_way
+from synth.motion.marked import Disagreement, MarkedWay, agreeing_best, marked_way, nearest_way
+from synth.motion.path import Path
 from synth.motion.placement import moved
 from synth.motion.second_order import rates_at
+from synth.motion.singular.nearest import Begun, begun_near
 from synth.motion.walk.walking import Event
 
 __all__ = ["Configuration", "Placed"]
 
+_NAMED = 12
+"""So many joints are named in a line."""
 _MOST_FLEXES = 100
 """Where closure equations depend on each other at a configuration of more flexes, one way to move is enough."""
+_ONE_WAY, _HALVES = 100, 8
+"""Of flat sheets of more creases one way that begins as assigned is enough if the equations of more vertices are
+no products: each may part the rates into two halves."""
 _WHOLE = radians(179.0)
 """How far a joint is driven that ends at 180 degrees, where panels lie on each other."""
 
@@ -66,30 +76,28 @@ class Configuration:
         Whether the axes are exact but for the rounding of double precision: the coordinates were, or were mended.
     given : Sheet, HingedSolids, PolyhedronModel, ..., optional
         What it was made from.
+    more : bool, optional
+        Whether its branches are looked for with a hundred times the usual allowance.
 
     Examples
     --------
     >>> from synth.moving.made import configuration_of
     >>> from synth.patterns import generate
     >>> at = configuration_of(generate("bennett").mechanism)
-    >>> at.linkage, at.branches.regular, at.verb
-    (<PosedLinkage: 4 links, 4 joints, 1 loops>, True, 'Moves')
+    >>> at.linkage, at.branches.regular
+    (<PosedLinkage: 4 links, 4 joints, 1 loops>, True)
     """
 
     linkage: PosedLinkage
     precision: Precision
     exact: bool = True
     given: Mechanism | None = None
+    more: bool = field(default=False, kw_only=True)
 
     @property
     def joints(self) -> tuple[JointId, ...]:
         """The joints, in the order of all arrays."""
         return tuple(self.linkage.graph.joints)
-
-    @property
-    def verb(self) -> str:
-        """What it does: panels fold, other links move."""
-        return "Moves"
 
     @property
     def flat(self) -> bool:
@@ -118,9 +126,51 @@ class Configuration:
         return ""
 
     @property
+    def misfit(self) -> float | None:
+        """Largest displacement of a vertex that was mended, of the extent; None of what has no vertices."""
+        return None
+
+    @property
+    def nearly(self) -> bool:
+        """Whether rates nearly agree that do not agree exactly, by what the coordinates tell apart."""
+        return False
+
+    @property
+    def unsettled(self) -> bool:
+        """Whether it may move within the precision of its coordinates in ways for which no mechanism was found."""
+        return False
+
+    @property
+    def elsewhere(self) -> tuple[tuple[Configuration, int], ...]:
+        """Branches of other mechanisms within the precision, each with its number there."""
+        return ()
+
+    def of_branch(self, branch: int | str | None) -> tuple[Configuration, int | str | None]:
+        """Return the configuration that has a branch, by its number or signs, and its number or signs there.
+
+        The branches here come first, then those elsewhere; what is not found is left to this configuration.
+        """
+        own = 0 if self.branches is None else len(self.branches.branches)
+        if isinstance(branch, int) and own <= branch < own + len(self.elsewhere):
+            return self.elsewhere[branch - own]
+        if isinstance(branch, str) and self.branches is not None:
+            mirrored = branch.translate(str.maketrans("+-", "-+"))
+            if not any(one.signs in (branch, mirrored) for one in self.branches.branches):
+                for other, number in self.elsewhere:
+                    there = other.branch(number)
+                    if there is not None and there.signs in (branch, mirrored):
+                        return other, number
+        return self, branch
+
+    @property
     def mended(self) -> tuple[str, ...]:
         """What was done to rounded coordinates."""
         return ()
+
+    @property
+    def reading(self) -> Reading | None:
+        """What was done to the drawing it was read from; None of what was not traced."""
+        return self.given.reading if isinstance(self.given, Sheet) else None
 
     @property
     def most(self) -> float:
@@ -146,26 +196,83 @@ class Configuration:
     def branches(self) -> Branches | None:
         """The ways to move from here; None for a linkage that is too large to look for all."""
         joints = len(self.linkage.angles)
-        if joints > MOST_JOINTS or (joints > _MOST_FLEXES and self._many_flexes()):
+        if joints > MOST_JOINTS or (joints > _MOST_FLEXES and self._many_flexes()) or self._one_way_enough():
             return None
-        return branches_of(self.linkage, self.closure, search_for(joints, self.wanted))
+        return branches_of(self.linkage, self.closure, search_for(joints, self.wanted, more=self.more))
+
+    @cached_property
+    def begun(self) -> Begun:
+        """One way to move from here, near to the assignment, looked for without all others."""
+        return begun_near(self.closure, self.linkage, self.wanted)
 
     @cached_property
     def marked(self) -> MarkedWay:
         """The branch that begins as a flat sheet is assigned, if there is one."""
         if self.branches is None or not self.flat:
             return MarkedWay(None, None)
-        return marked_way(self.branches, self.linkage, self.marks)
+        way = marked_way(self.branches, self.linkage, self.marks)
+        folded = self.begun.folded if way.marked == "none found" else None
+        if folded is None or folded.agree < np.count_nonzero(self.marks):
+            return way
+        return marked_way(self.branches, self.linkage, self.marks, self.begun.rates)
 
     @cached_property
     def chosen(self) -> int | None:
         """Number of the branch that is taken where none is asked for; None where there is none.
 
-        That which begins as assigned, or else that on which most joints do.
+        That which begins as assigned, or else that with which the fewest assigned joints disagree; where nothing
+        is assigned, that on which most joints go alike.
         """
         if self.branches is None or not self.branches.branches:
             return None
-        return agreeing_best(self.branches, self.wanted) if self.marked.number is None else self.marked.number
+        if self.marked.number is not None:
+            return self.marked.number
+        near = self.disagreement
+        return agreeing_best(self.branches, self.wanted) if near is None else near.number
+
+    @cached_property
+    def disagreement(self) -> Disagreement | None:
+        """How the assignment of a flat sheet differs from the nearest branch; None where nothing is assigned."""
+        if self.marked.marked is None or self.branches is None:
+            return None
+        number, _, rates = self.marked
+        if number is None or rates is None:
+            return nearest_way(self.branches, self.marks)
+        return Disagreement(number, (), (), rates)
+
+    def nearest_to_json(self) -> dict[str, Any] | None:
+        """Return the key ``assignment`` of an answer: whether a branch begins so, and how the nearest differs."""
+        near, joints = self.disagreement, self.joints
+        if near is None:
+            return None
+        branch = self.branch(near.number)
+        return {
+            "begins": self.marked.marked,
+            "assigned": int(np.count_nonzero(self.marks)),
+            "nearest_branch": near.number,
+            "freedoms": None if branch is None else branch.freedoms,
+            "opposite": [str(joints[place]) for place in near.opposite],
+            "immobile": [str(joints[place]) for place in near.immobile],
+        }
+
+    @property
+    def disagreeing(self) -> str:
+        """The creases whose assignment the nearest branch does not begin with, in a line; empty without any."""
+        near = self.disagreement
+        if near is None or not near.size:
+            return ""
+        parts = [
+            f"{_row(self.joints, places)} {verb if len(places) == 1 else verbs}"
+            for places, verb, verbs in (
+                (near.opposite, "folds the other way", "fold the other way"),
+                (near.immobile, "is immobile", "are immobile"),
+            )
+            if places
+        ]
+        count, every = near.size, int(np.count_nonzero(self.marks))
+        differing = f"{count} of {numbered(every, 'assigned crease')} disagree{'s' * (count == 1)}"
+        seen = "see synth draw --as marks, synth edit --assign-branch"
+        return f"{differing} with the nearest branch, {near.number}: {'; '.join(parts)} ({seen})"
 
     def branch(self, number: int | None) -> Branch | None:
         """Return a branch by its number; of a regular configuration there is one."""
@@ -177,6 +284,23 @@ class Configuration:
         """Tell whether the equations of second order between its rates are too large."""
         flexes = rates_at(self.closure, self.linkage.angles).shape[1]
         return bool(flexes > _MOST_FLEXES and len(self.linkage.angles) - flexes < self.closure.rows)
+
+    @cached_property
+    def one_way(self) -> bool:
+        """Whether one motion stands for all: others are not looked for, or only folded states led to one."""
+        found = self.branches
+        if found is None:
+            return True
+        known = found.exhaustive or any(branch.certainty != "not known" for branch in found.branches)
+        return not known and self.flat and self.begun.folded is not None
+
+    def _one_way_enough(self) -> bool:
+        """Tell whether the ways are too many to list, and a folded state leads to one that is as assigned."""
+        loops = sum(loop.centre is Centre.FINITE and len(loop.joints) > 4 for loop in self.linkage.loops)
+        if not (self.flat and len(self.joints) > _ONE_WAY and loops > _HALVES and self.marks.any()):
+            return False
+        folded = self.begun.folded
+        return folded is not None and folded.agree == np.count_nonzero(self.marks)
 
     def placed(self, angles: Floats) -> Placed:
         """Return where its points are at joint angles float[F, J], radians."""
@@ -191,6 +315,13 @@ class Configuration:
     def at(self, angles: Floats, points: Floats | None = None) -> Any:
         """Return the mechanism at joint angles float[J], radians: a linkage, or where it is one a sheet."""
         return moved(self.linkage, angles)
+
+    def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
+        """Return a path with the event that panels pass through each other, and the frames in which they do.
+
+        Points, float[F, n, 3], are those of its frames; a joint is driven. Without panels there is no such event.
+        """
+        return path, ()
 
     def collision(self) -> Event:
         """Return what ends a walk before panels pass through each other.
@@ -220,8 +351,7 @@ class Configuration:
             "links": len(self.linkage.graph),
             "joints": [str(joint) for joint in self.joints],
             "loops": len(self.linkage.loops),
-            "precision": self.precision.size,
-            "precision_source": self.precision.source,
+            **self.precision.to_json(),
             "flat": self.flat,
             "branches": None if found is None else {"number": len(found.branches), "exhaustive": found.exhaustive},
             "branch": None if branch is None else branch.signs,
@@ -232,3 +362,9 @@ class Configuration:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {self.linkage!r}>"
+
+
+def _row(joints: Sequence[JointId], places: Sequence[int]) -> str:
+    """Return the ids of joints in a row, not too many."""
+    more = f" and {len(places) - _NAMED} more" if len(places) > _NAMED else ""
+    return ", ".join(shown(joints[place]) for place in places[:_NAMED]) + more

@@ -112,11 +112,34 @@ def driven_from(configuration: Configuration, asked: Asked) -> Driven:
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
     still = () if number is None or found is None else found.branches[number].still
     options = PathOptions(
-        direction, limited, bool(asked.along), asked.report, joints, allowance, still, asked.events
+        direction,
+        limited,
+        bool(asked.along),
+        asked.report,
+        joints,
+        allowance,
+        still,
+        asked.events,
+        _signs(configuration, rates, places) if configuration.limited else None,
     )
     path = _path(closure, linkage.angles, places, start + steps * (goals - start), options)
     ends = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return Driven(number, places, ends, path)
+
+
+def _signs(configuration: Configuration, rates: Floats, driven: Sequence[int]) -> Floats:
+    """Return the signs that fold angles are to keep: those they have, those of the rates at zero, else the marks.
+
+    Driven joints go where they are driven. The marks count, or their opposites, where all rates agree with them.
+    """
+    angles, marks = configuration.linkage.angles, configuration.marks
+    rates = np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)
+    turned = rates * marks
+    marks = marks * (float(not (turned < 0.0).any()) - float(not (turned > 0.0).any()))
+    begun = np.where(rates != 0.0, np.sign(rates), marks)
+    signs = np.where(np.abs(angles) > DOUBLE.parallel, np.sign(angles), begun)
+    signs[list(driven)] = 0.0
+    return np.asarray(signs)
 
 
 def _path(

@@ -7,8 +7,8 @@ about the middle of all points. Theory: docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import radians
 
 import networkx as nx
@@ -72,6 +72,9 @@ class PosedLinkage:
         Unit of length of the points, in that of the coordinates.
     middle : float[3]
         Their origin.
+    slides : tuple of int, optional
+        Places of joints that slide along their direction instead of turning about it; their angles are lengths, in
+        units of the extent.
     """
 
     graph: SCGraph
@@ -81,13 +84,16 @@ class PosedLinkage:
     loops: tuple[PosedLoop, ...]
     extent: float
     middle: Floats
+    slides: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         return f"<PosedLinkage: {len(self.graph)} links, {len(self.graph.joints)} joints, {len(self.loops)} loops>"
 
 
 def linkage_of_axes(
-    graph: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]]
+    graph: SCGraph,
+    axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
+    slides: Collection[JointId] = (),
 ) -> PosedLinkage:
     """Return a linkage whose joint axes are given.
 
@@ -98,6 +104,8 @@ def linkage_of_axes(
     graph : SCGraph
     axes : mapping of joint id to (point, direction)
         Three coordinates each, any unit of length.
+    slides : collection of joint id, optional
+        Joints that slide along their direction.
 
     Raises
     ------
@@ -120,7 +128,8 @@ def linkage_of_axes(
             )
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
-    return _posed(graph, points, unit(directions), np.zeros(len(points)), points)
+    places = tuple(place for place, joint in enumerate(graph.joints) if joint in slides)
+    return replace(_posed(graph, points, unit(directions), np.zeros(len(points)), points), slides=places)
 
 
 def linkage_of_sheet(

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from graphs.arrays import Floats
+from graphs.canonical import signed
 from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches
 from synth.motion.closure import ClosureEquations
@@ -19,9 +20,22 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, rates_at
 from synth.motion.singular.sampling import rates_towards, same_part
 
-__all__ = ["Marked", "MarkedWay", "agreeing_best", "marked_way", "rates_as_marked"]
+__all__ = [
+    "Disagreement",
+    "Marked",
+    "MarkedWay",
+    "agreeing_best",
+    "disagreement_with",
+    "marked_rates",
+    "marked_way",
+    "nearest_way",
+    "rates_as_marked",
+]
 
 Marked = Literal["has", "none has", "none found"]
+
+_REFINED, _TRIED = 4, 60
+"""So many of the branches nearest to the assignment are looked at closely, if at most so many joints disagree."""
 
 _STARTS, _LEAST, _TOGETHER = 40, 4, 600
 """Starts from which rates with all marks are looked for where equations are left: at most and at least on one
@@ -40,16 +54,43 @@ class MarkedWay(NamedTuple):
     rates: Floats | None = None
 
 
-def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedWay:
+class Disagreement(NamedTuple):
+    """How the assignment differs from a branch, which has a number.
+
+    `opposite` and `immobile` are places of joints: those assigned the other way than they turn at the rates,
+    float[J], of the branch that are nearest to the assignment, up to the sign of all; and those assigned that stay
+    as they are.
+    """
+
+    number: int
+    opposite: tuple[int, ...]
+    immobile: tuple[int, ...]
+    rates: Floats
+
+    @property
+    def size(self) -> int:
+        """How many joints disagree."""
+        return len(self.opposite) + len(self.immobile)
+
+
+def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None) -> MarkedWay:
     """Return the way that begins with all marked joints as they are marked, or all against it.
 
     Marks are 1 for valleys, -1 for mountains, 0 for joints without; the branches begin at the linkage's pose.
+    Rates float[J] that have all marks may be given, from which those of a branch are looked for first.
     """
     if not marks.any() or not found.branches:
         return MarkedWay(None, None)
     spaces = {id(branch.space): branch.space for branch in found.branches}
     starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
-    begun = {number: _marked_rates(space, marks, starts) for number, space in spaces.items()}
+    order = np.array(found.order, dtype=np.int64)
+    in_order = signed(marks[order])
+    turn, place = float(np.sign(in_order @ marks[order])), np.argsort(order)
+    begin = None if first is None else turn * first[order]
+    begun = {
+        number: [turn * rates[place] for rates in marked_rates(space.in_order(order), in_order, starts, begin)]
+        for number, space in spaces.items()
+    }
     agree = {
         number: rates
         for number, branch in enumerate(found.branches)
@@ -59,7 +100,8 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats) -> MarkedW
         freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
         return MarkedWay(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
     tangent = rates_at(ClosureEquations(linkage), linkage.angles)
-    sure = found.exhaustive or _rates_with(tangent, marks) is None
+    linear = found.exhaustive and not any(branch.space.left for branch in found.branches)
+    sure = linear or _rates_with(tangent, marks) is None
     return MarkedWay(None, "none has" if sure else "none found")
 
 
@@ -81,6 +123,79 @@ def agreeing_best(found: Branches, marks: Floats) -> int:
     return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
 
 
+def nearest_way(found: Branches, marks: Floats) -> Disagreement:
+    """Return how the assignment differs from the branch with which the fewest joints disagree.
+
+    Of several such that with which fewest turn the other way, then the freest, then the first. On a branch of one
+    freedom the number is exact. On a larger linear one the disagreements are fewest in sum of rates, and of those
+    of the best branches none can be left out; where equations are left, they are those of the rates nearest to the
+    marks.
+    """
+    near = [disagreement_with(number, branch, marks) for number, branch in enumerate(found.branches)]
+
+    def order(one: Disagreement) -> tuple[int, int, int, int]:
+        return one.size, len(one.opposite), -(found.branches[one.number].freedoms or 0), one.number
+
+    best = sorted(near, key=order)[:_REFINED]
+    return min((_fewer(one, found.branches[one.number].space, marks) for one in best), key=order)
+
+
+def disagreement_with(number: int, branch: Branch, marks: Floats) -> Disagreement:
+    """Return how the assignment differs from a branch."""
+    tried = [rates_as_marked(branch, marks), branch.rates, -branch.rates]
+    if branch.space.basis.shape[1] > 1 and not branch.space.left:
+        tried.append(_least_against(branch.space.basis, marks))
+    every = [_differing(number, rates, marks) for rates in tried]
+    return min(every, key=lambda one: (one.size, len(one.opposite)))
+
+
+def _differing(number: int, rates: Floats, marks: Floats) -> Disagreement:
+    moves = np.abs(rates) > DOUBLE.zero_rate * np.abs(rates).max(initial=0.0)
+    opposite = np.flatnonzero(moves & (rates * marks < 0.0))
+    immobile = np.flatnonzero(~moves & (marks != 0.0))
+    return Disagreement(number, tuple(opposite.tolist()), tuple(immobile.tolist()), rates)
+
+
+def _least_against(basis: Floats, marks: Floats) -> Floats:
+    """Return rates that miss the marks least: each joint by how far its rate is below 1 along its mark, in sum."""
+    marked = np.flatnonzero(marks)
+    rows = np.hstack([-marks[marked, None] * basis[marked], -np.eye(len(marked))])
+    cost = np.repeat([0.0, 1.0], [basis.shape[1], len(marked)])
+    bounds = [(None, None)] * basis.shape[1] + [(0.0, None)] * len(marked)
+    found = linprog(cost, A_ub=rows, b_ub=-np.ones(len(marked)), bounds=bounds, method="highs")
+    return np.asarray(basis @ found.x[: basis.shape[1]])
+
+
+def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
+    """Let those of the joints that disagree agree, in turn, that can do so while all others go on to.
+
+    Where the rest agrees, those that are left turn the other way or not at all, and are given room to turn.
+    """
+    against = [*one.opposite, *one.immobile][:_TRIED]
+    if space.left or space.basis.shape[1] == 1 or one.size > _TRIED:
+        return one
+    kept = np.where(np.isin(np.arange(len(marks)), against), 0.0, marks)
+    for joint in against:
+        kept[joint] = marks[joint]
+        if _rates_with(space.basis, kept) is None:
+            kept[joint] = 0.0
+    left = np.flatnonzero(marks - kept)
+    agree = np.flatnonzero(kept)
+    if not len(left) or not len(agree):
+        return one
+    free, room = space.basis.shape[1], len(left)
+    rows = np.block(
+        [
+            [-kept[agree, None] * space.basis[agree], np.zeros((len(agree), room))],
+            [marks[left, None] * space.basis[left], np.eye(room)],
+        ]
+    )
+    most = np.repeat([-1.0, 0.0], [len(agree), room])
+    bounds = [(None, None)] * free + [(0.0, 1.0)] * room
+    found = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")
+    return one if found.x is None else _differing(one.number, space.basis @ found.x[:free], marks)
+
+
 def _on_part(branch: Branch, begun: Sequence[Floats]) -> Floats | None:
     """Return the first of some rates of its space that is on the part of it that a branch is."""
     on_it = (rates for rates in begun if not branch.space.left or same_part(branch.space, rates, branch.rates))
@@ -96,14 +211,14 @@ def _begun_as_marked(branch: Branch, otherwise: Floats, marks: Floats) -> Floats
     return np.asarray(rates / np.abs(rates).max())
 
 
-def _marked_rates(space: RateSpace, marks: Floats, starts: int) -> list[Floats]:
+def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | None = None) -> list[Floats]:
     """Return rates of a space that have all marks, of every part that a few starts come to; else none."""
     inside = _rates_with(space.basis, marks)
     if inside is None or not space.left:
         return [] if inside is None else [inside]
     marked, largest, found = marks != 0.0, np.abs(inside).max(), list[Floats]()
     for number in range(starts):
-        start = (marks * largest, inside)[number % 2]
+        start = (marks * largest if first is None else first, inside)[number % 2]
         if number > 1:  # other sizes, the same signs
             start = start * np.random.default_rng((len(marks), number)).uniform(0.0, 2.0, len(marks))
         rates = rates_towards(space, start)

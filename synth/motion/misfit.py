@@ -1,85 +1,62 @@
-"""How nearly what is rigid moves: by how much its loops stay open when it is turned all the same.
+"""What rounded coordinates leave open where nothing moves, in words.
 
 Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
 
-from math import degrees, radians
+from math import ceil, floor, log10
 
-import numpy as np
-
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.mechanism.precision import Precision
-from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import TangentSpace
+from graphs.tolerances import DOUBLE, EPSILON
 
-__all__ = ["EXACT", "TURNED", "doubt_of", "least_misfit"]
+__all__ = ["EXACT", "at_most", "doubt_of", "doubt_of_rigid", "size_of"]
 
 EXACT = DOUBLE.closed
 """Coordinates that are precise to this part of the extent are taken at their word: loops of them close."""
 
-TURNED = radians(10.0)
-"""How far the joint that moves most is turned."""
-_ROUNDS = 60
-_START, _LEAST, _MOST = 1e-6, 1e-13, 1.0
-"""Regularisation of a step: at first, and between which bounds."""
-_SLOW = 1e-3
-_IDLE = 6
-"""After so many steps in turn that take less than this part of the sum of squares away it ends: a valley may be
-narrow at first, and how narrow rounding decides."""
 
-
-def least_misfit(closure: ClosureEquations, start: Floats, rates: Floats) -> float:
-    """Return by how much loops do not close, at most, at a pose where they do so least.
-
-    One joint is held, turned by ten degrees; the others are moved to where the sum of squares of what does not
-    close is least (Levenberg, Marquardt). The joint that the rates move most is held. In radians and units of the
-    extent.
-
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (-.5, .9), (-.5, -.9))
-    >>> linkage = linkage_of_sheet(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), corners))
-    >>> round(least_misfit(ClosureEquations(linkage), linkage.angles, np.array([1.0, 0.5, 0.5])), 2)
-    0.01
-    """
-    driver = leading(rates)
-    free = np.ones(closure.joints)
-    free[driver] = 0.0
-    angles = start + TURNED / abs(float(rates[driver])) * rates
-    residual, jacobian = closure.at(angles)
-    regular, idle = _START, 0
-    for _ in range(_ROUNDS):
-        jacobian.data *= free[jacobian.indices]
-        tried = angles + TangentSpace(jacobian, regular).step(residual)
-        after, slopes = closure.at(tried)
-        gain = float(residual @ residual - after @ after)
-        if gain > 0.0:
-            idle = 0 if gain > _SLOW * float(residual @ residual) else idle + 1
-            angles, residual, jacobian, regular = tried, after, slopes, max(regular / 10.0, _LEAST)
-            if idle == _IDLE:
-                break
-        elif regular >= _MOST:
-            break
-        else:
-            regular *= 10.0
-    return float(np.abs(residual).max(initial=0.0))
-
-
-def doubt_of(precision: Precision, misfit: float | None = None) -> str:
-    """Return what rounded coordinates leave open where nothing moves; empty if they are exact.
-
-    The misfit says by how much loops stay open when a joint is turned all the same.
-    """
+def doubt_of(precision: Precision) -> str:
+    """Return what rounded coordinates leave open where a motion is not found or ends; empty if they are exact."""
     if precision.size <= EXACT:
         return ""
-    told = f"{precision.size:.0e} of the extent ({precision.source})"
-    near = (
-        ""
-        if misfit is None
-        else f"; turned by {degrees(TURNED):g} degrees its loops close to {misfit:.0e} at best"
-    )
-    return f", with the coordinates as they are written{near}; they are precise to {told}, and exact ones may move"
+    precise = f"they are precise to {size_of(precision)}"
+    return f", with the coordinates as written; {precise}, and exact coordinates may allow motion"
+
+
+def size_of(precision: Precision) -> str:
+    """Return how precise coordinates are, with the source.
+
+    >>> size_of(Precision(5e-5, "4 decimals"))
+    '5e-05 of the extent (4 decimals)'
+    """
+    return str(precision)
+
+
+def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool = False) -> str:
+    """Return how near what does not move is to what does, after "rigid"; empty where that is all.
+
+    The misfit is the largest displacement of a vertex, in units of the extent, in the nearest pattern that moves,
+    or None if none was found; unsettled is what may move within the precision.
+
+    >>> doubt_of_rigid(Precision(0.0, "exact"), 2.03e-3)
+    '; the nearest rigid-foldable pattern has vertices moved by up to 3e-03 of the extent'
+    """
+    exact = precision.size <= EXACT
+    within = "" if exact else f" within the drawing's precision, {size_of(precision)}"
+    if misfit is None:
+        nearly = "; some branches nearly exist, and whether any does there is unknown" if unsettled else ""
+        return within + nearly
+    times = "" if exact else f", {misfit / precision.size:.0f} times the precision"
+    moved = f"vertices moved by up to {at_most(misfit)} of the extent{times}"
+    return f"{within}; the nearest rigid-foldable pattern has {moved}"
+
+
+def at_most(number: float) -> str:
+    """Return a positive number to one digit, rounded up.
+
+    >>> at_most(2.03e-3), at_most(3e-6)
+    ('3e-03', '3e-06')
+    """
+    unit = 10.0 ** floor(log10(number))
+    return f"{ceil(number / unit * (1.0 - 4.0 * EPSILON)) * unit:.0e}"

@@ -5,7 +5,7 @@ Theory: docs/theory/folding.md, docs/theory/moving.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees
 from typing import Any
@@ -13,20 +13,29 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.errors import UnsolvableError, numbered, shown
-from graphs.ids import JointId
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.ids import JointId, LinkId
 from graphs.printing import Block, Printed
 from graphs.tolerances import DOUBLE
-from synth.motion.branches import Branch, Branches
+from synth.motion.branches import Branch, Branches, Method
 from synth.motion.configuration import Configuration
 from synth.motion.driving import Asked, Driven, driven_from
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import Path
+from synth.motion.placement import link_motions
 
 __all__ = ["FRAMES", "Motion", "motion_along", "motion_of"]
 
 FRAMES = 20
 """Frames after the first, where nothing else is asked for."""
+_LISTED = 12
+"""Creases and frames that are named, at most."""
+_SEARCHES: dict[Method, str] = {
+    "regular pose": "regular configuration",
+    "all modes": "all combinations of modes",
+    "second order": "second-order search",
+    "random starts": "search from random starts",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -49,6 +58,8 @@ class Motion(Printed):
         Of the vertices of a sheet in each frame, else of a point on each axis, in the unit of the coordinates.
     apart : float
         By how much panels disagree on the place of a vertex, at most, in units of the extent.
+    crossing : tuple of int
+        Numbers of the frames in which panels pass through each other.
 
     Examples
     --------
@@ -64,6 +75,7 @@ class Motion(Printed):
     driven: Mapping[JointId, float]
     places: Floats
     apart: float
+    crossing: tuple[int, ...] = ()
 
     @property
     def linkage(self) -> PosedLinkage:
@@ -100,9 +112,47 @@ class Motion(Printed):
         every = zip(self.path.angles, self.places, strict=True)
         return [self.configuration.at(angles, points) for angles, points in every]
 
+    def path_of(self, link: LinkId, point: Sequence[float]) -> Floats:
+        """Return where a point of a link is in each frame, the first link held: a coupler curve.
+
+        Parameters
+        ----------
+        link : link id
+        point : sequence of 2 or 3 floats
+            Where the point is in the configuration given, in the unit of the coordinates.
+
+        Returns
+        -------
+        float[F, 3]
+
+        Raises
+        ------
+        InvariantError
+            If there is no such link, or the point has another number of coordinates.
+
+        Examples
+        --------
+        A point of the second link of a Bennett linkage goes round the first joint:
+
+        >>> import synth
+        >>> motion = synth.move(synth.generate("bennett").mechanism, frames=3)
+        >>> path = motion.path_of(1, (0.0, 0.0, 1.0))
+        >>> path.shape, path[0].round(12).tolist()
+        ((4, 3), [0.0, 0.0, 1.0])
+        """
+        if link not in self.linkage.graph:
+            raise InvariantError("link", f"{shown(link)} is no link", "a link id")
+        place = np.zeros(3)
+        if len(point) not in (2, 3):
+            raise InvariantError("point", f"{len(point)} coordinates", "two or three")
+        place[: len(point)] = point
+        rotation, shift = link_motions(self.linkage, self.path.angles)[link]
+        local = (place - self.linkage.middle) / self.linkage.extent
+        return np.asarray((rotation @ local + shift) * self.linkage.extent + self.linkage.middle)
+
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        found, taken = self.branches, self.taken
+        found, taken, reading = self.branches, self.taken, self.configuration.reading
         return {
             "configuration": self.configuration.to_json(taken),
             "freedoms": self.freedoms,
@@ -121,46 +171,108 @@ class Motion(Printed):
             },
             "stopped": self.path.stopped or None,
             "mended": list(self.configuration.mended),
+            "assignment": self.configuration.nearest_to_json(),
+            "reading": None if reading is None else reading.to_json(),
             "events": [event.to_json(self.joints) for event in self.path.events],
             "ranks_watched": self.path.watched,
+            "assignment_kept": self._of_assignment(),
+            "crossing_frames": list(self.crossing),
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        lines: list[Block] = [f"mended: {repair}" for repair in self.configuration.mended]
-        lines += self._lines_of_branch()
-        driven = ", ".join(f"joint {shown(joint)} to {degrees(angle):g}" for joint, angle in self.driven.items())
-        largest = np.degrees(np.abs(self.path.angles[-1]).max(initial=0.0))
-        lines.append(
-            f"driven: {driven} degrees; {len(self.path.angles)} frames, angles up to {largest:.4g} degrees"
-        )
-        if self.configuration.limited:
-            lines.append(f"loops close to {self.closure:.1e}, panels meet to {self.apart:.1e} of the extent")
-        else:
-            ends = zip(self.joints, np.degrees(self.path.angles[-1]), strict=True)
-            lines.append(f"loops close to {self.closure:.1e}")
-            lines.append("joints: " + ", ".join(f"{shown(joint)} at {angle:.6g}" for joint, angle in ends))
-        lines += [event.told(self.joints) for event in self.path.events]
-        if not self.path.watched:
-            lines.append("rank drops on the way were not looked for: there are too many joints")
+        reading = self.configuration.reading
+        lines: list[Block] = [reading.warning] if reading is not None and reading.warning else []
+        lines.append(self._answer())
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
+        lines += self._lines_of_branch()
+        mismatch = f"; relative vertex mismatch {self.apart:.1e}" if self.configuration.limited else ""
+        lines.append(f"loop-closure residual {self.closure:.1e}{mismatch}")
+        if not self.configuration.limited:
+            ends = zip(self.joints, np.degrees(self.path.angles[-1]), strict=True)
+            lines.append(
+                "final joint angles: " + ", ".join(f"{shown(joint)} = {angle:.6g}°" for joint, angle in ends)
+            )
+        lines += [event.line(self.joints) for event in self.path.events]
+        lines += self._lines_of_assignment()
+        if self.crossing:
+            frames = ", ".join(map(str, self.crossing[:_LISTED])) + (", ..." if self.crossing[_LISTED:] else "")
+            lines.append(f"panels pass through each other in frames {frames}; --collisions ends the path before")
+        if not self.path.watched:
+            lines.append("singular configurations on the path were not looked for: there are too many joints")
+        lines += [f"repaired: {repair}" for repair in self.configuration.mended]
+        return lines
+
+    def _answer(self) -> str:
+        """Return the first line: what was driven, and how far the motion came."""
+        to = "towards" if self.path.stopped else "to"
+        driven = ", ".join(
+            f"joint {shown(joint)} {to} {degrees(angle):g}°" for joint, angle in self.driven.items()
+        )
+        largest = np.degrees(np.abs(self.path.angles[-1]).max(initial=0.0))
+        angle = "fold angle" if self.configuration.limited else "joint angle"
+        frames = numbered(len(self.path.angles), "frame")
+        return f"drove {driven}: {frames}, largest final {angle} {largest:.4g}°"
+
+    def _of_assignment(self) -> dict[str, Any] | None:
+        """Return how the frames keep the mountains and valleys, as plain data; None where nothing is assigned."""
+        marks = self.configuration.marks
+        if not self.configuration.limited or not marks.any():
+            return None
+        turned = marks * self.path.angles[1:] if self.configuration.flat else marks * self.path.angles
+        sides = [(turned * side < -DOUBLE.zero_rate) for side in (1.0, -1.0)]
+        reverse = bool(sides[1].any(axis=0).sum() < sides[0].any(axis=0).sum())
+        against = sides[int(reverse)]
+        offset = len(self.path.angles) - len(against)
+        first = next((frame + offset for frame, row in enumerate(against) if row.any()), None)
+        return {
+            "kept": not against.any(),
+            "reversed": reverse,
+            "first_frame_against": first,
+            "against": [self.joints[place] for place in np.flatnonzero(against.any(axis=0)).tolist()],
+        }
+
+    def _lines_of_assignment(self) -> list[Block]:
+        found = self._of_assignment()
+        if found is None:
+            return []
+        lines: list[Block] = []
+        if found["reversed"]:
+            lines.append("the assignment is reversed: mountains fold as valleys, valleys as mountains")
+        if found["against"]:
+            creases = found["against"]
+            names = ", ".join(shown(joint) for joint in creases[:_LISTED])
+            more = f" and {len(creases) - _LISTED} more" if len(creases) > _LISTED else ""
+            plural = "s" * (len(creases) > 1)
+            frame = found["first_frame_against"]
+            lines.append(f"against the assignment, from frame {frame} on: crease{plural} {names}{more}")
         return lines
 
     def _lines_of_branch(self) -> list[Block]:
         found, taken = self.branches, self.taken
         if found is None or taken is None:
             return []
-        lines: list[Block] = []
-        which = ""
+        which = "" if found.regular else f"branch {self.branch}: "
+        if taken.freedoms is None:
+            freedoms = "degrees of freedom unknown"
+        else:
+            evidence = "not proved" if taken.certainty == "not known" else taken.certainty
+            freedoms = f"{numbered(taken.freedoms, 'degree of freedom', 'degrees of freedom')} ({evidence})"
+        lines: list[Block] = [f"{which}{freedoms}; signs {taken.signs}"]
         if not found.regular:
-            how = "all there are" if found.exhaustive else f"those that were found ({found.method})"
-            how += "" if found.complete else "; there may be many more"
-            lines.append(f"from this pose {numbered(len(found.branches), 'way')} to move, {how}")
-            which = f"way {self.branch}: "
-        freedoms = "freedoms not known" if taken.freedoms is None else numbered(taken.freedoms, "freedom")
-        lines.append(f"{which}{freedoms}, {taken.certainty}; signs {taken.signs}")
+            lines.append(self._line_of_search(found))
+        if self.configuration.disagreeing:
+            lines.append(self.configuration.disagreeing)
         return lines
+
+    def _line_of_search(self, found: Branches) -> str:
+        """Return how many branches there are, and whether these are all."""
+        flat = self.configuration.flat
+        kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
+        evidence = _SEARCHES[found.method] + ("; all there are" if found.exhaustive else "; not proved exhaustive")
+        evidence += "" if found.complete else "; there may be many more"
+        return f"{numbered(len(found.branches), kind, f'{kind}es')} from {start} ({evidence})"
 
     def __repr__(self) -> str:
         return f"<Motion: {len(self.path.angles)} frames of {self.linkage!r}>"
@@ -185,10 +297,13 @@ def motion_of(configuration: Configuration, asked: Asked, *, collisions: bool = 
     """
     if not configuration.joints:
         raise UnsolvableError(
-            "nothing folds: the sheet has no creases between panels"
+            "rigid: the sheet has no creases between panels"
             if configuration.limited
-            else "nothing moves: there are no joints"
+            else "rigid: there are no joints"
         )
+    if asked.branch is not None:  # it may exist only with other vertices within the precision
+        configuration, branch = configuration.of_branch(asked.branch)
+        asked = replace(asked, branch=branch)
     if collisions:
         asked = replace(asked, events=(*asked.events, configuration.collision()))
     return motion_along(configuration, driven_from(configuration, asked))
@@ -215,6 +330,8 @@ def motion_along(configuration: Configuration, driven: Driven) -> Motion:
         )
         path = replace(path.up_to(kept), stopped=reason + configuration.doubt)
     kept = len(path.angles)
-    return Motion(
-        configuration, driven.branch, path, driven.goals, points[:kept], float(apart[:kept].max(initial=0.0))
-    )
+    crossing: tuple[int, ...] = ()
+    if not any(event.kind == "collision" for event in path.events):
+        path, crossing = configuration.passed(path, points[:kept], driven.places[0])
+    far = float(apart[:kept].max(initial=0.0))
+    return Motion(configuration, driven.branch, path, driven.goals, points[:kept], far, crossing)

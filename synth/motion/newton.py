@@ -62,7 +62,7 @@ class TangentSpace:
         change = self._least_exactly(-residual)
         if not held:
             return change
-        moves = np.stack([self._move(joint) for joint in held])
+        moves = np.stack([self.move(joint) for joint in held])
         places = list(held)
         shares = np.linalg.lstsq(moves[:, places], change[places], rcond=DOUBLE.zero)[0]
         return np.asarray(change - shares @ moves)
@@ -153,14 +153,15 @@ class TangentSpace:
         """Return a solution of the normal equations, float[J], as a sum of the rows of J."""
         return np.asarray(self._transposed @ ((off - self._jacobian @ rates) / self._added))
 
-    def _move(self, joint: int) -> Floats:
+    def move(self, joint: int) -> Floats:
+        """Return the rates nearest to those of one joint alone at which loops stay closed: float[J]."""
         if joint not in self._moves:
             self._moves[joint] = self.projected(np.eye(1, self._joints, joint)[0])
         return self._moves[joint]
 
     def least_rates(self, joints: Sequence[int], wanted: Floats) -> Floats:
         """Return the least rates at which some joints have wanted ones; zeros if they cannot: float[J]."""
-        moves = np.stack([self._move(joint) for joint in joints])
+        moves = np.stack([self.move(joint) for joint in joints])
         places = list(joints)
         shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=DOUBLE.zero)
         rates = shares @ moves

@@ -21,6 +21,7 @@ from synth.motion.walk.allowance import Allowance
 from synth.motion.walk.event import PathEvent
 from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint
 from synth.motion.walk.rank import WATCHED, RankWatch
+from synth.motion.walk.signs import KeptSigns
 from synth.motion.walk.walking import Event, Goal, Walk
 
 __all__ = ["Drive", "Path", "PathOptions", "driven_path"]
@@ -54,6 +55,8 @@ class PathOptions:
         be squares there, which tell angles to the root of their error only.
     events : sequence of Event, optional
         What else is looked for on the way.
+    signs : float[J], optional
+        Signs that joint angles keep as long as there is a motion on which they do; 0 where any will do.
     """
 
     direction: Floats | None = None
@@ -64,6 +67,7 @@ class PathOptions:
     allowance: Allowance | None = None
     locked: Sequence[int] = ()
     events: Sequence[Event] = ()
+    signs: Floats | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +181,13 @@ class Drive:
         moving = closure.locked(options.locked) if options.locked else closure
         watch = RankWatch(closure) if 0 < closure.joints <= WATCHED and closure.rows else None
         self._walk = Walk(
-            moving, start, options.direction, straight=options.straight, allowance=options.allowance, watch=watch
+            moving,
+            start,
+            options.direction,
+            straight=options.straight,
+            allowance=options.allowance,
+            watch=watch,
+            kept=None if options.signs is None else KeptSigns(options.signs),
         )
         self._frames = self._walk.frames
         self._drivers, self._report = list(drivers), options.report

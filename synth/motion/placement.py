@@ -49,9 +49,12 @@ def link_motions(
     still = (np.broadcast_to(np.eye(3), (len(angles), 3, 3)), np.zeros((len(angles), 3)))
     motions: dict[LinkId, tuple[Floats, Floats]] = {}
     for near, far, place, sign in joints_outwards(linkage, ground):
-        turn = rotations(linkage.directions[place], sign * (angles[:, place] - linkage.angles[place]))
+        value = sign * (angles[:, place] - linkage.angles[place])
         rotation, shift = motions.setdefault(near, still)
-        point = linkage.points[place]
+        if place in linkage.slides:
+            motions[far] = rotation, shift + value[:, None] * (rotation @ linkage.directions[place])
+            continue
+        turn, point = rotations(linkage.directions[place], value), linkage.points[place]
         motions[far] = rotation @ turn, shift + (rotation @ (point - turn @ point)[..., None])[..., 0]
     return {link: motions.get(link, still) for link in linkage.graph.nodes}
 

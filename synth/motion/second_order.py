@@ -48,6 +48,12 @@ class RateSpace:
     basis: Floats
     left: tuple[Quadric, ...]
 
+    def in_order(self, order: Ints) -> RateSpace:
+        """Return the same space with joints in another order, int[J]: their places in the present one."""
+        place = np.argsort(order)
+        left = (replace(one, joints=tuple(place[list(one.joints)].tolist())) for one in self.left)
+        return RateSpace(self.basis[order], tuple(left))
+
 
 def rate_spaces(
     closure: ClosureEquations,

@@ -24,6 +24,7 @@ def move(
     branch: int | str | None = None,
     frames: int = FRAMES,
     collisions: bool = False,
+    precision: float | None = None,
     report: Callable[[int], None] | None = None,
 ) -> Motion:
     """Move a mechanism from its configuration until driven joints have the angles asked for.
@@ -44,6 +45,9 @@ def move(
         How many after the first.
     collisions : bool, optional
         Of a sheet, end before the first frame on whose way panels pass through each other.
+    precision : float, optional
+        The error that a coordinate may have, in their unit; by default as they are written, or as the geometry
+        shows. A Configuration has its own.
     report : callable, optional
         Called with the number of frames after each.
 
@@ -70,5 +74,5 @@ def move(
     ([30.0, -30.0, 30.0, -30.0], 1)
     """
     check_given("move", thing, Movable)
-    at = configuration_of(thing)
+    at = configuration_of(thing, precision=precision)
     return motion_of(at, Asked(drive or {}, along or {}, branch, frames, report), collisions=collisions)

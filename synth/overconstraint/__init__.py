@@ -6,21 +6,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from graphs.lazy import offered
 
-if TYPE_CHECKING:
-    from synth.overconstraint.answer import Explanation as Explanation
-    from synth.overconstraint.answer import IdleSet as IdleSet
-    from synth.overconstraint.explained import explain as explain
-    from synth.overconstraint.tolerances import Tolerance as Tolerance
-else:
-    __getattr__, __dir__, __all__ = offered(
-        __name__,
-        {
-            "answer": "Explanation IdleSet",
-            "explained": "explain",
-            "tolerances": "Tolerance",
-        },
-    )
+__getattr__, __dir__, __all__ = offered(__name__)

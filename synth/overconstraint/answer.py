@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import degrees, isfinite
 from typing import Any
 
+from graphs.answer.report import power_of_ten
 from graphs.errors import numbered, shown
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -18,7 +19,7 @@ _LISTED = 12
 """Axes of which tolerances are printed; data has all."""
 
 _OTHER_QUESTION = (
-    "explain looks at the equations of one configuration, to first and second order, and at no branch"
+    "explain analyses the closure equations of one configuration, to first and second order, and no branch"
 )
 
 
@@ -100,23 +101,30 @@ class Explanation(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        head = f"{numbered(self.freedoms, 'infinitesimal freedom')}, M = {self.count} by count: h = {self.idle}"
-        evidence = f"gap {self.gap:.0e}" if isfinite(self.gap) else "no zero singular value"
+        freedoms = numbered(self.freedoms, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+        head = f"{freedoms}, M = {self.count} by count: h = {self.idle}"
+        evidence = (
+            f"singular-value gap {power_of_ten(self.gap)}" if isfinite(self.gap) else "no zero singular value"
+        )
         blocks: list[Block] = [f"{head}   ({evidence})"]
         if not self.idle:
-            return [*blocks, "no equation is idle: a general member moves so too"]
+            return [
+                *blocks,
+                "no closure equation is redundant: a generic realisation has these degrees of freedom too",
+            ]
         if self.active:
             blocks.append(
-                f"at second order {self.active} of {numbered(self.idle, 'idle equation')} ask something of the "
-                "motions: this pose is singular, and another one tells more"
+                f"at second order {self.active} of {numbered(self.idle, 'redundant closure equation')} constrain "
+                "the motions: this configuration is singular, and a regular one shows more"
             )
         else:
-            blocks.append("all of them are idle at second order too")
+            count = numbered(self.idle, "redundant closure equation")
+            blocks.append(f"{count}, at second order too")
         for one in self.sets:
-            names = "; ".join(shown(" ".join(map(str, loop))) for loop in one.loops)
-            why = ", ".join(one.reasons) or "no reason that is known here"
+            names = "; ".join(", ".join(map(shown, loop)) for loop in one.loops)
+            why = ", ".join(one.reasons) or "special geometry not recognised"
             loops = numbered(len(one.loops), "loop")
-            blocks.append(f"{numbered(one.idle, 'idle equation')} in {loops} of joints {names}: {why}")
+            blocks.append(f"{numbered(one.idle, 'redundant equation')} in {loops} of joints {names}: {why}")
         return [*blocks, *self._tolerances()]
 
     def _tolerances(self) -> list[Block]:
@@ -124,12 +132,15 @@ class Explanation(Printed):
             return []
         rows = [(plain(one.joint), _angle(one.turn), _length(one.shift)) for one in self.tolerances[:_LISTED]]
         more = len(self.tolerances) - len(rows)
-        table = TableBlock(("axis", "turned, degrees", "shifted"), rows, ("turned, degrees", "shifted"))
-        told = (
-            "errors at which what was idle counts as much as the weakest equation that does; a hundredth of one "
-            "asks for a play of a hundredth of the motion:"
+        table = TableBlock(
+            ("axis", "rotation, degrees", "translation"), rows, ("rotation, degrees", "translation")
         )
-        return [told, table, *([f"and {more} more axes that may err more"] if more else [])]
+        meaning = (
+            "axis errors at which a redundant equation constrains as much as the weakest independent one; "
+            "a hundredth of one requires play of a hundredth of the motion:"
+        )
+        others = numbered(more, "more axis", "more axes")
+        return [meaning, table, *([f"and {others} with larger errors"] if more else [])]
 
     def __repr__(self) -> str:
         return f"<Explanation: h = {self.idle}, {numbered(len(self.sets), 'set')} of loops>"

@@ -11,17 +11,21 @@ from synth.overconstraint.answer import Explanation, IdleSet
 from synth.overconstraint.idle import active_at_second_order, first_order, smallest_sets
 from synth.overconstraint.reasons import reasons_of
 from synth.overconstraint.tolerances import axis_tolerances
+from synth.overconstraint.turning import turning_reasons
 
 __all__ = ["explain"]
 
 
-def explain(thing: Mechanism | PosedLinkage) -> Explanation:
+def explain(thing: Mechanism | PosedLinkage, *, precision: float | None = None) -> Explanation:
     """Say which loops of a mechanism at its pose hold idle equations, why, and how far its axes may err.
 
     Parameters
     ----------
     thing : Mechanism or PosedLinkage
         With coordinates; of a sheet with several frames the first that has them.
+    precision : float, optional
+        The error that a coordinate may have, in their unit; by default as they are written, or as the geometry
+        shows.
 
     Raises
     ------
@@ -35,10 +39,10 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
     >>> from synth.patterns import generate
     >>> found = explain(generate("bennett").mechanism)
     >>> found.freedoms, found.count, found.idle, found.sets[0].reasons[0]
-    (1, -2, 3, 'opposite links alike, lengths as the sines of the twists (Bennett)')
+    (1, -2, 3, 'opposite links equal, lengths proportional to the sines of the twists (Bennett)')
     """
     check_given("explain", thing, Movable)
-    at = configuration_of(thing)
+    at = configuration_of(thing, precision=precision)
     linkage = at.linkage
     order = first_order(linkage, at.tolerances)
     meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
@@ -48,7 +52,7 @@ def explain(thing: Mechanism | PosedLinkage) -> Explanation:
         IdleSet(
             tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
             number,
-            tuple(reasons_of(linkage, loops, meant)),
+            tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant)),
         )
         for loops, number in smallest_sets(linkage, order)
     )

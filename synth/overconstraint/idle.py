@@ -80,7 +80,7 @@ def first_order(linkage: PosedLinkage, tolerances: Tolerances = DOUBLE) -> First
     matrix, loop_of = _by_loops(linkage, linkage.angles)
     found = spectrum(matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / axis_lengths(linkage)))
     if found.rank is None:
-        raise NumericalError("the rank of the closure equations at the pose cannot be told")
+        raise NumericalError("the rank of the closure equations at this configuration is unclear")
     parts = split(matrix)
     smallest = float(parts.values[found.rank - 1]) if found.rank else 0.0
     rates, stresses = canonical_basis(parts.right[found.rank :].T), canonical_basis(parts.left[:, found.rank :])

@@ -37,7 +37,7 @@ def _of_one_loop(linkage: PosedLinkage, loop: PosedLoop, near: float) -> Iterato
     if loop.centre is not Centre.NONE:
         spread = axes if loop.centre is Centre.FINITE else np.vstack([axes[:1], points - points[0]])
         if singular_values(spread)[-1] <= near:
-            yield "all axes in one plane, at this pose"
+            yield "all axes in one plane, at this configuration"
         return
     if _parallel(axes, axes[0], near).all():
         yield "all axes parallel: a planar loop"
@@ -65,23 +65,23 @@ def _of_equal_links(points: Floats, axes: Floats, near: float) -> Iterator[str]:
         turned = np.abs(np.sin(twists) - np.sin(np.roll(twists, 2))).max() <= near
         ratio = lengths[0] * np.sin(twists[1]) - lengths[1] * np.sin(twists[0])
         if alike and turned and abs(ratio) <= near:
-            yield "opposite links alike, lengths as the sines of the twists (Bennett)"
+            yield "opposite links equal, lengths proportional to the sines of the twists (Bennett)"
     elif np.abs(np.cos(twists)).max() <= near and np.ptp(lengths) <= near:
-        yield "right twists and equal lengths (kaleidocycle)"
+        yield "twists of 90° and equal lengths (kaleidocycle)"
     elif len(axes) == 6 and np.abs(np.cos(twists)).max() <= near:
         before, after = _feet(points, axes, near)
         alternate = (lengths**2) @ np.array([1.0, -1.0] * 3)
         if np.abs(after - before).max() <= near and abs(float(alternate)) <= near:
-            yield "right twists, no offsets, squares of alternate lengths alike in sum (Bricard's trihedral)"
+            yield "twists of 90°, no offsets, equal sums of squares of alternate lengths (Bricard's trihedral)"
 
 
 def _of_symmetry(points: Floats, axes: Floats, near: float) -> Iterator[str]:
     count = len(axes)
     if count % 2 == 0 and _is_symmetry(points, axes, np.roll(np.arange(count), count // 2), near, half_turn=True):
-        yield "line symmetry: half a turn takes each axis to its opposite"
+        yield "line symmetry: a half-turn maps each axis to the opposite one"
     for shift in range(count):
         if _is_symmetry(points, axes, (shift - np.arange(count)) % count, near, half_turn=False):
-            yield "plane symmetry: a mirror takes the axes to each other"
+            yield "plane symmetry: a reflection maps the axes to each other"
             return
 
 
@@ -110,11 +110,11 @@ def _of_vertices(linkage: PosedLinkage, loops: list[PosedLoop], near: list[float
         round_each = [(*_sectors(linkage, loop), error) for loop, error in zip(loops, near, strict=True)]
         if all(abs(a + c - pi) <= error and abs(b + d - pi) <= error for a, b, c, d, error in round_each):
             yield (
-                "vertices of four creases that fold flat: half-angle tangents keep their ratios there, and as "
-                "these agree round the vertices at this pose they agree at all"
+                "flat-foldable degree-4 vertices: half-angle tangents keep their ratios, and the ratios agree "
+                "round these vertices at this configuration, hence along the whole branch"
             )
         elif all(abs(a - c) <= error and abs(b - d) <= error for a, b, c, d, error in round_each):
-            yield "vertices of four creases with opposite sectors alike: opposite creases turn alike"
+            yield "degree-4 vertices with equal opposite sector angles: opposite creases have equal fold angles"
 
 
 def _sectors(linkage: PosedLinkage, loop: PosedLoop) -> list[float]:

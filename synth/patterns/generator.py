@@ -57,7 +57,7 @@ class Parameter:
 
         Examples
         --------
-        >>> count("rows", 3, 1, 9, "of panels").checked(12)
+        >>> count("rows", 3, 1, 9, "number of rows of panels").checked(12)
         Traceback (most recent call last):
         ...
         graphs.errors.InvariantError: rows = 12; expected a whole number from 1 to 9 [parameter]
@@ -144,5 +144,5 @@ class Generator:
         return {one.name: one.checked(given.get(one.name, one.default)) for one in self.parameters}
 
 
-FOLD = Parameter("fold", "angle", 0.0, radians(0.5), radians(170.0), "of the crease that moves most")
+FOLD = Parameter("fold", "angle", 0.0, radians(0.5), radians(170.0), "fold angle of the crease that moves most")
 """How far what is foldable is folded."""

@@ -44,17 +44,23 @@ _NONE = Wishes()
 
 
 def drawings(
-    pattern: Pattern, seed: int, tries: int, wishes: Wishes = _NONE, allowance: Allowance | None = None
+    pattern: Pattern,
+    seed: int,
+    tries: int,
+    wishes: Wishes = _NONE,
+    allowance: Allowance | None = None,
+    *,
+    first: int = 0,
 ) -> Iterator[Drawn]:
     """Yield drawings without crossings, each panel strictly convex where it can be, creases to their centres.
 
     The first is as even as possible, every other aims at random lengths. The border is convex; where creases point
     to centres across holes every third drawing may have another. The allowance counts steps of improvement, of all
-    drawings together: where it is used up there is no other drawing.
+    drawings together: where it is used up there is no other drawing. Tries are numbered from `first`.
     """
     conditions, symmetry = wishes.conditions(pattern), wishes.symmetry
-    for number in range(tries):
-        if allowance is not None and number and allowance.left <= 0:
+    for number in range(first, first + tries):
+        if allowance is not None and number > first and allowance.left <= 0:
             return
         random = np.random.default_rng((seed, number))
         convex = not pattern.pointings or number % 3 < 2

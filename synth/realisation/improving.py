@@ -97,6 +97,7 @@ class _Wanted:
     exactly: Condition
 
 
+@np.errstate(divide="ignore", invalid="ignore")  # steps on which vertices coincide are not taken
 def improved(
     pattern: Pattern,
     start: Floats,
@@ -144,6 +145,8 @@ def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | 
         off, by = exactly(unknowns)
         if np.abs(off).max(initial=0.0) <= _TIGHT:
             break
+        if not np.isfinite(by).all():  # vertices coincide
+            return None
         unknowns = unknowns - (np.linalg.pinv(by, rcond=DOUBLE.zero) @ off).reshape(unknowns.shape)
     angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
     off, _ = exactly(unknowns)
@@ -230,6 +233,8 @@ def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
     padded = np.zeros((len(residuals), unknowns.size))
     padded[:, : derivatives.shape[1]] = derivatives
     off, off_by = wanted.exactly(unknowns)
+    if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
+        return None
     if not pattern.bent.any():
         return _Cost(residuals, padded, off, off_by)
     seen, by_seen = _seen(pattern, unknowns)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any, Literal, get_args
+from typing import Any, Literal, get_args, overload
 
 import numpy as np
 
@@ -37,6 +37,8 @@ from synth.realisation.refusing import check_holes
 from synth.realisation.simplest import simplest_drawn
 from synth.realisation.space.lifting import lifted
 from synth.realisation.space.receding import receded, with_finite_centres
+from synth.realisation.special.answer import SpecialSearch
+from synth.realisation.special.search import SpecialWishes, search_special
 from synth.realisation.wanted.wishes import Kept, Wishes, wishes_for
 
 __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
@@ -182,6 +184,35 @@ class Realised(Printed):
         return f"<Realised: {self.kind}, {self.sheet!r}>"
 
 
+@overload
+def realise(
+    mechanism: Mechanism | ChainString,
+    *,
+    kind: Kind = ...,
+    size: float = ...,
+    seed: int = ...,
+    tries: int = ...,
+    flat_foldable: bool = ...,
+    symmetric: bool = ...,
+    mode: str | None = ...,
+    freedoms: None = ...,
+) -> Realised: ...
+
+
+@overload
+def realise(
+    mechanism: Mechanism,
+    *,
+    kind: Kind = ...,
+    seed: int = ...,
+    tries: int = ...,
+    freedoms: int,
+    geometry: str = ...,
+    every: bool = ...,
+    all_joints: bool = ...,
+) -> SpecialSearch: ...
+
+
 def realise(
     mechanism: Mechanism | ChainString,
     *,
@@ -192,8 +223,12 @@ def realise(
     flat_foldable: bool = False,
     symmetric: bool = False,
     mode: str | None = None,
-) -> Realised:
-    """Give a type coordinates.
+    freedoms: int | None = None,
+    geometry: str = "",
+    every: bool = False,
+    all_joints: bool = True,
+) -> Realised | SpecialSearch:
+    """Give a type coordinates, or look for members of special dimensions that move.
 
     Parameters
     ----------
@@ -217,10 +252,21 @@ def realise(
     mode : str, optional
         Of an R/- string: which of `ChainString.modes`, or one that is its reverse; without it all points in which
         creases meet lie on one side.
+    freedoms : int, optional
+        Look for a member that moves with so many freedoms although a general one has fewer: families of special
+        geometry are tried one after the other, flat sheets first, then axes in space (``kind="space"``: these
+        alone). Of an SC graph no panels are drawn.
+    geometry : str, optional
+        With `freedoms`: only families with this in their name.
+    every : bool, optional
+        With `freedoms`: try all families, not only until one moves.
+    all_joints : bool, optional
+        With `freedoms`: whether all joints have to move.
 
     Returns
     -------
-    Realised
+    Realised or SpecialSearch
+        The second with `freedoms`: what was tried and found, none being an answer too.
 
     Raises
     ------
@@ -241,6 +287,14 @@ def realise(
     """
     check_given("realise", mechanism, Mechanism | ChainString)
     _check(kind, size, seed, tries)
+    if freedoms is not None:
+        if flat_foldable or symmetric or size != 1.0 or mode:
+            told = "freedoms with flat_foldable, symmetric, size or mode"
+            raise InvariantError("freedoms", told, "freedoms alone: the first two are among the families tried")
+        search = SpecialWishes(freedoms, kind == "sheet", seed, tries, geometry, every, all_joints)
+        return _special(mechanism, search)
+    if geometry or every or not all_joints:
+        raise InvariantError("freedoms", "geometry, every or all_joints without freedoms", "a number of freedoms")
     if kind == "space" and (flat_foldable or symmetric):
         raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
     if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
@@ -365,6 +419,13 @@ def _realised(asked: _Asked, drawn: Drawn, height: float) -> Realised:
         tries=asked.tries,
         notes=asked.notes,
     )
+
+
+def _special(mechanism: Mechanism | ChainString, search: SpecialWishes) -> SpecialSearch:
+    """Return what a search for special geometry finds; strings have no loops."""
+    if isinstance(mechanism, ChainString):
+        raise InvariantError("string", "special geometry of an R/- string", "a type with a loop")
+    return search_special(mechanism, search)
 
 
 def _check(kind: str, size: float, seed: int, tries: int) -> None:

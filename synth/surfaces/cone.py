@@ -9,14 +9,15 @@ Magleby, Howell 2020; Hyatt et al. 2021, sections 3.2 and 4. Theory: docs/theory
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees
+from math import cos, degrees
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.errors import UnsolvableError, numbered
+from graphs.mechanism.surfaces import checked_cone_angle
 from graphs.printing import Block, Printed
 from synth.fourbar.closing import (
     FourBarKind,
@@ -38,7 +39,7 @@ from synth.surfaces.mapping import (
 
 __all__ = [
     "ConeMap",
-    "checked_cone_angle",
+    "cone_chords",
     "cone_reach",
     "is_flat",
     "largest_cone_angle",
@@ -98,6 +99,7 @@ class ConeMap(Printed):
             blocks.append(kind_line(self.kind, angular=True))
             if self.solutions in ("a", "b", "c", "d"):
                 blocks.append(f"class {self.solutions} of Hyatt et al. 2020, Fig. 10")
+        blocks.append("chords, 2 sin(phi / 2): " + ", ".join(f"{x:.6g}" for x in cone_chords(self.angles)))
         blocks += circles_table([*self.flat, *self.cones], self.families, flat=self.flat, angular=True)
         blocks += [f"caution: {caution}" for caution in self.cautions()]
         if self.why:
@@ -114,6 +116,7 @@ class ConeMap(Printed):
         """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         document: dict[str, Any] = {
             "angles_deg": in_degrees(self.angles),
+            "chords": cone_chords(self.angles).tolist(),
             **({} if self.kind is None else self.kind.to_json(angular=True)),
             "cones": [_in_json(cone) for cone in self.cones],
             "families": [
@@ -132,25 +135,7 @@ class ConeMap(Printed):
 
 def _in_json(one: MappedLoop) -> dict[str, Any]:
     bounds = [degrees(x) for x in one.bounds]
-    return {"lambda_deg": degrees(one.size), "lambda_bounds_deg": bounds, **one.to_json()}
-
-
-def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
-    """Return cone angles; InvariantError unless 0 <= lambda < pi / 2.
-
-    >>> checked_cone_angle(np.pi / 2)
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: the cone angle is 90 degrees; expected 0 or more, and less than 90 [cone angle]
-    """
-    given = np.asarray(cone_angle, dtype=float)
-    wrong = given[~((given >= 0) & (given < np.pi / 2))]
-    if wrong.size:
-        told = f"{np.degrees(wrong.flat[0]):.12g}"
-        raise InvariantError(
-            "cone angle", f"the cone angle is {told} degrees", "0 or more, and less than 90", ("lambda", None)
-        )
-    return given
+    return {"lambda_deg": degrees(one.size), "lambda_bounds_deg": bounds, "R": cos(one.size), **one.to_json()}
 
 
 def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
@@ -232,6 +217,17 @@ def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
     Link angles are in radians; a loop is bound by its largest. Source: Hyatt et al. 2021, Eqs. 15, 16.
     """
     return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
+
+
+def cone_chords(angles: npt.ArrayLike) -> Floats:
+    """Return the chords of links on the unit sphere, 2 sin(phi / 2) (Hyatt et al. 2021, Eq. 13).
+
+    On a cone their circle has the radius R = cos(lambda) (Eq. 14).
+
+    >>> cone_chords(np.radians([70, 80, 120, 40])).round(3).tolist()
+    [1.147, 1.286, 1.732, 0.684]
+    """
+    return np.asarray(2.0 * np.sin(np.asarray(angles, dtype=float) / 2.0))
 
 
 def is_flat(cone_angle: float, longest: float) -> bool:

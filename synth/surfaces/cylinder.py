@@ -15,13 +15,16 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered
-from graphs.printing import Block, Printed
+from graphs.mechanism.surfaces import Cylinder
+from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import DOUBLE
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
 from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
+from synth.surfaces.circuit import azimuths
 from synth.surfaces.loop_sums import sign_patterns
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop, cautions_of, circles_table, kind_line, mapped_loop
 
-__all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "map_to_cylinders"]
+__all__ = ["CylinderMap", "central_angles", "chords", "cylinder_reach", "joint_coordinates", "map_to_cylinders"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +70,14 @@ class CylinderMap(Printed):
         blocks: list[Block] = [] if self.kind is None else [kind_line(self.kind, angular=False)]
         blocks += circles_table(self.cylinders, self.families, flat=(), angular=False)
         blocks += [f"caution: {caution}" for caution in self.cautions()]
+        for number, cylinder in enumerate(self.cylinders, start=1):
+            rows = [
+                (str(joint), f"{x + 0.0:.8g}", f"{y + 0.0:.8g}")
+                for joint, (x, y) in enumerate(
+                    joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(), start=1
+                )
+            ]
+            blocks += [f"joints on cylinder {number}", TableBlock(("joint", "x", "y"), rows, ["x", "y"])]
         return [*blocks, f"no cylinder: {self.why}"] if self.why else blocks
 
     def __repr__(self) -> str:
@@ -82,6 +93,7 @@ class CylinderMap(Printed):
                     "radius": cylinder.size,
                     "radius_bounds": [None if x == inf else x for x in cylinder.bounds],
                     **cylinder.to_json(),
+                    "coordinates": joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(),
                 }
                 for cylinder in self.cylinders
             ],
@@ -92,6 +104,16 @@ class CylinderMap(Printed):
             "why": self.why or None,
             "cautions": list(self.cautions()),
         }
+
+
+def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
+    """Return where joints at azimuths float[J] are across the axis of a cylinder: (R sin t, R cos t), float[J, 2].
+
+    >>> joint_coordinates(2.0, [0.0, np.pi]).tolist()
+    [[0.0, 2.0], [0.0, -2.0]]
+    """
+    points, _ = Cylinder(radius).axes(places)
+    return np.where(np.abs(points) > DOUBLE.same_point * radius, points, 0.0)[:, ::2]
 
 
 def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import degrees, fsum, pi
+from math import cos, degrees, fsum, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +27,7 @@ from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, lo
 __all__ = [
     "FamilyOfCircles",
     "MappedLoop",
+    "SizedLinks",
     "cautions_of",
     "circles_table",
     "in_degrees",
@@ -204,6 +205,11 @@ def circles_table(
     ('open', '++++', '1')
     """
     size = "lambda (deg)" if angular else "radius"
+
+    def radius_of(size: float) -> list[str]:
+        """Return R of a cone (Hyatt et al. 2021, Eq. 14); the size of a cylinder is its radius."""
+        return [f"{cos(size):.6g}"] if angular else []
+
     rows = []
     for one in loops:
         notes = ["flat, no cone"] * (one in flat)
@@ -213,16 +219,18 @@ def circles_table(
             notes.append(f"ill-conditioned, between {low:.6g} and {high:.6g}")
         rows.append((
             f"{degrees(one.size) if angular else one.size:.10g}", one.circuit, signs_text(one.signs),
-            str(one.turns), " ".join(f"{degrees(step):.2f}" for step in one.steps), "; ".join(notes),
+            str(one.turns), *radius_of(one.size), " ".join(f"{degrees(step):.2f}" for step in one.steps),
+            "; ".join(notes),
         ))  # fmt: skip
     for family in families:
         low, high = (degrees(x) if angular else x for x in family.interval)
         rows.append((
-            f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns), "",
+            f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns),
+            *(["" for _ in radius_of(0.0)]), "",
             "every one of these" + (", ill-conditioned" if family.caution else ""),
         ))  # fmt: skip
-    heads = (size, "circuit", "signs", "k", "steps (deg)", "note")
-    return [TableBlock(heads, rows, [size, "k"])] if rows else []
+    heads = (size, "circuit", "signs", "k", *(["R"] if angular else []), "steps (deg)", "note")
+    return [TableBlock(heads, rows, [size, "k", "R"] if angular else [size, "k"])] if rows else []
 
 
 def mapped_loop(
@@ -238,7 +246,7 @@ def mapped_loop(
     roots = loop_roots(reach, base)
     families = _families(roots, reach, base)
     vanishing = {family.signs for family in families}
-    links = _Links(reach, base, flat_steps)
+    links = SizedLinks(reach, base, flat_steps)
     found: dict[tuple[tuple[int, ...], float], MappedLoop] = {}
     for signs, turns, z, double in zip(roots.signs, roots.turns, roots.size, roots.double, strict=True):
         root = _as_listed(_Root(float(z), signs, int(turns), bool(double), _NONE), links)
@@ -250,7 +258,7 @@ def mapped_loop(
 
 def _families(roots: LoopRoots, reach: Floats, base: Base) -> tuple[FamilyOfCircles, ...]:
     end = float(reach.min())
-    interval = (0.0, _size(end, 1)) if base else (_size(end, 0), np.inf)
+    interval = (0.0, size_of(end, 1)) if base else (size_of(end, 0), np.inf)
     within = f"{ILL_CONDITIONED}: the loop closes here within the rounding of its links only"
     exact = dict(zip(map(tuple, roots.family_signs.tolist()), roots.family_exact.tolist(), strict=True))
     return tuple(
@@ -276,12 +284,15 @@ class _Root(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class _Links:
-    """The links of a loop, as loop sums know them."""
+class SizedLinks:
+    """The links of loops, as loop sums know them: reach, and base 1 for link angles on cones, 0 for lengths.
+
+    For cones, `flat_steps` are the unsigned steps where the circle has size 0.
+    """
 
     reach: Floats
     base: Base
-    flat_steps: Floats | None
+    flat_steps: Floats | None = None
 
     def spans(self, size: float) -> Floats:
         """Return what the links span, without sign."""
@@ -299,11 +310,11 @@ class _Links:
         return bool((self.reach[half] == self.reach.min()).all())
 
 
-def _on_its_circle(root: _Root, links: _Links) -> MappedLoop:
+def _on_its_circle(root: _Root, links: SizedLinks) -> MappedLoop:
     steps = root.signs * links.spans(root.size)
     residual = fsum([*steps.tolist(), -2.0 * pi * root.turns])
     least, most = _bounds(root, links)
-    ends = sorted((_size(least, links.base), _size(most, links.base)))
+    ends = sorted((size_of(least, links.base), size_of(most, links.base)))
     doubt = ""
     if root.double and not len(root.half) and (root.size or residual):
         doubt = "the loop sum touches 360 k degrees here within rounding: no circle, one, or two"
@@ -312,7 +323,7 @@ def _on_its_circle(root: _Root, links: _Links) -> MappedLoop:
     elif root.size and most - least > _VAGUE * root.size:
         doubt = "rounding leaves few digits of the size"
     return MappedLoop(
-        _size(root.size, links.base),
+        size_of(root.size, links.base),
         str(circuits(steps).names()),
         tuple(root.signs.tolist()),
         root.turns,
@@ -326,7 +337,7 @@ def _on_its_circle(root: _Root, links: _Links) -> MappedLoop:
     )
 
 
-def _bounds(root: _Root, links: _Links) -> tuple[float, float]:
+def _bounds(root: _Root, links: SizedLinks) -> tuple[float, float]:
     """Return the sizes about a root at which its loop closes, with any signs of links of nearly half a turn."""
     ends = [_closing_sizes(root, links)]
     if not links.sharp(root.half):
@@ -338,7 +349,7 @@ def _bounds(root: _Root, links: _Links) -> tuple[float, float]:
     return min(least for least, _ in ends), max(most for _, most in ends)
 
 
-def _closing_sizes(root: _Root, links: _Links) -> tuple[float, float]:
+def _closing_sizes(root: _Root, links: SizedLinks) -> tuple[float, float]:
     """Return the sizes below and above a root from which on its loop sum is not 2 pi k, whatever the rounding."""
     weights, distinct = put_together(root.signs, links.reach)  # equal links cancel exactly
     away = distinct[0] * 0.5 ** np.arange(_HALVINGS, -1, -1)
@@ -351,13 +362,14 @@ def _closing_sizes(root: _Root, links: _Links) -> tuple[float, float]:
     return first_open(np.maximum(root.size - away, 0.0)), first_open(np.minimum(root.size + away, distinct[0]))
 
 
-def _size(z: float, base: Base) -> float:
+def size_of(z: float, base: Base) -> float:
+    """Return lambda, or of base 0 the radius, of a circle: z is tan(lambda)^2, or 1 / (2 R)^2."""
     if base:
         return float(np.arctan(np.sqrt(z)))
     return float(0.5 / np.sqrt(z)) if z else np.inf
 
 
-def _as_listed(root: _Root, links: _Links) -> _Root:
+def _as_listed(root: _Root, links: SizedLinks) -> _Root:
     """Return a root with + for half turns, or its mirror image, so that the first other sign is +."""
     half = links.half_turns(root.size) if root.double and root.size == links.reach.min() else _NONE
     if not len(half):

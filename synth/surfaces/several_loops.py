@@ -2,7 +2,7 @@
 
 Projected angles always fit: put the joints anywhere round a cone, and every loop closes, since its steps lead
 back to where they began. All functions take many linkages of one chain at a time. From link angles:
-`synth.surfaces.linkage_cones`. Theory: docs/theory/multiloop.md.
+`synth.surfaces.common`. Theory: docs/theory/multiloop.md.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.ids import JointId
-from graphs.mechanism.conical import Pair
+from graphs.mechanism.on_surface import Pair
 from graphs.mechanism.sc import SCGraph
 from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles

@@ -9,27 +9,6 @@ together). `write_solids` writes panels as thin solids. Theory: docs/theory/temp
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from graphs.lazy import offered
 
-if TYPE_CHECKING:
-    from synth.templates.paper import Paper as Paper
-    from synth.templates.paper import paper_named as paper_named
-    from synth.templates.solids import write_solids as write_solids
-    from synth.templates.template import Template as Template
-    from synth.templates.template import pictured as pictured
-    from synth.templates.template import template_of as template_of
-    from synth.templates.things import panels_of_thing as panels_of_thing
-    from synth.templates.writing import write_template as write_template
-else:
-    __getattr__, __dir__, __all__ = offered(
-        __name__,
-        {
-            "paper": "Paper paper_named",
-            "solids": "write_solids",
-            "template": "Template pictured template_of",
-            "things": "panels_of_thing",
-            "writing": "write_template",
-        },
-    )
+__getattr__, __dir__, __all__ = offered(__name__)

@@ -17,10 +17,10 @@ from graphs.files.solids.stl import stl_bytes
 from graphs.files.solids.three_mf import three_mf_bytes
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.conformed.linkages import OnCone
+from graphs.mechanism.surfaces import Surface
+from synth.conformed.linkages import OnSurface
 from synth.templates.developed.layered import Dimensions, layered
 from synth.templates.developed.solids import solids_on_surface
-from synth.templates.developed.surfaces import Surface
 from synth.templates.scale import millimetres, scale_of
 from synth.templates.thick import plates_in_space, plates_of
 
@@ -150,7 +150,13 @@ def write_meshes(
 
 
 def write_linkage_on_surface(
-    linkage: OnCone, surface: Surface, path: str | Path, *, dimensions: Dimensions, gap: float, force: bool = False
+    linkage: OnSurface,
+    surface: Surface,
+    path: str | Path,
+    *,
+    dimensions: Dimensions,
+    gap: float,
+    force: bool = False,
 ) -> tuple[str, ...]:
     """Write a linkage on a cone or a cylinder as solids in layers; return what the file does not hold.
 

@@ -13,7 +13,7 @@ from typing import Any
 from graphs.errors import SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.plane import flattened, in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.conformed.linkages import OnCone
+from synth.conformed.linkages import OnSurface
 from synth.drawing.scene.shapes import Scene
 from synth.motion.configuration import Configuration
 from synth.moving.made import configuration_of
@@ -43,7 +43,7 @@ class Template:
         Each by itself, millimetres.
     scale : float or None
         Millimetres for a unit of the coordinates; None of what has none.
-    mechanism : Sheet, OnCone or Configuration
+    mechanism : Sheet, OnSurface or Configuration
         What it is made of.
     title : str
     told : tuple of str
@@ -56,7 +56,7 @@ class Template:
 
     pieces: tuple[Piece, ...]
     scale: float | None
-    mechanism: Sheet | OnCone | Configuration
+    mechanism: Sheet | OnSurface | Configuration
     title: str = ""
     told: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()

@@ -7,18 +7,19 @@ from typing import TYPE_CHECKING
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
-from synth.conformed.linkages import OnCone, cone_of_number, linkage_on_cones
+from graphs.mechanism.surfaces import Surface
+from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
 from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.moving.made import sheet_of
 
 if TYPE_CHECKING:
     from synth.realisation.realised import Kind
 
-__all__ = ["linkage_on_a_cone", "panels_of_thing"]
+__all__ = ["linkage_on_a_surface", "panels_of_thing"]
 
 
 def panels_of_thing(
@@ -64,15 +65,14 @@ def panels_of_thing(
     return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {how}"
 
 
-def linkage_on_a_cone(
-    thing: ConicalLinkage | OrderOnCircle, *, cone_angle: float | None = None, number: int | None = None
-) -> OnCone:
-    """Return a linkage on one of its cones; a row of conical candidates is an order.
+def linkage_on_a_surface(
+    thing: SurfaceLinkage | OrderOnCircle, *, surface: Surface | None = None, number: int | None = None
+) -> OnSurface:
+    """Return a linkage on one of its surfaces; a row of conical candidates is an order.
 
-    `cone_angle` is lambda in radians, for azimuths; `number` chooses, from 1, among the cones for given link
-    angles. Raise UnsolvableError if the linkage lies on no cone, on several without a choice, or the chosen one
-    does not exist.
+    `surface` is that of azimuths; `number` chooses, from 1, among those of given link angles or lengths. Raise
+    UnsolvableError if the linkage lies on none, on several without a choice, or the chosen one does not exist.
     """
     if isinstance(thing, OrderOnCircle):
-        return OnCone(thing.chain, list(thing.azimuths), cone_angle)
-    return cone_of_number(linkage_on_cones(thing, cone_angle), number)
+        return OnSurface(thing.chain, list(thing.azimuths), surface)
+    return surface_of_number(linkage_on_surfaces(thing, surface), number, thing.kind)

@@ -8,22 +8,6 @@ Theory: docs/theory/verdict.md.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from graphs.lazy import offered
 
-if TYPE_CHECKING:
-    from synth.verdict.judged import JudgedMobility as JudgedMobility
-    from synth.verdict.judged import mobility as mobility
-    from synth.verdict.of_motion import verdict_of_motion as verdict_of_motion
-    from synth.verdict.verdict import Verdict as Verdict
-    from synth.verdict.verdict import Way as Way
-else:
-    __getattr__, __dir__, __all__ = offered(
-        __name__,
-        {
-            "judged": "JudgedMobility mobility",
-            "of_motion": "verdict_of_motion",
-            "verdict": "Verdict Way",
-        },
-    )
+__getattr__, __dir__, __all__ = offered(__name__)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from graphs.answer.report import MobilityAnswer
 from synth.motion.branches import Certainty
 from synth.verdict.verdict import Verdict
+from synth.verdict.words import in_words
 
 __all__ = ["verdict_of_type"]
 
@@ -29,33 +30,32 @@ def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
     >>> import networkx as nx
     >>> from graphs.answer.mechanisms import mobility
     >>> print(verdict_of_type(mobility(nx.cycle_graph(4))))
-    In general position it moves with 1 freedom (exact rank).
+    A generic realisation has 1 degree of freedom (exact rank).
     """
     pose, exact = answer.pose, answer.exact
     if pose is not None and pose.dof is not None and pose.self_stresses == 0:
-        return Verdict(pose.dof, "pose", "proved", _as_it_lies(pose.dof))
+        return Verdict(pose.dof, "pose", "proved", _at_configuration(pose.dof))
+    special = pose is not None and pose.self_stresses != 0  # what holds in general says nothing of this one
     end = f"; {left_out}" if left_out else ""
     if exact is not None:
         certainty: Certainty = "proved" if exact.mobility == answer.mobility else "numerical"
-        how = "exact rank" if certainty == "proved" else "exact rank of random members, modulo two primes"
-        return Verdict(exact.mobility, "generic", certainty, _in_general(exact.mobility, how, end))
+        how = "exact rank" if certainty == "proved" else "exact rank of random realisations, modulo two primes"
+        freedoms = None if special else exact.mobility
+        return Verdict(freedoms, "generic", certainty, _generic(exact.mobility, how, end))
+    if (member := answer.counts.get("general_member")) is not None:  # of joints of all kinds
+        return Verdict(member, "generic", "numerical", _generic(member, "rank of a random realisation", end))
     if answer.mobility is None:
-        return Verdict(None, "count", "not known", f"Not known how it moves{end}.")
-    return Verdict(max(answer.mobility, 0), "count", "not known", _in_general(answer.mobility, "by count", end))
+        return Verdict(None, "count", "not known", f"Mobility unknown{end}.")
+    freedoms = None if special else max(answer.mobility, 0)
+    return Verdict(freedoms, "count", "not known", _generic(answer.mobility, "by count", end))
 
 
-def _as_it_lies(freedoms: int) -> str:
-    if not freedoms:
-        return "Rigid: nothing moves."
-    return f"Moves with {_freedoms(freedoms)} from its pose."
+def _at_configuration(freedoms: int) -> str:
+    return f"Mobile from this configuration: {in_words(freedoms)}." if freedoms else "Rigid."
 
 
-def _in_general(freedoms: int, how: str, end: str) -> str:
+def _generic(freedoms: int, how: str, end: str) -> str:
     if freedoms <= 0:
         count = f", M = {freedoms}" if freedoms < 0 else ""
-        return f"In general position it is rigid ({how}{count}){end}."
-    return f"In general position it moves with {_freedoms(freedoms)} ({how}){end}."
-
-
-def _freedoms(number: int) -> str:
-    return f"{number} freedom" if number == 1 else f"{number} freedoms"
+        return f"A generic realisation is rigid ({how}{count}){end}."
+    return f"A generic realisation has {in_words(freedoms)} ({how}){end}."

@@ -7,13 +7,6 @@ sources of that, `build` makes it of them. Theory: docs/theory/viewer.md.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from graphs.lazy import offered
 
-if TYPE_CHECKING:
-    from synth.viewer.pages import page as page
-    from synth.viewer.shown import Shown as Shown
-    from synth.viewer.shown import shown_of as shown_of
-else:
-    __getattr__, __dir__, __all__ = offered(__name__, {"pages": "page", "shown": "Shown shown_of"})
+__getattr__, __dir__, __all__ = offered(__name__)

@@ -161,7 +161,7 @@ def shown_of(
 
     Parameters
     ----------
-    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, ConicalLinkage, ...
+    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, SurfaceLinkage, ...
         Of a sheet with several frames the first that has coordinates is moved.
     name : str, optional
         What it is called on the page, such as the name of its file.
@@ -182,7 +182,7 @@ def shown_of(
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
     >>> shown = shown_of(Sheet(5, (), "", faces, corners), "vertex")
     >>> shown.verdict, len(shown.moving.ways.all)
-    ('Folds with 1 freedom from flat, in 2 ways.', 2)
+    ('Rigid-foldable from the flat state: 1 degree of freedom. 2 folding branches.', 2)
     """
     placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
     notes: list[str] = []
@@ -224,7 +224,7 @@ def _moving(thing: Mechanism, notes: list[str], *, still: bool) -> tuple[Configu
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
-    notes += [f"mended: {repair}" for repair in at.mended]
+    notes += [f"repaired: {repair}" for repair in at.mended]
     ways = None if still or not at.joints else _begun(at, notes)
     centres = () if still else centres_of(at)
     if not isinstance(at, SheetConfiguration):

@@ -135,7 +135,8 @@ class Table:
     files : Counter
         Of each variant, how many mechanisms.
     variants, verbs : dict of str to Counter
-        How many questions had each end: "compared", "another question", "refused", "left out", "missing", "fault".
+        How many questions had each end: "compared", "another question", "refused", "indeterminate", "left out",
+        "missing", "fault".
     differ : Counter
         Of each variant and of each verb, how many configurations there is a disagreement about.
     """
@@ -173,7 +174,7 @@ class Table:
         )  # fmt: skip
 
 
-_ENDS = ("compared", "another question", "refused", "left out", "missing", "fault")
+_ENDS = ("compared", "another question", "refused", "indeterminate", "left out", "missing", "fault")
 
 
 def _end(outcome: Outcome) -> str:

@@ -76,6 +76,7 @@ def test_refusing_is_agreed_on_where_nothing_moves():
     still = {"branches": {"number": 0, "exhaustive": True}, "branch": None, "freedoms": None}
     assert keys(mobility=told(**still), move=refused) == []
     assert keys(mobility=told(freedoms=1), move=refused) == ["refused"]
+    assert keys(mobility=told(freedoms=1), explain=Outcome("indeterminate")) == []
     assert keys(mobility=refused, move=refused) == []
     assert keys(mobility=told(), positions=refused) == []
     doors = {("positions", "python"): refused, ("positions", "command"): told()}
@@ -90,12 +91,19 @@ def test_what_says_nothing_or_fails_is_named():
 
 def test_the_table_counts_each_end():
     table = Table()
-    outcomes = of(mobility=told(), fold=told(freedoms=2), limits=Outcome("refused"), view=Outcome("left out"))
+    unknown = Outcome("indeterminate")
+    outcomes = of(
+        mobility=told(),
+        fold=told(freedoms=2),
+        limits=Outcome("refused"),
+        explain=unknown,
+        view=Outcome("left out"),
+    )
     table.add("frame 3", outcomes, disagreements(outcomes))
     rows = [line.split() for line in str(table).splitlines()]
-    assert ["frame", "1", "4", "2", "0", "1", "1", "0", "0", "1"] in rows
-    assert ["limits", "1", "0", "0", "1", "0", "0", "0", "0"] in rows
-    assert ["fold", "1", "1", "0", "0", "0", "0", "0", "1"] in rows
+    assert ["frame", "1", "5", "2", "0", "1", "1", "1", "0", "0", "1"] in rows
+    assert ["limits", "1", "0", "0", "1", "0", "0", "0", "0", "0"] in rows
+    assert ["fold", "1", "1", "0", "0", "0", "0", "0", "0", "1"] in rows
 
 
 def test_guises_have_the_shape_they_should():

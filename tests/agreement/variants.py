@@ -30,10 +30,11 @@ _MIRROR = np.diag([-1.0, 1.0, 1.0])
 
 @dataclass(frozen=True, slots=True)
 class Map:
-    """What is done to points and to directions, and whether it turns left into right."""
+    """What is done to points, directions and lengths, and whether it turns left into right."""
 
     points: Change
     directions: Change
+    factor: float = 1.0
     mirrored: bool = False
 
 
@@ -48,8 +49,8 @@ def _rounded(decimals: int) -> Map:
 MAPS = {
     **{f"{decimals} decimals": _rounded(decimals) for decimals in _DECIMALS},
     "turned and moved": Map(lambda points: points @ _TURN.T + _SHIFT, lambda axes: axes @ _TURN.T),
-    "scaled by 1e6": Map(lambda points: _LARGE * points, _same),
-    "scaled by 1e-6": Map(lambda points: _SMALL * points, _same),
+    "scaled by 1e6": Map(lambda points: _LARGE * points, _same, _LARGE),
+    "scaled by 1e-6": Map(lambda points: _SMALL * points, _same, _SMALL),
     "mirrored": Map(lambda points: points @ _MIRROR, lambda axes: axes @ _MIRROR, mirrored=True),
 }
 VARIANTS = ("as it is", *MAPS, "without assignment", "frame")
@@ -85,7 +86,8 @@ def _mapped(thing: Placed, change: Map) -> Placed:
     if isinstance(thing, Sheet):
         faces = tuple(face[::-1] for face in thing.faces) if change.mirrored else thing.faces
         points = _points(thing.coordinates, change.points)
-        return replace(thing, coordinates=points, faces=faces, frames=None)
+        spread = thing.spread * change.factor
+        return replace(thing, coordinates=points, faces=faces, spread=spread, precision=None, frames=None)
     if isinstance(thing, HingedSolids):
         return HingedSolids(
             thing.chain,

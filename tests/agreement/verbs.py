@@ -38,6 +38,7 @@ DOORS = ("python", "command")
 _TURN = radians(2.0)
 """How far a joint is driven."""
 _FRAMES = 2
+_INDETERMINATE = "the rank of the closure equations at the pose cannot be told"
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +47,9 @@ class Outcome:
 
     Attributes
     ----------
-    kind : {"told", "refused", "missing", "left out", "fault"}
-        An answer with a configuration, an error on purpose, an answer without one, a question that was not asked, an
-        error that nobody foresaw.
+    kind : {"told", "refused", "indeterminate", "missing", "left out", "fault"}
+        An answer with a configuration, an error on purpose, a rank that the coordinates do not decide, an answer
+        without a configuration, a question that was not asked, an error that nobody foresaw.
     configuration : dict or None
     why : str
         Of what is not told.
@@ -232,13 +233,15 @@ def asked(verb: Verb, door: str, subject: Subject, seconds: float | None = None)
             return _in_python(verb, subject) if door == "python" else _at_the_command_line(verb, subject)
     except _TimeIsUpError:
         return Outcome("left out", why=f"more than {seconds:g} seconds")
+    except SynthedraError as error:  # what is no mechanism at all has no joints to be driven
+        return _refusal(str(error))
 
 
 def _in_python(verb: Verb, subject: Subject) -> Outcome:
     try:
         answer = verb.ask(subject)
     except SynthedraError as error:
-        return Outcome("refused", why=str(error))
+        return _refusal(str(error))
     except (ArithmeticError, AssertionError, LookupError, TypeError, ValueError, np.linalg.LinAlgError) as error:
         return Outcome("fault", why=f"{type(error).__name__}: {error}")
     return _told(json.loads(json.dumps(answer.to_json())))
@@ -254,11 +257,15 @@ def _at_the_command_line(verb: Verb, subject: Subject) -> Outcome:
     if result.exit_code == 2 and "was not built" in result.output:
         return Outcome("left out", why="the page is not built here")
     if result.exit_code == 2:
-        return Outcome("refused", why=_last_line(result))
+        return _refusal(_last_line(result))
     if result.exit_code not in (0, 1):
         return Outcome("fault", why=_last_line(result))
     document = _json_of_page(subject.folder / "page.html") if verb.name == "view" else json.loads(result.stdout)
     return _told(document[0] if isinstance(document, list) else document)
+
+
+def _refusal(why: str) -> Outcome:
+    return Outcome("indeterminate" if _INDETERMINATE in why else "refused", why=why)
 
 
 def _last_line(result: Result) -> str:

@@ -378,6 +378,8 @@ cone map data/surfaces/fig11-stephenson.json
 cone behaviour data/surfaces/fig11-stephenson.json
 cone behaviour data/surfaces/fig11-stephenson.json --ground 2
 cone move data/surfaces/fig11-stephenson.json --at 0.1
+cylinder behaviour data/surfaces/fig10-four-bar.json --ground 2
+cylinder move data/surfaces/fig10-four-bar.json --at 10 --point 3,115,0 --axes 1,3
 cone behaviour --steps 40,50,50 --ground 2
 cylinder map --lengths 4,3,5,1,2
 cylinder map --lengths 2,2,2,2

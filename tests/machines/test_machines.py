@@ -15,7 +15,7 @@ from tests.machines.factors import FACTORS, ROOT, Factor, reason_to_leave_out
     [
         ("joint 3 at 42.6102 degrees", "joint 3 at 42.6103 degrees"),
         ("at 55.272", "at 55.2721"),
-        ("loops close to 2.7e-15", "loops close to 8e-17"),
+        ("loop-closure residual 2.7e-15", "loop-closure residual 8e-17"),
         ("gap 6e14", "gap 2e15"),
         ('"x": 0.12345678901234', '"x": 0.12345678909999'),
         ("0.0, 1", "-0.0, 1"),

@@ -14,6 +14,7 @@ from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read, read_linkage
 from graphs.geometry import rotated
+from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
 from synth.conformed.four_bar_poses import poses_from_conformed
 from synth.conformed.pose import dihedral_angles, joint_axes
@@ -273,12 +274,12 @@ def test_fig_11(golden):
     wanted = entry["computed"]
     linkage = read_linkage(DATA / "surfaces" / "fig11-stephenson.json")
     places = dict(zip(linkage.chain.joints, linkage.places(), strict=True))
-    assert np.degrees(linkage.cone_angle) == pytest.approx(entry["inputs"]["lambda_deg"])
+    assert np.degrees(linkage.surface.angle) == pytest.approx(entry["inputs"]["lambda_deg"])
     assert {j: float(np.degrees(t)) for j, t in places.items()} == pytest.approx(wanted["azimuths"])
     for pair, one in wanted["all_pairs"].items():
         step = places[pair[1]] - places[pair[0]]
         assert np.degrees(step) == pytest.approx(one["projected"])
-        found = np.degrees(link_angles(step, linkage.cone_angle))
+        found = np.degrees(link_angles(step, linkage.surface.angle))
         assert found == pytest.approx(one["link_angle"], abs=entry["tol"])
     assert np.degrees(places["O"] - places["F"]) == pytest.approx(wanted["closing_FO_projected"])
     printed = entry["printed"]["projected"]
@@ -301,12 +302,12 @@ def test_fig_11_is_a_stephenson_candidate(golden):
     """The seven axes in their cyclic order are among the 102, whatever the loops; the link angles agree."""
     wanted = golden["000"]["fig11_stephenson2"]["computed"]
     linkage = read_linkage(DATA / "surfaces" / "fig11-stephenson.json")
-    lam, places = linkage.cone_angle, np.radians(list(wanted["azimuths"].values()))
+    lam, places = linkage.surface.angle, np.radians(list(wanted["azimuths"].values()))
     assert list(wanted["azimuths"]) == list("OABCDEF")
     order = np.remainder(places, 2 * np.pi).argsort().argsort()
     for chain in memberships(linkage.chain, "OABCDEF"):
         column = ["OABCDEF".index(joint) for joint in chain.joints]
-        job = CandidateJob(chain, cone_angle=None)
+        job = CandidateJob(chain, surface=None)
         symmetries = job.query.symmetries(None)
         assert len(symmetries) == 4
         listed = [row["slots"] for row in job.rows()]
@@ -314,7 +315,7 @@ def test_fig_11_is_a_stephenson_candidate(golden):
         assert listed.count(list(canonical_row(order[column], symmetries, 7))) == 1
         # on whole degrees the printed axes are a candidate on 360 slots: every link angle is the golden one
         slots = np.rint(np.degrees(places[column])).astype(int) % 360
-        placed = CandidateJob(chain, slots=360, cone_angle=lam)
+        placed = CandidateJob(chain, slots=360, surface=Cone(lam))
         [row] = placed.work(Portion(None, canonical_row(slots, symmetries, 360)))
         told = dict(zip(placed.columns, row, strict=True))
         found = sorted(angle for _, _, angle in told["link_angles_deg"])

@@ -32,13 +32,12 @@ from synth.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
 from synth.motion.newton import corrected
 from synth.motion.path import driven_path
 from synth.motion.placement import link_motions
-from synth.moving.made import linkage_on_cone
+from synth.moving.made import posed_on_surface
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import chickenwire, folded_miura, huffman_grid, miura
 from synth.patterns.creases.triangulated import waterbomb, yoshimura
 from synth.patterns.creases.twists import square_twist
-from synth.patterns.rings import bennett as five_bars
-from synth.patterns.rings import bricard
+from synth.patterns.rings import bennett as five_bars, bricard
 from synth.patterns.rings.kaleidocycles import kaleidocycle
 
 
@@ -151,7 +150,7 @@ def _ring(n):
 
 
 def _on_cone(rng):
-    linkage = linkage_on_cone(loop_on_cones(np.radians(rng.uniform(40, 130, 5)))[0])
+    linkage = posed_on_surface(loop_on_cones(np.radians(rng.uniform(40, 130, 5)))[0])
     directions = linkage.directions
     return _by_lines(linkage.graph, np.zeros_like(directions), directions, [0] * 3, [1] * 3, rng, 2)
 

@@ -18,7 +18,7 @@ EXTREMES = [b"0", b"-1", b"1e308", b"-1e309", b"NaN", b"null", b"999999999999999
             b"[]", b"{}", b"\xff", b"<", b"&", b"\x00", b"0.1", b"3"]  # fmt: skip
 
 _NATIVE = ["wiener/table3-row3", "wiener/watt", "wiener/concentric-loops", "wampler/fig12", "wampler/crs-platform",
-           "surfaces/fig11-stephenson", "hyatt/spherical-four-bar"]  # fmt: skip
+           "surfaces/fig11-stephenson", "surfaces/fig10-four-bar", "hyatt/spherical-four-bar"]  # fmt: skip
 _SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg"><g transform="rotate(30) scale(2 1)" style="stroke:#f00">'
     b'<rect width="9" height="8" stroke="black"/><path d="M0 4h9m-4-4c1 3 3 1 0 8A2 3 4 0 1 9 9z"/>'

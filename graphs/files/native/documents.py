@@ -1,4 +1,4 @@
-"""The native JSON files: SC and SCD graphs, models, vertex-edge graphs, linkages on cones, hinged solids, ...
+"""The native JSON files: SC and SCD graphs, models, vertex-edge graphs, linkages on surfaces, hinged solids, ...
 
 The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/native-json.md.
 """
@@ -11,15 +11,15 @@ from typing import Any
 
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
-from graphs.files.native.conical import conical_document, conical_from_document
 from graphs.files.native.graphs import read_sc, read_scd, sc_document
 from graphs.files.native.joints import joints_document, joints_from_document
 from graphs.files.native.models import polyhedron_document, read_polyhedron
 from graphs.files.native.names import VERSION, head, tuple_of, written
+from graphs.files.native.on_surface import linkage_document, linkage_from_document
 from graphs.files.native.solids import solids_document, solids_from_document
 from graphs.files.text import json_text
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -29,7 +29,7 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph
 __all__ = ["FORMATS", "NativeObject", "document", "dumps", "from_document"]
 
 NativeObject = (
-    SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | ConicalLinkage | HingedSolids | JointedLinkage
+    SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | SurfaceLinkage | HingedSolids | JointedLinkage
 )
 
 
@@ -55,8 +55,8 @@ def document(thing: NativeObject) -> dict[str, Any]:
     """Return the native document of an object; UnsolvableError if an id is neither text nor an integer."""
     if isinstance(thing, VertexEdgeGraph):
         return _vertex_edge_document(thing)
-    if isinstance(thing, ConicalLinkage):
-        return conical_document(thing)
+    if isinstance(thing, SurfaceLinkage):
+        return linkage_document(thing)
     if isinstance(thing, HingedSolids):
         return solids_document(thing)
     if isinstance(thing, JointedLinkage):
@@ -95,7 +95,8 @@ FORMATS: dict[str, Callable[[Mapping[str, Any], Checker], NativeObject]] = {
     "synthedra/scd": read_scd,
     "synthedra/polyhedron": read_polyhedron,
     "synthedra/vertex-edge": _read_vertex_edge,
-    "synthedra/conical": conical_from_document,
+    "synthedra/conical": linkage_from_document,
+    "synthedra/cylindrical": linkage_from_document,
     "synthedra/solids": solids_from_document,
     "synthedra/joints": joints_from_document,
 }

@@ -13,10 +13,11 @@ from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.special import SpecialGeometry
 
 __all__ = ["read_sc", "read_scd", "sc_document"]
 
-_SC_KEYS = ("ground", "closing")
+_SC_KEYS = ("ground", "closing", "special")
 
 
 def read_sc(value: Mapping[str, Any], check: Checker) -> SCGraph:
@@ -24,7 +25,14 @@ def read_sc(value: Mapping[str, Any], check: Checker) -> SCGraph:
     check.mapping(value, "", ("format", "version", "links", "joints", "loops"), _SC_KEYS)
     parts = _ScParts(value, check)
     return check.build(
-        lambda: SCGraph(parts.links, parts.joints, parts.loops, closing=parts.closing, ground=parts.ground),
+        lambda: SCGraph(
+            parts.links,
+            parts.joints,
+            parts.loops,
+            closing=parts.closing,
+            ground=parts.ground,
+            special=parts.special,
+        ),
         parts.place_of,
     )
 
@@ -58,6 +66,7 @@ def read_scd(value: Mapping[str, Any], check: Checker) -> SCDGraph:
             outer=outer,
             closing=parts.closing,
             ground=parts.ground,
+            special=parts.special,
         ),
         parts.place_of,
     )
@@ -73,7 +82,17 @@ class _ScParts:
         self.loops = self._loops(value["loops"], "loops")
         self.closing = self._loops(value.get("closing", []), "closing")
         self.ground = check.name(value["ground"], "ground", "a link") if "ground" in value else None
+        self.special = self._special(value["special"]) if "special" in value else None
         self.index = {joint: i for i, joint in enumerate(self.joints)}
+
+    def _special(self, value: Any) -> SpecialGeometry:
+        self.check.mapping(value, "special", ("freedoms", "conditions"))
+        freedoms = self.check.integer(value["freedoms"], "special.freedoms", 1)
+        listed = self.check.list(value["conditions"], "special.conditions", what="a list of texts")
+        texts = [self.check.text(text, f"special.conditions[{i}]") for i, text in enumerate(listed)]
+        return self.check.build(
+            lambda: SpecialGeometry(freedoms, texts), lambda _: "special.conditions", "special"
+        )
 
     def _joints(self, value: Any) -> dict[JointId, tuple[LinkId, LinkId]]:
         joints: dict[JointId, tuple[LinkId, LinkId]] = {}
@@ -126,6 +145,8 @@ def sc_document(sc: SCGraph) -> dict[str, Any]:
         result["closing"] = list(map(_loop_document, sc.closing))
     if sc.ground is not None:
         result["ground"] = written(sc.ground)
+    if sc.special is not None:
+        result["special"] = {"freedoms": sc.special.freedoms, "conditions": list(sc.special.conditions)}
     if isinstance(sc, SCDGraph):
         result["rotation"] = {
             str(written(link)): [None if s is None else written(s) for s in sides]

@@ -1,7 +1,7 @@
 """Files of linkages with joints of all kinds: a chain, the type of each joint, and perhaps its place.
 
-Format ``synthedra/joints``: the keys of ``synthedra/sc``, ``loops`` left out if there are none with a centre, and
-in ``joints`` objects with ``id``, ``links`` and
+Format ``synthedra/joints``: the keys of ``synthedra/sc``, ``loops`` left out if none has a centre (where that is
+infinite, of slides and planar joints too), and in ``joints`` objects with ``id``, ``links`` and
 
 - ``type``: R, P, U, S, C, E, or the word (revolute, prismatic, universal, spherical, cylindrical, planar); left
   out it is R;

@@ -27,7 +27,7 @@ _KEYS = ("format", "version", "links", "joints", "loops", "axes")
 
 def solids_from_document(value: Mapping[str, Any], check: Checker) -> HingedSolids:
     """Read hinged solids from their document."""
-    check.mapping(value, "", _KEYS, ("ground",))
+    check.mapping(value, "", _KEYS, ("ground", "special"))
     chain = read_sc({key: value[key] for key in value if key != "axes"}, check)
     axes = _axes(value["axes"], chain, check)
     place_of = {joint: f"axes[{place}]" for place, joint in enumerate(axes)}

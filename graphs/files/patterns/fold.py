@@ -10,18 +10,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import chain
+from math import isclose
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
 from graphs.convert.loose_creases import creases_on_no_face, joins_faces, traced_anew
-from graphs.errors import FileError
+from graphs.errors import FileError, numbered
 from graphs.files.check import Checker
 from graphs.files.patterns.fold_frames import resolved_frame
 from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import json_text, load_json
 from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import written_by
+from graphs.mechanism.reading import WrittenPrecision
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet
 from graphs.work_limits import most
 
@@ -30,12 +33,14 @@ __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
 _FAR = 1e300
 _SPREAD = "synthedra:spread"
 """Own key: how far points were apart that were welded in tracing; centres and hinges hang on it."""
+_PRECISION = "synthedra:precision"
+"""Own key: the error that a coordinate may have, in the unit of the coordinates."""
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 _TITLES = ("frame_title", "file_title")
 """The first that is there is the title."""
 _HELD = {
     *("vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle", "faces_vertices"),
-    _SPREAD,
+    *(_SPREAD, _PRECISION),
 }
 """Keys that a sheet holds."""
 _NOTHING_NEW = {
@@ -149,6 +154,7 @@ def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
                 (*notes, *repairs),
                 _fold_angles(value, len(edges), check),
                 spread=abs(check.number(value.get(_SPREAD, 0), _SPREAD)),
+                precision=_precision(value, coordinates, check),
             )
         ),
         lambda part: f"{part[0]}_vertices[{part[1]}]",
@@ -175,7 +181,7 @@ def _traced(sheet: Sheet, check: Checker) -> Sheet:
         raise FileError(check.path, "faces_vertices", "missing, and the pattern is not flat", "the faces")
     ends = flat.places[np.array(sheet.edges)]
     lines = Lines(ends, sheet.assignments, sheet.fold_angles)
-    found = traced_sheet(lines, check, title=sheet.title)
+    found = traced_sheet(lines, check, title=sheet.title, precision=sheet.precision)
     turned = (flat.turned,) if flat.turned else ()
     return replace(found, repairs=("faces traced", *turned, *sheet.repairs, *found.repairs))
 
@@ -187,9 +193,11 @@ def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
         return sheet
     found = check.build(lambda: traced_anew(sheet))
     if found is not None and joins_faces(found):
-        return replace(found, repairs=(f"{loose} crease line(s) on no face: faces traced anew", *found.repairs))
+        return replace(
+            found, repairs=(f"{numbered(loose, 'crease line')} on no face: faces traced anew", *found.repairs)
+        )
     if not joins_faces(sheet):
-        wrong = f"{loose} crease line(s) on no face, and none between two faces"
+        wrong = f"{numbered(loose, 'crease line')} on no face, and none between two faces"
         raise FileError(check.path, "faces_vertices", wrong, "faces that have the creases as sides")
     return sheet
 
@@ -205,6 +213,8 @@ def fold_text(sheet: Sheet) -> str:
         document["frame_title"] = sheet.title
     if sheet.spread:
         document[_SPREAD] = sheet.spread
+    if _hides_precision(sheet):
+        document[_PRECISION] = sheet.precision.length  # type: ignore[union-attr]
     if sheet.coordinates is None:
         document["frame_attributes"] = ["abstract"]
     else:
@@ -216,6 +226,14 @@ def fold_text(sheet: Sheet) -> str:
         document["edges_foldAngle"] = list(sheet.fold_angles)
     document["faces_vertices"] = [list(face) for face in sheet.faces]
     return json_text(document)
+
+
+def _hides_precision(sheet: Sheet) -> bool:
+    """Tell whether the precision of a sheet is known, and its numbers do not say the same."""
+    if sheet.precision is None or sheet.coordinates is None:
+        return False
+    told = written_by(np.array(sheet.coordinates))
+    return sheet.precision.stated or told is None or not isclose(told.length, sheet.precision.length)
 
 
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
@@ -253,6 +271,18 @@ def _coordinates(value: Any, check: Checker) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(map(float, row if len(row) == width else (*row, 0.0))) for row in rows)
 
 
+def _precision(
+    value: dict[str, Any], coordinates: tuple[tuple[float, ...], ...], check: Checker
+) -> WrittenPrecision | None:
+    """Return the precision that a frame states, or else that its digits have."""
+    if _PRECISION in value:
+        length = check.number(value[_PRECISION], _PRECISION)
+        if length < 0.0:
+            check.fail(_PRECISION, length, "a length, zero or more")
+        return WrittenPrecision(length, f"stated by {_PRECISION}", stated=True)
+    return written_by(np.array(coordinates)) if coordinates else None
+
+
 def _assignments(value: dict[str, Any], edges: int, check: Checker) -> tuple[str, tuple[str, ...]]:
     if "edges_assignment" not in value:
         repairs = ("no edges_assignment: every side between two faces taken as a crease",) if edges else ()
@@ -264,7 +294,7 @@ def _assignments(value: dict[str, Any], edges: int, check: Checker) -> tuple[str
         for i, letter in enumerate(letters):
             if not isinstance(letter, str) or letter not in set(_ASSIGNMENTS):
                 check.fail(f"edges_assignment[{i}]", letter, "one of " + " ".join(_ASSIGNMENTS))
-    return "".join(letters), ((f"{missing} null assignment(s) read as unassigned",) if missing else ())
+    return "".join(letters), ((f"{numbered(missing, 'null assignment')} read as unassigned",) if missing else ())
 
 
 def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[float | None, ...] | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from typing import Any
 
-from graphs.errors import FileError
+from graphs.errors import FileError, numbered
 from graphs.files.check import Checker
 
 __all__ = ["resolved_frame"]
@@ -47,7 +47,7 @@ def resolved_frame(
     if which:
         notes.append(f"the key frame is empty; frame {which} of {len(frames) - 1} was read")
     elif len(frames) > 1:
-        notes.append(f"{len(frames) - 1} more frame(s) left alone")
+        notes.append(f"{numbered(len(frames) - 1, 'more frame')} not read")
     return chosen, list(dict.fromkeys(notes))
 
 

@@ -10,10 +10,13 @@ import re
 from math import isfinite
 from pathlib import Path
 
+import numpy as np
+
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import read_text
+from graphs.mechanism.precision import written_by
 from graphs.mechanism.sheet import Sheet
 
 _CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?))?")
@@ -66,6 +69,7 @@ def sheet_from_obj(path: Path) -> Sheet:
                 tuple(faces),
                 tuple(places),
                 fold_angles=angles if any(angle is not None for angle in angles) else None,
+                precision=written_by(np.array(places)) if places else None,
             )
         ),
         lambda part: f"line {lines[int(str(part[1]))]}" if part[0] == "faces" else "",

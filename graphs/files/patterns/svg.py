@@ -1,10 +1,11 @@
-"""Crease patterns as SVG in origami colours (:mod:`graphs.files.patterns.strokes`).
+"""Crease patterns as SVG: what strokes stand for is in :mod:`graphs.files.patterns.legend`.
 
 Shapes, transforms and styles are read by svgelements; curves become polylines.
 """
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
@@ -22,12 +23,15 @@ from graphs.convert.tracing import MOST
 from graphs.convert.welding import Lines
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
-from graphs.files.patterns.strokes import COLOURS, described_strokes, kind_of_stroke, letter_of_stroke
+from graphs.files.patterns.css_colours import rgb_of_css
+from graphs.files.patterns.legend import LEFT_OUT, UNSTATED, Legend
+from graphs.files.patterns.strokes import COLOURS, Stroke, dash_of_lengths, name_of_rgb
+from graphs.files.patterns.svg_digits import precision_of_shapes
 from graphs.files.patterns.svg_work import check_work_of_svg
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
 from graphs.mechanism.plane import flat_places
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.plain_text import plain
 
 __all__ = ["sheet_from_svg", "svg_text"]
@@ -35,23 +39,35 @@ __all__ = ["sheet_from_svg", "svg_text"]
 _LONGEST_TITLE = 1_000
 _DECIMALS = 12
 """Of fold angles in degrees: what is finer comes of dividing by 180."""
+_LONGEST_LOOK = 40
+_NAMES = (
+    "class",
+    "id",
+    "data-name",
+    "{http://www.inkscape.org/namespaces/inkscape}label",
+)
+"""Attributes with names of groups, layers and shapes: of Illustrator, of Inkscape."""
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
 _PIECES = 8
 """Straight pieces of a curved segment."""
 
 
-def sheet_from_svg(path: Path) -> Sheet:
-    """Read the lines of an SVG file and trace its faces.
+def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
+    """Read the lines of an SVG file and trace its faces; the legend says what strokes are, where that was stated.
 
-    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.traced`).
+    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.traced`), or most are not
+    understood.
     """
+    check = Checker(path)
+    shapes = list(_stroked_shapes(path))
+    strokes = [_stroke(shape, names) for shape, names in shapes]
+    understood = check.build(lambda: legend.understood(strokes))
     ends: list[Any] = []
     letters: list[str] = []
     angles: list[float | None] = []
-    unread: Counter[str] = Counter()
-    for shape in _stroked_shapes(path):
-        letter = letter_of_stroke(shape)
-        if letter is None:
-            unread[kind_of_stroke(shape)] += 1
+    drawn: list[Any] = []
+    for (shape, _), letter in zip(shapes, understood.letters, strict=True):
+        if letter is None or letter == LEFT_OUT:
             continue
         try:
             with np.errstate(all="ignore"):  # what is not finite is refused below
@@ -59,30 +75,39 @@ def sheet_from_svg(path: Path) -> Sheet:
         except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
             raise FileError(path, "", f"a shape cannot be drawn: {shown(str(error))}", "SVG shapes") from None
         ends += pieces
+        drawn.append(shape)
         letters += letter * len(pieces)
         angles += [_fold_angle(letter, _opacity(shape))] * len(pieces)
     array = np.array(ends, dtype=float).reshape(-1, 2, 2) * (1, -1)  # y points down in SVG
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "a coordinate that is not finite, or too large", "coordinates")
-    left_out = described_strokes(unread)
-    sheet = traced_sheet(
-        Lines(array, "".join(letters), tuple(angles)),
-        Checker(path),
-        border="border lines (black strokes)",
-        unread=f"; {left_out}" if left_out else "",
+    lines = Lines(array, "".join(letters), tuple(angles))
+    border = "border lines (black strokes)"
+    precision = precision_of_shapes(drawn)
+    sheet = traced_sheet(lines, check, border=border, understood=understood, precision=precision)
+    return replace(sheet, assignments=_borders_of_cuts(sheet, lines.letters))
+
+
+def _borders_of_cuts(sheet: Sheet, letters: str) -> str:
+    """Return the assignments of a drawing: where nothing is a border, cuts with a face on one side only are."""
+    if "B" in letters:
+        return sheet.assignments
+    sides = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
+    return "".join(
+        "B" if letter == "C" and sides[frozenset(edge)] == 1 else letter
+        for edge, letter in zip(sheet.edges, sheet.assignments, strict=True)
     )
-    return replace(sheet, repairs=(*sheet.repairs, *([left_out] if left_out else [])))
 
 
-def _stroked_shapes(path: Path) -> Iterator[Any]:
-    """Yield the shapes of an SVG file that have a stroke, transforms applied."""
+def _stroked_shapes(path: Path) -> Iterator[tuple[Any, tuple[str, ...]]]:
+    """Yield the shapes of an SVG file that have a stroke, transforms applied, with the names of their groups."""
     import svgelements
 
     text = read_text(path)
     try:
         check_work_of_svg(text, path)
         drawing = svgelements.SVG.parse(BytesIO(text.encode()), reify=True)
-        drawn = list(drawing.elements()) if isinstance(drawing, svgelements.SVG) else None
+        drawn = list(_with_names(drawing)) if isinstance(drawing, svgelements.SVG) else None
     except ParseError as error:
         line, column = error.position
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
@@ -94,9 +119,49 @@ def _stroked_shapes(path: Path) -> Iterator[Any]:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
     if drawn is None:
         raise FileError(path, "", "the outermost element is not svg", "SVG")
-    for shape in drawn:
+    for shape, names in drawn:
         if isinstance(shape, svgelements.Shape) and shape.stroke is not None and shape.stroke.value is not None:
-            yield shape
+            yield shape, names
+
+
+def _with_names(drawing: Any) -> Iterator[tuple[Any, tuple[str, ...]]]:
+    """Yield what is drawn with the names of itself and of the groups it is in, the innermost first."""
+    waiting: list[tuple[Any, tuple[str, ...]]] = [(drawing, ())]
+    while waiting:  # without recursion: files nest as deep as they like
+        element, outer = waiting.pop()
+        values = getattr(element, "values", None) or {}
+        own = values if isinstance(element, list) else values.get("attributes") or {}
+        names = tuple(str(own[key]) for key in _NAMES if own.get(key))
+        names = (*(name for name in names if name not in outer), *outer)
+        if isinstance(element, list):
+            waiting += [(one, names) for one in reversed(element)]
+        else:
+            yield element, names
+
+
+def _stroke(shape: Any, names: tuple[str, ...]) -> Stroke:
+    """Return how a shape looks; what svgelements takes for black is read by ourselves."""
+    rgb = (int(shape.stroke.red), int(shape.stroke.green), int(shape.stroke.blue))
+    written = str(shape.values.get("stroke") or "")
+    read = rgb_of_css(written) if written else rgb
+    dash = dash_of_lengths(
+        [float(word) for word in _NUMBER.findall(str(shape.values.get("stroke-dasharray") or ""))]
+    )
+    look = "stroke " + plain(written, _LONGEST_LOOK) if read is None else name_of_rgb(read)
+    return Stroke(
+        read, dash, names, kind=look if dash == "solid" else f"{dash} {look}", lines=_number_of_lines(shape)
+    )
+
+
+def _number_of_lines(shape: Any) -> int:
+    """Return how many lines a shape draws, straight or curved."""
+    import svgelements
+
+    if isinstance(shape, svgelements.Path):
+        return sum(not isinstance(segment, svgelements.Move) for segment in shape)
+    if isinstance(shape, svgelements.Polyline | svgelements.Polygon):
+        return max(1, len(shape) - isinstance(shape, svgelements.Polyline))
+    return 4 if isinstance(shape, svgelements.Rect) else 1
 
 
 def _opacity(shape: Any) -> float:

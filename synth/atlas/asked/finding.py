@@ -83,7 +83,7 @@ def find_type(atlas: Atlas, mechanism: Mechanism | nx.Graph) -> FoundType:
     Parameters
     ----------
     atlas : Atlas
-    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, ConicalLinkage or networkx.Graph
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage or networkx.Graph
 
     Returns
     -------

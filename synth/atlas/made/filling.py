@@ -18,6 +18,7 @@ from graphs.errors import SynthedraError
 from graphs.files.ids import mechanism_of_id
 from graphs.identity.chains import automorphisms_of, chain_id
 from graphs.identity.drawings import map_id
+from graphs.mechanism.arrangement import arrangement_of
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import reduce
 from synth.atlas.made.things import thing_of
@@ -102,7 +103,11 @@ def _of_scd(row: Mapping[str, Any]) -> Values:
 @lru_cache(_REMEMBERED)
 def _ride_alongs(code: str) -> Values:
     reduction = reduce(mechanism_of_id(code))
-    return {"ride_alongs": len(reduction.steps), "reduced": chain_id(reduction.graph)}
+    return {
+        "ride_alongs": len(reduction.steps),
+        "reduced": chain_id(reduction.graph),
+        "arrangement": arrangement_of(mechanism_of_id(code)),
+    }
 
 
 def _of_order(row: Mapping[str, Any]) -> Values:
@@ -129,6 +134,7 @@ def _of_string(row: Mapping[str, Any]) -> Values:
         "panels": map_id(chain_scd(string)),
         "distance": string.distance,
         "modes": string.count_modes(),
+        "comment": string.comment,
     }
 
 

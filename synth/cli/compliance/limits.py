@@ -5,19 +5,29 @@ from __future__ import annotations
 import click
 
 from synth.cli.output import about, print_json
+from synth.cli.precision import PRECISION, precise
+from synth.cli.reading import DRAWN, read
 
 __all__ = ["limits"]
 
 
-@click.command(short_help="Tell where ride-alongs go straight: the angles they leave, the truss that remains.")
+@click.command(short_help="Find the joint limits that ride-alongs impose, and the truss they form when held.")
 @click.argument("file", metavar="FILE")
-@click.option("--keep", multiple=True, metavar="LINK", help="A link of the mechanism proper; may be repeated.")
+@DRAWN
+@click.option(
+    "--keep",
+    multiple=True,
+    metavar="LINK",
+    help="Link that belongs to the mechanism proper, not to a ride-along; may be repeated.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@PRECISION
 def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
-    """Tell what range of angles each ride-along leaves to the joint it sits on, and what moves with it rigid.
+    """Find the joint limits that ride-alongs impose, and the mobility while one is held straight.
 
-    At the pose of the file. A ride-along stops the joint where its two links are in line: stretched, one beyond
-    the other, or folded, one on the other. Angles are those of synth fold.
+    The analysis starts at the configuration of the file. A ride-along stops its joint where its own two links are
+    in line: stretched, one beyond the other, or folded, one on the other. Angles are those of `synth fold`, in
+    degrees.
 
     \b
     Examples:
@@ -25,12 +35,12 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
       synth limits cylinder.fold
     """
     from graphs.edit.named import link_named
-    from graphs.files.formats import read
     from synth.compliance.limited import limits as found_limits
     from synth.moving.made import configuration_of
 
     thing = read(file)
     with about(file):
+        thing = precise(thing)
         graph = configuration_of(thing).linkage.graph
         found = found_limits(thing, [link_named(graph, name) for name in keep])
     if as_json:

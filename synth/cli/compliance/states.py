@@ -8,6 +8,8 @@ import click
 
 from synth.cli.lengths import LENGTH
 from synth.cli.output import about, plain, print_json
+from synth.cli.precision import PRECISION, precise
+from synth.cli.reading import DRAWN, read
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
 if TYPE_CHECKING:
@@ -22,29 +24,39 @@ _PLACE = 3
 """Coordinates of a mass."""
 
 
-@click.command(short_help="Tell compliance states: which members bend, whether it moves; springs, frequencies.")
+@click.command(short_help="Analyse compliant members: mobility in each compliance state, springs, frequencies.")
 @click.argument("file", metavar="FILE")
-@click.option("--joint", "joints", multiple=True, metavar="JOINT", help="A compliant joint; may be repeated.")
-@click.option("--link", "links", multiple=True, metavar="LINK", help="A compliant link; may be repeated.")
+@DRAWN
+@click.option("--joint", "joints", multiple=True, metavar="JOINT", help="Compliant joint; may be repeated.")
+@click.option("--link", "links", multiple=True, metavar="LINK", help="Compliant link; may be repeated.")
 @click.option(
-    "--stiffness", multiple=True, metavar="JOINT=K", help="A spring, moment a radian: a compliant joint."
+    "--stiffness",
+    multiple=True,
+    metavar="JOINT=K",
+    help="Stiffness of a torsion spring at a joint, as moment per radian; the joint is "
+    "compliant. May be repeated.",
 )
 @click.option(
-    "--rest", multiple=True, metavar="JOINT=DEGREES", help="Where it is at rest; by default at the pose."
+    "--rest",
+    multiple=True,
+    metavar="JOINT=DEGREES",
+    help="Rest angle of a spring. By default the angle in the file. May be repeated.",
 )
-@click.option("--moment", multiple=True, metavar="JOINT=M", help="A moment at a joint, whatever its angle.")
-@click.option("--drive", metavar="JOINT=DEGREES", help="Follow the load path of this joint.")
+@click.option("--moment", multiple=True, metavar="JOINT=M", help="Constant moment at a joint; may be repeated.")
+@click.option("--drive", metavar="JOINT=DEGREES", help="Joint and final angle of the load path.")
 @click.option(
     "--frames",
     type=click.IntRange(1, 10_000),
+    metavar="N",
     default=20,
     show_default=True,
-    help="Poses of the path after the first.",
+    help="Number of configurations on the path after the first.",
 )
-@click.option("--mass", multiple=True, metavar="LINK=M@X,Y,Z", help="A point mass on a link; may be repeated.")
-@click.option("--density", type=LENGTH, metavar="D", help="Of a sheet: mass of a unit of area of its panels.")
-@click.option("--ground", metavar="LINK", help="The link that stays, for frequencies.")
+@click.option("--mass", multiple=True, metavar="LINK=M@X,Y,Z", help="Point mass on a link; may be repeated.")
+@click.option("--density", type=LENGTH, metavar="D", help="For a sheet: mass per unit area of its panels.")
+@click.option("--ground", metavar="LINK", help="Fixed link, for frequencies.")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@PRECISION
 def states(
     file: str,
     joints: tuple[str, ...],
@@ -59,11 +71,12 @@ def states(
     ground: str | None,
     as_json: bool,
 ) -> None:
-    """Tell whether a mechanism moves with its compliant members at rest, and with some of them active.
+    """Check whether a mechanism moves with its compliant members at rest, and with some of them active.
 
-    A member at rest is rigid, an active one is released. With springs: where they are in balance, the moments
-    along a driven joint, modes and frequencies of small motions. Units are yours, all of one system. JOINT is an
-    id, or two links A,B; angles are those of synth fold.
+    A member at rest is rigid, an active one is released. With springs, the answer has their equilibrium, the
+    moments along the path of a driven joint, and the modes and frequencies of small motions. Use units of one
+    system, such as N, mm and tonnes. JOINT is an id, or two links A,B; angles are those of `synth fold`, in
+    degrees.
 
     \b
     Examples:
@@ -72,13 +85,13 @@ def states(
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
     from graphs.edit.named import joint_named, link_named
-    from graphs.files.formats import read
     from synth.compliance.springs import Springs
     from synth.compliance.stated import states as stated
     from synth.moving.made import configuration_of
 
     thing = read(file)
     with about(file):
+        thing = precise(thing)
         graph = configuration_of(thing).linkage.graph
         springs = Springs(
             numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),

@@ -12,8 +12,8 @@ from synth.cli.runner import RunOptions, run_count, run_rows, runner_options
 __all__ = ["addenda"]
 
 
-@click.command(short_help="All ways to add a loop to a mechanism.")
-@click.option("--of", "file", required=True, metavar="FILE", help="The mechanism.")
+@click.command(short_help="List all ways to add a loop to a mechanism.")
+@click.option("--of", "file", required=True, metavar="FILE", help="File of the mechanism.")
 @click.option(
     "--delta-dof",
     type=click.IntRange(min=-2),
@@ -22,14 +22,14 @@ __all__ = ["addenda"]
     metavar="K",
     help="Change of mobility.",
 )
-@click.option("--count", "only_count", is_flag=True, help="Print the number only.")
+@click.option("--count", "only_count", is_flag=True, help="Print only the number.")
 @runner_options
 def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
-    """List all ways to add a ride-along, a dyad, a spherical or a spatial loop to a mechanism (Wiener, 4.2).
+    """List all ways to add a ride-along, an RR dyad, a spherical or a spatial loop to a mechanism (Wiener, 4.2).
 
-    A chain of K + 2 new links (K + 5 in a spatial loop) is put between two links, so that the mobility changes
-    by K and the mechanism itself stays as general as it was; the exact rank confirms each. Of those that a
-    symmetry of the mechanism exchanges, one is listed. A folder as output gets a file for each.
+    A chain of K + 2 new links (K + 5 in a spatial loop) is added between two links, so that the mobility changes
+    by K and the original mechanism stays generic; the exact rank confirms each. Results that a symmetry of the
+    mechanism exchanges are listed once. An output folder gets one file per result.
 
     \b
     Examples:

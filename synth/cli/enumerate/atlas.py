@@ -30,9 +30,9 @@ JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON docu
 ATLAS = click.argument("atlas", metavar="ATLAS.sqlite")
 
 
-@click.group("atlas", short_help="All types up to a size in one file: build, query, show, find.")
+@click.group("atlas", short_help="Build, query, show and find all types up to a size, in one file.")
 def atlas_group() -> None:
-    """Build an atlas of types, and ask it.
+    """Build an atlas of types, and query it.
 
     \b
     Examples:
@@ -45,32 +45,61 @@ def atlas_group() -> None:
 
 @atlas_group.command()
 @click.option(
-    "--max-links", type=int, default=8, show_default=True, metavar="N", help="SC and SCD graphs to N links."
+    "--max-links",
+    type=int,
+    default=8,
+    show_default=True,
+    metavar="N",
+    help="Largest number of links of SC and SCD graphs.",
 )
 @click.option(
-    "--dof", "dofs", type=int, multiple=True, default=(1,), metavar="M", help="Freedoms; may be repeated."
+    "--dof",
+    "dofs",
+    type=int,
+    multiple=True,
+    default=(1,),
+    metavar="M",
+    help="Degrees of freedom, 1 by default; may be repeated.",
 )
-@click.option("--max-degree", type=int, default=4, show_default=True, metavar="D", help="Most sides of a link.")
-@click.option("--chain-links", type=int, metavar="N", help="Chains to N links; by default as SC graphs.")
 @click.option(
-    "--creases", type=int, default=6, show_default=True, metavar="N", help="R/- strings to N creases; 0: none."
+    "--max-degree", type=int, default=4, show_default=True, metavar="D", help="Largest number of sides of a link."
+)
+@click.option(
+    "--chain-links",
+    type=int,
+    metavar="N",
+    help="Largest number of links of chains. By default that of --max-links.",
+)
+@click.option(
+    "--creases",
+    type=int,
+    default=6,
+    show_default=True,
+    metavar="N",
+    help="Largest number of creases of R/- strings; 0 leaves strings out.",
 )
 @click.option(
     "--orders-of", multiple=True, default=("watt", "stephenson"), show_default=True, metavar="CHAIN",
-    help="Chains (name or k1:...) whose joints are put round a cone in every order; none: nothing.",
+    help="Chain (a name or an id k1:...) whose joints are placed round a cone in every order; "
+    "none leaves conical orders out. May be repeated.",
 )  # fmt: skip
 @click.option(
-    "--spatial", type=int, default=0, show_default=True, metavar="S", help="Also hybrids of 1 to S spatial loops."
+    "--spatial",
+    type=int,
+    default=0,
+    show_default=True,
+    metavar="S",
+    help="Include hybrids of 1 to S spatial loops.",
 )
-@click.option("--infinite", is_flag=True, help="Also centres at infinity.")
+@click.option("--infinite", is_flag=True, help="Include centres at infinity.")
 @click.option(
-    "--realise/--no-realise", "realised", default=True, show_default=True, help="Coordinates and folding."
+    "--realise/--no-realise", "realised", default=True, show_default=True, help="Realise the types, and fold them."
 )
 @runner_options
 def build(**options: Any) -> None:
-    """List chains, SC and SCD graphs, strings and conical orders, and put all that is known of them in one file.
+    """Build an atlas of chains, SC and SCD graphs, strings and conical orders, with their properties, in one file.
 
-    A build that was stopped goes on with --resume. Columns: synth atlas query --columns help.
+    Continue a stopped build with --resume. For the columns, see `synth atlas query ATLAS.sqlite --columns help`.
     """
     from synth.atlas.asked.opened import open_atlas
     from synth.atlas.made.building import AtlasSink
@@ -96,14 +125,26 @@ def build(**options: Any) -> None:
 @atlas_group.command()
 @ATLAS
 @click.argument("condition", required=False, default="")
-@click.option("--sql", "statement", metavar="SELECT", help="A statement of SQL in place of a condition.")
-@click.option("--columns", metavar="A,B,...", help="Columns to show; help lists them.")
-@click.option("--sort", default="", metavar="[-]COLUMN", help="Sort by a column; - before it: falling.")
+@click.option("--sql", "statement", metavar="SELECT", help="SQL statement to use instead of a condition.")
+@click.option("--columns", metavar="A,B,...", help="Columns to show; `help` lists all of them.")
 @click.option(
-    "--limit", type=click.IntRange(min=1), default=1000, show_default=True, metavar="N", help="Rows at most."
+    "--sort", default="", metavar="[-]COLUMN", help="Sort by a column; a leading - sorts in descending order."
 )
 @click.option(
-    "--seconds", type=click.FloatRange(min=0, min_open=True), default=30.0, show_default=True, help="At most."
+    "--limit",
+    type=click.IntRange(min=1),
+    default=1000,
+    show_default=True,
+    metavar="N",
+    help="Largest number of rows.",
+)
+@click.option(
+    "--seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="SECONDS",
+    default=30.0,
+    show_default=True,
+    help="Time limit in seconds.",
 )
 @click.option(
     "-o",
@@ -123,7 +164,7 @@ def query(
     as_json: bool,
     **how: Any,
 ) -> None:
-    """Print the types that fulfil a condition.
+    """List the types that fulfil a condition.
 
     \b
     Examples of conditions:
@@ -182,11 +223,11 @@ def _write(rows: AtlasRows, output: str, force: bool) -> None:
 @atlas_group.command()
 @ATLAS
 @click.argument("type_id", metavar="ID")
-@click.option("-o", "--output", metavar="FILE.fold", help="Write the realised type.")
+@click.option("-o", "--output", metavar="FILE.fold", help="Write the realised type to this file.")
 @FORCE
 @JSON
 def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
-    """Print all that is known of a type, by its id or its name, and of those it is related to."""
+    """Show the properties of a type, given its id or its name, and the types related to it."""
     from synth.atlas.asked.opened import open_atlas
 
     check_output(output, force=force)
@@ -211,14 +252,16 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
 @atlas_group.command()
 @ATLAS
 @click.argument("condition", required=False, default="")
-@click.option("-o", "--output", "folder", required=True, metavar="FOLDER", help="A new folder.")
-@click.option("--title", default="", help="Of the site.")
-@click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Processes; one a core by default.")
+@click.option("-o", "--output", "folder", required=True, metavar="FOLDER", help="New folder to write the site to.")
+@click.option("--title", default="", help="Title of the site.")
+@click.option(
+    "--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes. By default one per core."
+)
 @click.option("--quiet", is_flag=True, help="Show no progress.")
 def page(atlas: str, condition: str, folder: str, title: str, workers: int | None, quiet: bool) -> None:
-    """Write a site: search, filter and sort types, a page for each with its drawing, and the thing that folds.
+    """Write a site to search, filter and sort types, with one page per type: its drawing, and a model that folds.
 
-    It needs no server and no network: open index.html. Conditions are those of synth atlas query.
+    The site needs no server and no network: open index.html. CONDITION is that of `synth atlas query`.
     """
     from synth.atlas.asked.opened import open_atlas
     from synth.atlas.site.writing import SiteSink, site_of
@@ -234,7 +277,7 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 @click.argument("files", metavar="FILE...", nargs=-1, required=True)
 @JSON
 def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
-    """Tell which type of the atlas the mechanism of a file is, and which types are one edit away."""
+    """Find the types of mechanisms in the atlas, and the types one edit away."""
     from synth.atlas.asked.finding import find_type
     from synth.atlas.asked.opened import open_atlas
 

@@ -26,19 +26,35 @@ def assortment(context: click.Context, parameter: click.Parameter, value: str | 
     return tuple(map(int, parts))
 
 
-@click.command(short_help="Kinematic chains without rigid sub-chains.")
+@click.command(short_help="List or count kinematic chains without rigid sub-chains.")
 @click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
 @click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
-@click.option("--fractionated", is_flag=True, help="Also chains that one link or one joint cuts in two.")
-@click.option("--inversions", is_flag=True, help="Each choice of a ground link apart.")
-@click.option("--inputs", is_flag=True, help="Each choice of a ground link and M input joints apart.")
-@click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
-@click.option("--planar/--nonplanar", default=None, help="Only chains that can (not) be drawn without crossings.")
-@click.option("--longest-string", type=LimitsType(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
-@click.option("--symmetry", type=LimitsType(), metavar="K", help="Number of automorphisms: 1, 2.., 2..8")
-@click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
 @click.option(
-    "--method", type=click.Choice(["orbits", "burnside"]), help="How --count counts: two ways that must agree."
+    "--fractionated", is_flag=True, help="Include fractionated chains, which one link or one joint cuts in two."
+)
+@click.option("--inversions", is_flag=True, help="List kinematic inversions: one row per distinct ground link.")
+@click.option(
+    "--inputs", is_flag=True, help="List one row per distinct choice of a ground link and M input joints."
+)
+@click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
+@click.option("--planar/--nonplanar", default=None, help="List only planar, or only nonplanar, chains.")
+@click.option(
+    "--longest-string",
+    type=LimitsType(),
+    metavar="K",
+    help="Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3.",
+)
+@click.option(
+    "--symmetry",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of automorphisms, as a number or range: 1, 2.. or 2..8.",
+)
+@click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
+@click.option(
+    "--method",
+    type=click.Choice(["orbits", "burnside"]),
+    help="Counting method for --count; both give the same number.",
 )
 @runner_options
 def chains(
@@ -52,8 +68,8 @@ def chains(
 ) -> None:
     """List or count all kinematic chains of N links and M degrees of freedom.
 
-    Chains are link-joint graphs with single joints, each pair of isomorphic ones once, in which no part is rigid.
-    Each has an id that does not depend on who found it.
+    Chains are link-joint graphs with single joints in which no part is rigid; isomorphic chains are listed once.
+    The id of a chain depends on nothing but the chain.
 
     \b
     Examples:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +9,7 @@ import click
 
 from synth.cli.output import about, plain
 from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
+from synth.cli.surfaces.circles import surface_asked
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Sink
@@ -31,34 +31,99 @@ _LIMITS = {
 _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 
 
-@click.command(short_help="All ways a chain of any number of loops can lie on one cone.")
+@click.command(short_help="List or count the ways a chain can lie on one cone.")
 @click.option(
-    "--chain", "name", required=True, metavar="CHAIN", help="watt, stephenson, ..., an id k1:..., a FILE."
+    "--chain",
+    "name",
+    required=True,
+    metavar="CHAIN",
+    help="Chain: a name such as watt or stephenson, an id k1:..., or a FILE.",
 )
-@click.option("--ground", metavar="LINK", help="The fixed link; all: each different one; none.")
-@click.option("--slots", type=click.IntRange(min=3, max=720), metavar="K", help="Joints on K equal slots.")
-@click.option("--opposites", is_flag=True, help="Tell the orders of joints and points opposite to them apart.")
 @click.option(
-    "--sample", "samples", type=click.IntRange(min=1), metavar="N", help="N random sets of angles an order."
+    "--ground", metavar="LINK", help="Fixed link: an id; all, for one row per distinct ground link; or none."
 )
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Of --sample.")
 @click.option(
-    "--lambda", "cone_angle", type=float, metavar="DEGREES", help="Cone angle: link angles, Grashof classes."
+    "--slots",
+    type=click.IntRange(min=3, max=720),
+    metavar="K",
+    help="Place the joints on K equal slots round the cone.",
 )
-@click.option("--linkage", type=click.Choice(_LINKAGE), help="Which ways all moving links can go together.")
-@click.option("--open", "open_loops", type=LimitsType(), metavar="K", help="Number of open loops: 2, 1..2, 2..")
-@click.option("--layers", type=LimitsType(), metavar="K", help="Fewest layers: 2, ..3")
-@click.option("--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries: 1, 2..")
-@click.option("--grashof", type=LimitsType(), metavar="K", help="Number of four-bar loops that are Grashof.")
-@click.option("--rank", type=LimitsType(), metavar="K", help="Rank at the conformed position.")
-@click.option("--singular/--regular", default=None, help="Only (no) candidates whose rank is less than full.")
-@click.option("--half-turns", type=LimitsType(), metavar="K", help="Number of steps of exactly 180 degrees.")
-@click.option("--sort", metavar="[-]COLUMN", help="Sort by a column; - before it: falling.")
-@click.option("--pictures", metavar="FOLDER", help="Draw each candidate, circle and cone, to a new folder.")
-@click.option("--formulas", is_flag=True, help="Print the outward rate of each joint as a formula, and stop.")
-@click.option("--count", "only_count", is_flag=True, help="Print the number only, without filters by a formula.")
 @click.option(
-    "--method", type=click.Choice(["burnside", "orbits"]), help="How --count counts: two ways that must agree."
+    "--opposites", is_flag=True, help="Tell apart the orders of the joints and of the points opposite to them."
+)
+@click.option(
+    "--sample",
+    "samples",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Number of random sets of angles per order.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=0,
+    show_default=True,
+    help="Random seed for --sample.",
+)
+@click.option(
+    "--lambda",
+    "cone_angle",
+    type=float,
+    metavar="DEGREES",
+    help="Cone angle, for link angles and Grashof classes.",
+)
+@click.option(
+    "--radius",
+    type=float,
+    metavar="R",
+    help="Radius of a cylinder instead of a cone, for link lengths and Grashof classes.",
+)
+@click.option(
+    "--linkage", type=click.Choice(_LINKAGE), help="Directions in which all moving links can go together."
+)
+@click.option(
+    "--open",
+    "open_loops",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of open loops, as a number or range: 2, 1..2 or 2..",
+)
+@click.option(
+    "--layers", type=LimitsType(), metavar="K", help="Smallest number of layers, as a number or range: 2 or ..3."
+)
+@click.option(
+    "--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries, as a number or range: 1 or 2.."
+)
+@click.option(
+    "--grashof",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of four-bar loops that are Grashof, as a number or range.",
+)
+@click.option(
+    "--rank",
+    type=LimitsType(),
+    metavar="K",
+    help="Rank of the closure equations at the conformed position, as a number or range.",
+)
+@click.option("--singular/--regular", default=None, help="List only candidates with, or without, rank deficiency.")
+@click.option(
+    "--half-turns",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of steps of exactly 180 degrees, as a number or range.",
+)
+@click.option("--sort", metavar="[-]COLUMN", help="Sort by a column; a leading - sorts in descending order.")
+@click.option(
+    "--pictures", metavar="FOLDER", help="Draw each candidate, as a circle and on its cone, to a new folder."
+)
+@click.option("--formulas", is_flag=True, help="Print only the outward rate of each joint, as a formula.")
+@click.option("--count", "only_count", is_flag=True, help="Print only the number; without filters, by formula.")
+@click.option(
+    "--method",
+    type=click.Choice(["burnside", "orbits"]),
+    help="Counting method for --count; both give the same number.",
 )
 @runner_options
 def conical(
@@ -70,14 +135,16 @@ def conical(
     sort: str | None,
     pictures: str | None,
     cone_angle: float | None,
+    radius: float | None,
     **rest: Any,
 ) -> None:
-    """List or count all conical candidates of a chain: its joint axes ruling lines of one right cone.
+    """List or count all conical candidates of a chain: all joint axes are ruling lines of a cone or cylinder.
 
-    Every cyclic order of the joints, once of what a turn, a mirror image or a symmetry of the chain (that leaves
-    the ground link where it is) exchanges. For each: circuits of all loops, how often they wind, layers, and with
-    a ground link which way each moving link can go, over all angles. With --slots or --sample: rank, Grashof
-    classes and first-order behaviour at these angles. Hyatt et al. 2020, section 7.
+    The candidates are the cyclic orders of the joints; orders that a rotation, a reflection or a symmetry of the
+    chain (one that keeps the ground link) exchanges count once. Each row has the circuits of all loops, their
+    winding numbers, the layers, and with a ground link the directions in which each moving link can go, over all
+    angles. With --slots or --sample, rows also have the rank, the Grashof classes and the first-order behaviour at
+    these angles (Hyatt et al. 2020, section 7).
 
     \b
     Examples:
@@ -85,6 +152,7 @@ def conical(
       synth enumerate conical --chain four-bar --ground 0 --opposites
       synth enumerate conical --chain stephenson --ground all --count
       synth enumerate conical --chain four-bar --ground 0 --slots 6 --sort -grashof_loops
+      synth enumerate conical --chain four-bar --ground 0 --slots 6 --radius 25
       synth enumerate conical --chain watt --ground 0 --formulas
       synth enumerate conical --chain watt --ground all --slots 12 -o watt.sqlite
       synth enumerate conical --chain data/surfaces/fig11-stephenson.json --open 3 --pictures pictures
@@ -101,12 +169,11 @@ def conical(
         _print_formulas(chain, grounds)
         return
     from synth.candidates.job import CandidateCountJob, CandidateJob
-    from synth.surfaces.cone import checked_cone_angle
 
     filters = _filters(rest)
     job = CandidateJob(
         chain, grounds, rest["slots"], rest["opposites"], rest["samples"], rest["seed"],
-        None if cone_angle is None else float(checked_cone_angle(radians(cone_angle))), filters,
+        surface_asked(cone_angle, radius), filters,
     )  # fmt: skip
     if not only_count:
         run_rows(job, options, lambda sink: _around(sink, job, sort, pictures))

@@ -19,7 +19,7 @@ def enumerate_group() -> None:
     """List or count all mechanisms of a kind.
 
     \b
-    Example:
+    Examples:
       synth enumerate strings --max-dof 6
       synth enumerate chains --links 8 --dof 1
       synth enumerate sc --links 8 --dof 1 --centres 3

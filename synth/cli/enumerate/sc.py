@@ -15,20 +15,49 @@ if TYPE_CHECKING:
 __all__ = ["sc"]
 
 
-@click.command(short_help="SC graphs: planar chains drawn on the sphere, with their centres.")
+@click.command(short_help="List or count SC graphs: planar chains drawn on the sphere, with centres.")
 @click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
 @click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
-@click.option("--centres", type=LimitsType(), metavar="K", help="Number of distinct centres: 2, 1..2, 2..")
-@click.option("--spatial", type=click.IntRange(min=0), default=0, metavar="S", help="Hybrids: S spatial loops.")
-@click.option("--infinite", is_flag=True, help="Also centres at infinity (planar loops).")
-@click.option("--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries: 1, 2.., 2..4")
-@click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
-@click.option("--longest-string", type=LimitsType(), metavar="K", help="Longest row of binary links: 2, 1..2, 2..")
-@click.option("--per-chain", is_flag=True, help="One row a chain: its most general form, with the most centres.")
-@click.option("--embeddings", is_flag=True, help="With --count: embeddings in the sphere, without outer face.")
-@click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
 @click.option(
-    "--method", type=click.Choice(["orbits", "burnside"]), help="How --count counts: two ways that must agree."
+    "--centres",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of distinct centres, as a number or range: 2, 1..2 or 2..",
+)
+@click.option(
+    "--spatial",
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="S",
+    help="Number of spatial loops, 0 by default; with more, the results are hybrids.",
+)
+@click.option("--infinite", is_flag=True, help="Include centres at infinity (planar loops).")
+@click.option(
+    "--symmetry",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of symmetries, as a number or range: 1, 2.. or 2..4.",
+)
+@click.option("--assortment", callback=assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
+@click.option(
+    "--longest-string",
+    type=LimitsType(),
+    metavar="K",
+    help="Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3.",
+)
+@click.option(
+    "--per-chain", is_flag=True, help="List one row per chain: its most general form, with the most centres."
+)
+@click.option(
+    "--embeddings",
+    is_flag=True,
+    help="With --count, count embeddings in the sphere, without a choice of the outer face.",
+)
+@click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
+@click.option(
+    "--method",
+    type=click.Choice(["orbits", "burnside"]),
+    help="Counting method for --count; both give the same number.",
 )
 @runner_options
 def sc(
@@ -45,10 +74,10 @@ def sc(
 ) -> None:
     """List or count all SC graphs of N links and M degrees of freedom.
 
-    An SC graph is a planar kinematic chain drawn on the sphere, with a face outside; each other face is a loop
-    with a centre, shared with another loop only where their joints force it (Wiener, 3.3). Mirror images count
-    once. With --spatial, loops without a centre: hybrids that the exact rank says are mechanisms in which every
-    joint moves.
+    An SC graph is a planar kinematic chain drawn on the sphere, with one outer face; each other face is a loop
+    with a centre, shared with another loop only if their joints force it (Wiener, 3.3). Mirror images count once.
+    With --spatial, some loops have no centre: hybrids that by their exact rank are mechanisms in which every joint
+    moves.
 
     \b
     Examples:

@@ -17,19 +17,40 @@ if TYPE_CHECKING:
 __all__ = ["scd"]
 
 
-@click.command(short_help="SCD graphs: mechanisms with all the sides of their links.")
+@click.command(short_help="List or count SCD graphs: mechanisms with all sides of their links.")
 @click.option("--links", type=click.IntRange(min=2), metavar="N", help="Number of links.")
-@click.option("--dof", type=click.IntRange(min=1), metavar="M", help="Degrees of freedom; N - 1 for open chains.")
-@click.option("--of", "file", metavar="FILE", help="Those of the SC graph, or SCD graph, in a file.")
-@click.option("--max-degree", type=click.IntRange(min=3), required=True, metavar="D", help="Most sides of a link.")
-@click.option("--spatial", type=click.IntRange(min=0), default=0, metavar="S", help="Hybrids: S spatial loops.")
-@click.option("--infinite", is_flag=True, help="Also centres at infinity (planar loops).")
-@click.option("--all-explicit", "sheets", is_flag=True, help="Only single sheets without holes.")
-@click.option("--symmetric", is_flag=True, help="Only those with a symmetry.")
-@click.option("--vertices", type=LimitsType(), metavar="K", help="Vertices of the polyhedron model: 8, 6..8, ..8")
-@click.option("--count", "only_count", is_flag=True, help="Print the number only, the fastest way.")
 @click.option(
-    "--method", type=click.Choice(["burnside", "orbits"]), help="How --count counts: two ways that must agree."
+    "--dof", type=click.IntRange(min=1), metavar="M", help="Degrees of freedom; N - 1 gives open chains."
+)
+@click.option("--of", "file", metavar="FILE", help="File of an SC or SCD graph: list only its SCD graphs.")
+@click.option(
+    "--max-degree",
+    type=click.IntRange(min=3),
+    required=True,
+    metavar="D",
+    help="Largest number of sides of a link.",
+)
+@click.option(
+    "--spatial",
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="S",
+    help="Number of spatial loops, 0 by default; with more, the results are hybrids.",
+)
+@click.option("--infinite", is_flag=True, help="Include centres at infinity (planar loops).")
+@click.option("--all-explicit", "sheets", is_flag=True, help="List only single sheets without holes.")
+@click.option("--symmetric", is_flag=True, help="List only SCD graphs with a symmetry.")
+@click.option(
+    "--vertices",
+    type=LimitsType(),
+    metavar="K",
+    help="Number of vertices of the polyhedron model, as a number or range: 8, 6..8 or ..8.",
+)
+@click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
+@click.option(
+    "--method",
+    type=click.Choice(["burnside", "orbits"]),
+    help="Counting method for --count; both give the same number.",
 )
 @runner_options
 def scd(
@@ -46,9 +67,9 @@ def scd(
 ) -> None:
     """List or count all SCD graphs of N links and M degrees of freedom.
 
-    An SCD graph is an SC graph with all sides of its links: joints and open edges (Wiener, 3.4). Listed are all
-    placements of open edges, 3 to D sides a link, that obey the rules and whose exact rank is M; mirror images
-    count once. With M = N - 1, open chains.
+    An SCD graph is an SC graph with all sides of its links: joints and open edges (Wiener, 3.4). The list has all
+    placements of open edges, with 3 to D sides per link, that obey the rules and have exact mobility M; mirror
+    images count once. M = N - 1 gives open chains.
 
     \b
     Examples:

@@ -26,16 +26,32 @@ def _limit(context: click.Context, parameter: click.Parameter, value: str) -> in
     return int(value)
 
 
-@click.command(short_help="R/- strings: chains of panels between two bodies.")
-@click.option("--dof", type=click.IntRange(min=1), metavar="N", help="Strings of N creases.")
+@click.command(short_help="List or count R/- strings: chains of panels between two bodies.")
+@click.option("--dof", type=click.IntRange(min=1), metavar="N", help="Number of creases.")
 @click.option(
-    "--max-dof", type=click.IntRange(min=1), metavar="N", help="Strings of 1 to N creases (6 by default)."
+    "--max-dof", type=click.IntRange(min=1), metavar="N", help="Largest number of creases. By default 6."
 )
-@click.option("--modes", is_flag=True, help="List each mode (same side, diagonal) apart.")
-@click.option("--max-panels", default="2", callback=_limit, metavar="K", show_default=True, help="Or none.")
-@click.option("--max-cluster", default="3", callback=_limit, metavar="K", show_default=True, help="Or none.")
-@click.option("--count", "only_count", is_flag=True, help="Print the number only, by generating functions.")
-@click.option("-o", "--output", metavar="FILE.jsonl", help="Write one JSON object a line.")
+@click.option(
+    "--modes", is_flag=True, help="List one row per mode: vertices on the same side (S) or on a diagonal (D)."
+)
+@click.option(
+    "--max-panels",
+    default="2",
+    callback=_limit,
+    metavar="K",
+    show_default=True,
+    help="Largest number of panels; none for no limit.",
+)
+@click.option(
+    "--max-cluster",
+    default="3",
+    callback=_limit,
+    metavar="K",
+    show_default=True,
+    help="Largest number of creases that meet in one point; none for no limit.",
+)
+@click.option("--count", "only_count", is_flag=True, help="Print only the number, by generating functions.")
+@click.option("-o", "--output", metavar="FILE.jsonl", help="Write one JSON object per line.")
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list.")
 def strings(
@@ -49,10 +65,10 @@ def strings(
     force: bool,
     as_json: bool,
 ) -> None:
-    """List the R/- strings: open chains of panels, and the joints they stand for (Wiener, Table 8).
+    """List or count the R/- strings: open chains of panels, with their joint chains (Wiener, Table 8).
 
-    R is a crease, creases written together meet in one point, - is a rectangular panel. With --modes each string
-    is listed once for each way its vertices may lie (Table 7).
+    R is a crease; creases written together meet in one point; - is a rectangular panel. With --modes each string
+    is listed once per arrangement of its vertices (Table 7).
 
     \b
     Examples:

@@ -10,41 +10,62 @@ import click
 
 from synth.cli.lengths import LENGTH, LENGTH_OR_NONE
 from synth.cli.output import FORCE, LOSSY, about, check_output, plain, print_json, tell_lost
+from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
-    from graphs.mechanism.conical import ConicalLinkage
+    from graphs.mechanism.on_surface import SurfaceLinkage
 
 __all__ = ["convert"]
 
 _SOLIDS = (".stl", ".3mf", ".gltf")
 
 
-@click.command(short_help="Convert between kinds of files; change centres.")
+@click.command(short_help="Convert between file formats and kinds of mechanism; change centres.")
 @click.argument("source", metavar="IN")
 @click.argument("target", metavar="OUT")
+@DRAWN
 @click.option(
     "--to",
     "kind",
     type=click.Choice(["sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"]),
-    help="What to make of it first; by default what the file holds.",
+    help="Kind of mechanism to convert to first. By default the kind that IN holds.",
 )
 @click.option(
     "--form",
     type=click.Choice(["planar", "spherical", "general"]),
     help="Change the centres: planar analogue, spherical analogue, or most general form.",
 )
-@click.option("--table", type=click.Choice(["axes", "vertices"]), help="What a .csv holds, in every frame.")
-@click.option("--thickness", type=LENGTH, metavar="MM", help="Of panels as solids.  [default: 1]")
 @click.option(
-    "--gap", type=LENGTH_OR_NONE, metavar="MM", help="Of solids at a hinge.  [default: twice the thickness]"
+    "--table",
+    type=click.Choice(["axes", "vertices"]),
+    help="Table for a .csv file: joint axes or vertices, in every frame.",
 )
-@click.option("--scale", type=LENGTH, help="Of solids: millimetres for a unit.  [default: 1]")
-@click.option("--size", type=LENGTH, metavar="MM", help="Of solids: longest side; of a cone, ruling lines.")
-@click.option("--cone", type=click.IntRange(min=1), metavar="K", help="Of a linkage on several cones: which.")
+@click.option("--thickness", type=LENGTH, metavar="MM", help="Thickness of panels as solids.  [default: 1]")
+@click.option(
+    "--gap",
+    type=LENGTH_OR_NONE,
+    metavar="MM",
+    help="Gap between solids at a hinge.  [default: twice the thickness]",
+)
+@click.option("--scale", type=LENGTH, help="For solids: millimetres per unit of the coordinates.  [default: 1]")
+@click.option(
+    "--size",
+    type=LENGTH,
+    metavar="MM",
+    help="For solids: longest side; for a linkage on a cone or cylinder, length of the ruling lines.",
+)
+@click.option(
+    "--cone",
+    "--cylinder",
+    "cone",
+    type=click.IntRange(min=1),
+    metavar="K",
+    help="For a linkage that lies on several cones or cylinders: number of the one to take.",
+)
 @FORCE
 @LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print what was done as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print the conversion and its notes as JSON.")
 def convert(
     source: str,
     target: str,
@@ -56,28 +77,29 @@ def convert(
     as_json: bool,
     **solid: float | None,
 ) -> None:
-    """Convert a mechanism from one kind of file to another; the extensions name the formats.
+    """Convert a mechanism from one file format to another; the extensions name the formats.
 
     \b
-    Read and written:
-      .json                native: SC and SCD graphs, models, vertex-edge graphs, linkages on cones,
+    Formats read and written:
+      .json                native: SC and SCD graphs, models, vertex-edge graphs, linkages on surfaces,
                            solids by their axes, linkages with joints of all kinds
       .fold .svg .cp .obj  crease patterns
       .dxf                 crease patterns (R12 written)
       .g6 .s6              graph6 and sparse6 (nauty): bare link-joint graphs
       .graphml             bare link-joint graphs, or with the type of each joint (R P U S C E)
-      .edges .txt          bare link-joint graphs, a joint a line
-    Read:
+      .edges .txt          bare link-joint graphs, one joint per line
+    Formats read:
       .opx                 crease patterns (ORIPA)
-      .csv                 bare link-joint graphs, a table of edges
+      .csv                 bare link-joint graphs, as a table of edges
 
-    Written:
+    \b
+    Formats written:
       .csv                 with --table: joint axes and angles, or vertices, in each frame of a .fold file
-      .stl .3mf .gltf      panels as thin solids, hinges left open; .obj too, where a thickness is given;
-                           .gltf has the frames of a .fold file as a motion; a linkage on a cone in layers
+      .stl .3mf .gltf      panels as thin solids, with gaps at hinges; .obj too, with --thickness;
+                           .gltf animates the frames of a .fold file; a linkage on a surface in layers
 
-    What OUT cannot hold is told by kind and number. If its type would be another (links, joints or centres of what
-    is read back do not correspond), nothing is written, unless with --lossy.
+    Notes list what OUT cannot hold, by kind and number. If OUT would read back as another type (its links, joints
+    or centres do not correspond), nothing is written, unless --lossy is given.
 
     \b
     Examples:
@@ -90,7 +112,7 @@ def convert(
       synth convert creases.json platform.json --to joints
     """
     from graphs.convert.by_name import convert as converted
-    from graphs.files.formats import read, write
+    from graphs.files.formats import write
 
     check_output(target, force=force)
     if (Path(target).suffix.lower() == ".csv") != (table is not None):
@@ -135,13 +157,13 @@ def _write_solids(
     mechanism: Mechanism, target: str, solid: Mapping[str, float | None], *, force: bool
 ) -> tuple[str, ...]:
     from graphs.errors import UnsolvableError
-    from graphs.mechanism.conical import ConicalLinkage
+    from graphs.mechanism.on_surface import SurfaceLinkage
     from synth.moving.made import sheet_of
     from synth.templates.solids import THICKNESS, write_solids
 
     thickness = THICKNESS if solid["thickness"] is None else solid["thickness"]
-    if isinstance(mechanism, ConicalLinkage):
-        return _write_on_cone(mechanism, target, thickness, solid, force=force)
+    if isinstance(mechanism, SurfaceLinkage):
+        return _write_on_surface(mechanism, target, thickness, solid, force=force)
     sheet = sheet_of(mechanism)
     if sheet is None:
         raise UnsolvableError(f"solids need panels, and {mechanism!r} has none")
@@ -150,17 +172,17 @@ def _write_solids(
     )
 
 
-def _write_on_cone(
-    linkage: ConicalLinkage, target: str, thickness: float, solid: Mapping[str, float | None], *, force: bool
+def _write_on_surface(
+    linkage: SurfaceLinkage, target: str, thickness: float, solid: Mapping[str, float | None], *, force: bool
 ) -> tuple[str, ...]:
     from synth.templates.developed.layered import Dimensions
     from synth.templates.developed.template import surface_of
     from synth.templates.solids import write_linkage_on_surface
-    from synth.templates.things import linkage_on_a_cone
+    from synth.templates.things import linkage_on_a_surface
 
     if solid["scale"] is not None:
-        raise click.UsageError("--scale is of panels: --size says how long the ruling lines of a cone are")
-    one = linkage_on_a_cone(linkage, number=None if solid["cone"] is None else int(solid["cone"]))
+        raise click.UsageError("--scale is of panels: --size says how long the ruling lines are")
+    one = linkage_on_a_surface(linkage, number=None if solid["cone"] is None else int(solid["cone"]))
     sizes = Dimensions(thickness=thickness, **({} if solid["size"] is None else {"size": solid["size"]}))
     gap = 2 * thickness if solid["gap"] is None else solid["gap"]
     return write_linkage_on_surface(one, surface_of(one), target, dimensions=sizes, gap=gap, force=force)

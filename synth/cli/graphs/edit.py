@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from synth.cli.lengths import BRANCH
 from synth.cli.output import (
     FORCE,
     LOSSY,
@@ -19,6 +20,7 @@ from synth.cli.output import (
     tell_lost,
     tell_written,
 )
+from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.creasing.edits import SheetEdit
@@ -35,44 +37,80 @@ def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[...,
     return click.option(name, multiple=True, metavar=metavar, help=text)
 
 
-@click.command(short_help="Add creases, ride-alongs, loops; move centres; lock joints.")
+@click.command(short_help="Add creases, ride-alongs and loops; change centres; lock joints.")
 @click.argument("file", metavar="FILE")
+@DRAWN
 @_repeated(
     "--add-crease",
     "LINK[:X,Y]",
-    "Crease a link. SC graph: X,Y are joints beyond it. SCD graph: vertices. Pattern: A:B, each a vertex or X,Y.",
+    "Crease a link. For an SC graph, X,Y are the joints beyond the crease; for an SCD "
+    "graph, its vertices. For a pattern, A:B, each a vertex or a point X,Y.",
 )
-@_repeated("--remove-crease", "JOINT", "Pattern: remove a crease; the panels beside it become one.")
-@_repeated("--add-loop", "A,B,K", "Append K links between links A and B: a loop with a centre.")
-@_repeated("--add-spatial-loop", "A,B,K", "Append K links between links A and B: a loop without a centre.")
-@_repeated("--add-ride-along", "A,B", "Append a ride-along to the adjacent links A and B.")
-@_repeated("--implicit", "LOOP", "SCD graph: take the links off the centre of a loop (its index).")
-@_repeated("--explicit", "LOOP", "SCD graph: let the links reach the centre of a loop (its index).")
-@_repeated("--lock", "JOINT", "Lock a joint: its two links become one. Pattern: the crease becomes flat.")
-@click.option("-o", "--output", metavar="OUT", help="Write the result here.")
+@_repeated("--remove-crease", "JOINT", "For a pattern: remove a crease; its two panels become one.")
+@_repeated(
+    "--add-loop",
+    "A,B,K[:J,...]",
+    "Add K links between links A and B: a loop with a centre, through the joints J,... from A to B.",
+)
+@_repeated(
+    "--add-spatial-loop",
+    "A,B,K[:J,...]",
+    "Add K links between links A and B: a loop without a centre, through the joints J,... from A to B.",
+)
+@_repeated("--add-ride-along", "A,B", "Add a ride-along to the adjacent links A and B.")
+@_repeated(
+    "--implicit",
+    "LOOP",
+    "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
+)
+@_repeated(
+    "--explicit",
+    "LOOP",
+    "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
+)
+@_repeated("--lock", "JOINT", "Lock a joint; its two links become one. For a pattern, the crease becomes flat.")
+@click.option(
+    "--assign-branch",
+    type=BRANCH,
+    metavar="K",
+    help="For a pattern: assign the mountains and valleys of a folding branch, by its number "
+    "or signs, as `synth fold --branches` lists them. Creases that are immobile on it "
+    "become flat (F).",
+)
+@click.option("-o", "--output", metavar="OUT", help="Write the result to this file.")
 @FORCE
 @LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print the edits as JSON.")
 def edit(
-    file: str, output: str | None, force: bool, lossy: bool, as_json: bool, **wanted: tuple[str, ...]
+    file: str,
+    assign_branch: int | str | None,
+    output: str | None,
+    force: bool,
+    lossy: bool,
+    as_json: bool,
+    **wanted: tuple[str, ...],
 ) -> None:
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
     Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
-    links, except where a loop is added: that leaves an SC graph. A crease pattern stays one where creases are
-    locked, added and removed; where links are added it becomes the SC graph of its mechanism.
+    links, unless a loop is added: then it becomes an SC graph. A crease pattern stays a crease pattern if creases
+    are locked, added and removed; if links are added, it becomes the SC graph of its mechanism. --assign-branch
+    comes before all others: it gives a pattern that folds with its mountain-valley assignment.
 
-    JOINT is an id, a number in the list of joints (of a pattern: of edges), or two links A,B with one joint.
+    JOINT is an id, a number in the list of joints (for a pattern, of edges), or two links A,B with one joint. For
+    a loop between links that are not adjacent, name the joints of a path between them, as in the last example.
 
     \b
     Examples:
       synth edit data/patterns/bird-base.fold --lock 3 --add-crease 0:2 -o edited.fold
+      synth edit data/patterns/bird-base.fold --assign-branch 1 -o marked.fold
       synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
+      synth edit data/wiener/six-bar.json --add-spatial-loop 0,2,4:1,2 -o ten-bar.json
     """
     from graphs.convert.table import graph_of
     from graphs.edit.sc import Edit as EditOfGraph
     from graphs.errors import UnsolvableError
-    from graphs.files.formats import read, write
+    from graphs.files.formats import write
     from graphs.mechanism.sheet import Sheet
     from synth.cli.graphs.patterns import pattern_edits
 
@@ -81,9 +119,10 @@ def edit(
     with about(file):
         edits: list[Edit] | list[SheetEdit]
         if isinstance(thing, Sheet) and not any(wanted[name] for name in wanted if name not in _OF_PATTERNS):
-            edits = list(pattern_edits(thing, wanted))
-        elif wanted["remove_crease"]:
-            raise UnsolvableError("--remove-crease is for crease patterns, without edits that add links")
+            edits = list(pattern_edits(thing, wanted, assign_branch))
+        elif wanted["remove_crease"] or assign_branch is not None:
+            option = "--remove-crease" if wanted["remove_crease"] else "--assign-branch"
+            raise UnsolvableError(f"{option} is for crease patterns, without edits that add links")
         else:
             edits = _edited(graph_of(thing), wanted)
         if not edits:
@@ -157,13 +196,16 @@ def _crease(sc: SCGraph, text: str) -> Edit:
 
 
 def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
-    from graphs.edit.named import link_named
+    from graphs.edit.named import joint_named, link_named
     from graphs.edit.sc import add_loop
     from graphs.mechanism.scd import SCDGraph
 
-    a, b, k = _words(text, 3, option)
+    chain, _, rest = text.partition(":")
+    a, b, k = _words(chain, 3, option)
+    through = [joint_named(sc, word.strip()) for word in rest.split(",") if word.strip()]
     bare = sc.sc_graph() if isinstance(sc, SCDGraph) else sc
-    return add_loop(bare, link_named(sc, a), link_named(sc, b), _whole(k, option), centre=centre)
+    ends = link_named(sc, a), link_named(sc, b)
+    return add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
 
 
 def _ride_along(sc: SCGraph, text: str) -> Edit:

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from synth.cli.output import about, console, entries, plain, print_json, table
+from synth.cli.precision import PRECISION, precise
+from synth.cli.reading import DRAWN
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,27 +25,47 @@ __all__ = ["mobility"]
 _LONGEST_PATH = 4096
 
 
-@click.command(short_help="Say whether it moves, with how many freedoms, and how that is known.")
+@click.command(short_help="Report mobility, degrees of freedom and motion branches, with the evidence.")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object a mechanism.")
+@DRAWN
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object per mechanism.")
 @click.option(
     "--exact/--no-exact",
     default=None,
-    help="Compute the exact generic rank (by default, of what is not too large).",
+    help="Compute the exact generic rank. By default it is computed unless the mechanism is large.",
 )
-@click.option("--hinge-flat", is_flag=True, help="Make hinges of the flat (F) edges of a crease pattern too.")
-@click.option("--pose", type=click.IntRange(min=0), metavar="FRAME", help="Ask about this frame of a FOLD file.")
+@click.option("--hinge-flat", is_flag=True, help="Treat the flat (F) edges of a crease pattern as hinges too.")
+@click.option(
+    "--pose",
+    type=click.IntRange(min=0),
+    metavar="FRAME",
+    help="Analyse this frame of a FOLD file; 0 is the key frame.",
+)
 @click.option(
     "--no-geometry",
     is_flag=True,
-    help="Take all loops round holes and cuts of a crease pattern for spatial, wherever their axes meet.",
+    help="Treat every loop round a hole or cut as spatial, even if its axes meet in a point.",
 )
-@click.option("--no-pose", is_flag=True, help="Leave out the freedoms at the coordinates.")
+@click.option(
+    "--no-pose",
+    is_flag=True,
+    help="Leave out the infinitesimal degrees of freedom at the configuration of the file.",
+)
 @click.option(
     "--motion/--no-motion",
     "look_for_motion",
     default=None,
-    help="Look for finite motions from the coordinates (by default, of what is not too large).",
+    help="Search for finite motions from the configuration of the file. By default the search "
+    "is made unless the mechanism is large.",
+)
+@PRECISION
+@click.option(
+    "--more",
+    is_flag=True,
+    help="Search for motion branches with a hundred times the usual allowance, and list all of them.",
+)
+@click.option(
+    "--verbose", is_flag=True, help="List all equations of mobility, with the reason why each applies or does not."
 )
 def mobility(
     files: tuple[str, ...],
@@ -54,20 +76,22 @@ def mobility(
     no_pose: bool,
     no_geometry: bool,
     look_for_motion: bool | None,
+    more: bool,
+    verbose: bool,
 ) -> None:
-    """Say how a mechanism moves, with how many degrees of freedom, and how that is known.
+    """Report how a mechanism moves: its degrees of freedom, its motion branches, and the evidence.
 
-    FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
-    (.fold, .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
-    gives the whole report, several give a table.
+    FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern (.fold,
+    .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file gives a
+    full report, several give a table.
 
-    The verdict comes first: whether a crease pattern folds from its coordinates, with how many freedoms, which
-    creases cannot move; of a type without coordinates, what it does in general position. What supports it follows:
-    counts, which are formulas, the exact generic mobility, and the infinitesimal freedoms of a crease pattern as
-    it lies. By --pose all numbers are those of another frame (0 is the key frame).
+    The verdict comes first: whether a crease pattern is rigid-foldable from its configuration, with how many
+    degrees of freedom, and which creases are immobile; for a type without coordinates, what a generic realisation
+    does. The evidence follows: counts by formula, the exact generic mobility, and the infinitesimal degrees of
+    freedom of a crease pattern at its configuration. With --pose all numbers are those of another frame.
 
     \b
-    Example:
+    Examples:
       synth mobility data/wiener/fortune-teller.json
       synth mobility data/patterns/bird-base.fold
     """
@@ -84,12 +108,13 @@ def mobility(
             try:
                 with about(entry.label):
                     answer = asked(
-                        entry.mechanism,
+                        precise(entry.mechanism),
                         exact=exact,
                         hinge_flat=hinge_flat,
                         pose=lies,
                         geometry=not no_geometry,
                         motion=look_for_motion,
+                        more=more,
                     )
                     answers.append((entry.label, answer))
             except FileError as error:
@@ -97,7 +122,7 @@ def mobility(
     if as_json:
         print_json([{"file": label, **answer.to_json()} for label, answer in answers])
     elif len(answers) == 1 and not failures:
-        _print_answer(*answers[0])
+        _print_answer(*answers[0], verbose=verbose)
     elif answers:
         _print_table(console(), sorted(answers, key=lambda item: _in_number_order(item[0])), len(failures))
     for line in failures:
@@ -121,19 +146,21 @@ def _in_number_order(label: str) -> list[str | int]:
     return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
 
 
-def _print_answer(label: str, answer: JudgedMobility) -> None:
+def _print_answer(label: str, answer: JudgedMobility, *, verbose: bool) -> None:
     out = console()
     out.print(plain(label, _LONGEST_PATH), style="bold")
-    for block in answer.blocks():
+    for block in answer.blocks(verbose=verbose):
         out.print(block)
 
 
 def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed: int) -> None:
-    """Print a line a mechanism, with totals; one file alone tells its notes in full."""
+    """Print one line per mechanism, with totals; of one file alone all notes are printed."""
+    from graphs.errors import numbered
+
     rows = table(
         "file",
         "class",
-        *(numbers := ("freedoms", "N", "J", "L", "centres", "M", "exact", "pose", "notes")),
+        *(numbers := ("DOF", "N", "J", "L", "centres", "M", "exact", "pose", "notes")),
         numbers=numbers,
     )
     common = set.intersection(*(set(answer.warnings) for _, answer in answers))
@@ -149,8 +176,8 @@ def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed
             plain(notes or ""),
         )
     out.print(rows)
-    out.print(f"{len(answers)} mechanism(s) reported, {failed} failed")
+    out.print(f"{numbered(len(answers), 'mechanism')} reported, {failed} failed")
     for note in sorted(common):
         out.print(f"note, for all: {note}")
     if any(answer.repairs or set(answer.warnings) - common for _, answer in answers):
-        out.print("ask for one file alone to read its notes")
+        out.print("give one file alone to read its notes")

@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 __all__ = ["pattern_edits"]
 
 
-def pattern_edits(sheet: Sheet, wanted: dict[str, tuple[str, ...]]) -> Iterator[SheetEdit]:
-    """Yield the edits of a pattern: creases locked, added, removed, in this order, each made to the last result.
+def pattern_edits(
+    sheet: Sheet, wanted: dict[str, tuple[str, ...]], branch: int | str | None = None
+) -> Iterator[SheetEdit]:
+    """Yield the edits of a pattern: assigned as a branch, creases locked, added, removed, each to the last result.
 
     Edges keep their numbers until creases are removed; those are named before.
     """
@@ -25,6 +27,12 @@ def pattern_edits(sheet: Sheet, wanted: dict[str, tuple[str, ...]]) -> Iterator[
     from graphs.creasing.named import joint_of_sheet_named
     from graphs.mechanism.sheet import with_all_edges
 
+    if branch is not None:
+        from synth.folding.assigned import assign_branch
+
+        edit = assign_branch(sheet, branch)
+        sheet = edit.sheet
+        yield edit
     for text in wanted["lock"]:
         edit = lock_crease(sheet, joint_of_sheet_named(sheet, text))
         sheet = edit.sheet

@@ -14,28 +14,30 @@ from synth.cli.output import (
     tell_lost,
     tell_written,
 )
+from synth.cli.reading import DRAWN, read
 
 __all__ = ["reconstruct"]
 
 
 @click.command(short_help="Reconstruct the polyhedron model, vertex by vertex.")
 @click.argument("file", metavar="FILE")
-@click.option("-o", "--output", metavar="OUT", help="Write the model here (.json or .fold).")
+@DRAWN
+@click.option("-o", "--output", metavar="OUT", help="Write the model to this file (.json or .fold).")
 @FORCE
 @LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print the vertices and the counts as JSON.")
 def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json: bool) -> None:
     """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
 
-    FILE holds an SCD graph, or a crease pattern of plain panels (.fold). The table says which links meet in
-    each vertex and in what kind of face of the graph it lies.
+    FILE holds an SCD graph, or a crease pattern without flat edges, cuts and split hinges (.fold). The table lists
+    the links that meet in each vertex, and the kind of face of the graph in which it lies.
 
     \b
     Example:
       synth reconstruct data/wiener/six-bar.json -o model.json
     """
     from graphs.answer.reconstruction import reconstruct as reconstructed
-    from graphs.files.formats import read, write
+    from graphs.files.formats import write
 
     check_output(output, force=force)
     thing = read(file)

@@ -16,6 +16,7 @@ from synth.cli.output import (
     tell_lost,
     tell_written,
 )
+from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.mechanism.sc import SCGraph
@@ -25,17 +26,29 @@ if TYPE_CHECKING:
 __all__ = ["reduce_command"]
 
 
-@click.command("reduce", short_help="Take off ride-alongs and adjunct addenda.")
+@click.command("reduce", short_help="Remove ride-alongs and adjunct addenda.")
 @click.argument("file", metavar="FILE")
-@click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism here.")
+@DRAWN
+@click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism to this file.")
 @click.option(
-    "--rule", type=click.Choice(["ride-along", "dyad", "assur"]), default="ride-along", show_default=True
+    "--rule",
+    type=click.Choice(["ride-along", "dyad", "assur"]),
+    default="ride-along",
+    show_default=True,
+    help="Rule of reduction.",
 )
-@click.option("--fully", is_flag=True, help="Reduce a block even where it then has no loop left.")
-@click.option("--keep", multiple=True, metavar="LINK", help="A link that stays (an input, say); may be repeated.")
-@click.option("--ground", metavar="LINK", help="The fixed link, for the rule assur; the file's, if it names one.")
+@click.option("--fully", is_flag=True, help="Reduce a block even if no loop of it is left.")
 @click.option(
-    "--input", "inputs", multiple=True, metavar="JOINT", help="An input, for the rule assur; may be repeated."
+    "--keep",
+    multiple=True,
+    metavar="LINK",
+    help="Link that must not be removed, such as an input link; may be repeated.",
+)
+@click.option(
+    "--ground", metavar="LINK", help="Fixed link, for --rule assur. By default the one that the file names."
+)
+@click.option(
+    "--input", "inputs", multiple=True, metavar="JOINT", help="Input joint, for --rule assur; may be repeated."
 )
 @FORCE
 @LOSSY
@@ -52,13 +65,13 @@ def reduce_command(
     lossy: bool,
     as_json: bool,
 ) -> None:
-    """Take ride-alongs off a mechanism, one by one, until none is left. Mobility stays.
+    """Remove the ride-alongs of a mechanism one by one, until none is left. The mobility does not change.
 
-    A ride-along is two binary links u, v on two adjacent links a, b, the four about one centre. Chains of them,
-    adjunct addenda, are shown as trees. The rule "dyad" takes off such pairs also where a and b are not joined.
+    A ride-along is two binary links u, v on two adjacent links a, b, all four about one centre. Chains of them,
+    adjunct addenda, are shown as trees. The rule "dyad" removes such pairs even if a and b are not adjacent.
 
-    The rule "assur" parts a mechanism whose loops have one centre into the groups of links that are positioned
-    together, given a ground link and an input for each freedom, and takes off those that nothing hangs on.
+    The rule "assur" divides a mechanism whose loops have one centre into its Assur groups, given a ground link and
+    one input for each degree of freedom, and removes the groups that no other group is attached to.
 
     \b
     Examples:
@@ -67,7 +80,7 @@ def reduce_command(
     """
     from graphs.convert.table import to_sc
     from graphs.edit.named import link_named
-    from graphs.files.formats import read, write
+    from graphs.files.formats import write
     from graphs.reduce.ride_alongs import reduce
 
     if (rule != "assur") and (ground is not None or inputs):

@@ -25,7 +25,7 @@ AXES = click.option(
     type=AXIS,
     multiple=True,
     metavar="X,Y,Z",
-    help="Fixed axis to take, for three orientations; again for more.",
+    help="Direction of a fixed axis, required for three orientations; may be repeated.",
 )
 
 
@@ -37,16 +37,19 @@ def samples_option(most: int) -> Callable[[_Command], _Command]:
         default=36,
         show_default=True,
         metavar="N",
-        help="Dyads on each curve, for four orientations.",
+        help="Number of dyads on each curve, for four orientations.",
     )
 
 
-@click.command(short_help="RR dyads that guide a body through orientations.")
+@click.command(short_help="Find the RR dyads that guide a body through orientations.")
 @ORIENTATIONS
 @AXES
 @samples_option(100_000)
 @click.option(
-    "-o", "--picture", metavar="OUT", help="Draw a map of the sphere by order here (.svg, .png or .pdf)."
+    "-o",
+    "--picture",
+    metavar="OUT",
+    help="Draw a map of the sphere, coloured by order, to this file (.svg, .png or .pdf).",
 )
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
@@ -60,9 +63,9 @@ def dyads(
 ) -> None:
     """Find the RR dyads, fixed axis G and moving axis W, that guide a body through orientations.
 
-    Of three orientations any fixed axis has its dyad: name axes. Four have curves of dyads, which are sampled.
-    Five have up to six: all are found. Of more, those that fit best are. W is in the frame of the body. The
-    residual is the largest |G . (Mi - M1) W|.
+    For three orientations every fixed axis has a dyad, so --axis is required. For four there are curves of dyads,
+    which are sampled. For five there are up to six dyads, and all are found. For more orientations the
+    best-fitting dyads are found. W is in the frame of the body. The residual is the largest |G . (Mi - M1) W|.
 
     \b
     Example:

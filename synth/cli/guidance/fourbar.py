@@ -19,20 +19,25 @@ if TYPE_CHECKING:
 __all__ = ["fourbar"]
 
 
-@click.command(short_help="Four-bars that guide their coupler through orientations.")
+@click.command(short_help="Find the four-bars that guide their coupler through orientations.")
 @ORIENTATIONS
 @AXES
 @samples_option(200)
 @click.option(
-    "--best", type=click.IntRange(min=1), default=12, show_default=True, metavar="K", help="How many to list."
+    "--best",
+    type=click.IntRange(min=1),
+    default=12,
+    show_default=True,
+    metavar="K",
+    help="Largest number of four-bars to list.",
 )
-@click.option("--usable", is_flag=True, help="Only those without defects.")
-@click.option("--cones", is_flag=True, help="Map each one listed to cones: can it be made of one?")
+@click.option("--usable", is_flag=True, help="List only four-bars without defects.")
+@click.option("--cones", is_flag=True, help="Map each four-bar listed to cones.")
 @click.option(
-    "--motion", metavar="OUT.json", help="Write the motion of the best one without defects, as orientations."
+    "--motion", metavar="OUT.json", help="Write the motion of the best four-bar without defects, as orientations."
 )
 @click.option("--steps", type=click.IntRange(1, 100_000), default=20, show_default=True, metavar="N",
-              help="Steps of the motion between two orientations.")  # fmt: skip
+              help="Number of steps of the motion between two orientations.")  # fmt: skip
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def fourbar(
@@ -47,12 +52,13 @@ def fourbar(
     force: bool,
     as_json: bool,
 ) -> None:
-    """Join the dyads of orientations in pairs to four-bars, and rank them.
+    """Find the four-bars that guide their coupler through orientations, and rank them.
 
-    Each pair is told twice, with either dyad as driver. A circuit defect: the orientations cannot be reached
-    without taking the linkage apart. A branch defect: the driver would have to pass a dead point. An order defect:
-    the driver, turning one way within its range, takes them in another order. Three orientations need two axes.
-    With --cones each one listed is mapped to cones, by either end of each of its axes.
+    Each pair of dyads is listed twice, with either dyad as the driver. A circuit defect: the orientations cannot
+    be reached without taking the linkage apart. A branch defect: the driver would have to pass a dead point. An
+    order defect: the driver, turning one way within its range, reaches them in another order. For three
+    orientations, two axes are required. With --cones each four-bar listed is mapped to cones, by either end of
+    each of its axes.
 
     \b
     Examples:

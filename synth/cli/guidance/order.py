@@ -47,21 +47,29 @@ ORIENTATIONS = click.option(
     "file",
     required=True,
     metavar="FILE",
-    help="Three or more orientations (docs/native-json.md).",
+    help="File of three or more orientations (docs/native-json.md).",
 )
 
 
-@click.command(short_help="Say whether a crank about an axis takes orientations in their order.")
+@click.command(short_help="Check whether a crank about a fixed axis guides a body through orientations in order.")
 @ORIENTATIONS
-@click.option("--axis", required=True, type=AXIS, metavar="X,Y,Z", help="Fixed axis G of the dyad, any length.")
+@click.option(
+    "--axis",
+    required=True,
+    type=AXIS,
+    metavar="X,Y,Z",
+    help="Direction of the fixed axis G of the dyad, of any length.",
+)
 @click.option(
     "--direction",
     type=click.Choice(["ccw", "cw"]),
     default="ccw",
     show_default=True,
-    help="How the crank turns, seen from the tip of the axis.",
+    help="Direction in which the crank turns, seen from the tip of the axis.",
 )
-@click.option("-o", "--picture", metavar="OUT", help="Draw the sphere and the hoop here (.svg, .png or .pdf).")
+@click.option(
+    "-o", "--picture", metavar="OUT", help="Draw the sphere and the hoop to this file (.svg, .png or .pdf)."
+)
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def order(
@@ -72,11 +80,11 @@ def order(
     force: bool,
     as_json: bool,
 ) -> None:
-    """Say whether a crank about a fixed axis takes orientations in their order (Tipparthi and Larochelle 2011).
+    """Check whether a crank guides a body through orientations in order (Tipparthi and Larochelle 2011).
 
-    The hoop, half a great circle through the ends of the axis, turns from S12 by 180 degrees; its crossings of the
-    relative axes Sij tell. Inequalities and the crank angles of the dyad that fits best check it. Exit status 1:
-    the order is not kept.
+    The hoop, half a great circle through the ends of the axis, turns from S12 by 180 degrees; the order in which
+    it crosses the relative axes Sij decides. Inequalities and the crank angles of the best-fitting dyad check the
+    result. Exit status 1: the order is not kept.
 
     \b
     Example:

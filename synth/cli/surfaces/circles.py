@@ -1,16 +1,19 @@
-"""What ``synth cone`` and ``synth cylinder`` share: reading lists of numbers."""
+"""What ``synth cone``, ``synth cylinder`` and others share: lists of numbers, and surfaces."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, pi, radians
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from synth.cli.output import plain
 
-__all__ = ["NumberList", "in_radians"]
+if TYPE_CHECKING:
+    from graphs.mechanism.surfaces import Surface
+
+__all__ = ["NumberList", "in_radians", "surface_asked"]
 
 
 class NumberList(click.ParamType):  # type: ignore[type-arg,unused-ignore]
@@ -34,3 +37,14 @@ def in_radians(values: Sequence[float]) -> list[float]:
         first = f"{values[0]:g} looks like radians: {degrees(values[0]):.4g} degrees"
         click.echo(f"note: angles are taken in degrees; {first}", err=True)
     return [radians(value) for value in values]
+
+
+def surface_asked(cone_angle: float | None, radius: float | None) -> Surface | None:
+    """Return the cone of --lambda, in degrees, or the cylinder of --radius."""
+    from graphs.mechanism.surfaces import Cone, Cylinder
+
+    if cone_angle is not None and radius is not None:
+        raise click.UsageError("--lambda is of a cone, --radius of a cylinder: one of them")
+    if cone_angle is not None:
+        return Cone(radians(cone_angle))
+    return None if radius is None else Cylinder(radius)

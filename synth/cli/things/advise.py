@@ -8,28 +8,63 @@ import click
 
 from synth.cli.lengths import BRANCH
 from synth.cli.output import about, plain, print_json
+from synth.cli.precision import PRECISION, precise
+from synth.cli.reading import DRAWN, read
 
 __all__ = ["advise"]
 
 
-@click.command(short_help="Say what to lock, or which panels to crease, for a number of freedoms.")
+@click.command(short_help="Find joints to lock, or panels to crease, for a number of degrees of freedom.")
 @click.argument("file", metavar="FILE")
-@click.option("--freedoms", type=click.IntRange(0), required=True, metavar="K", help="Freedoms that are wanted.")
+@DRAWN
 @click.option(
-    "--branch", type=BRANCH, metavar="B", help="Of this way from a flat state: its number, or its signs."
+    "--freedoms", type=click.IntRange(0), required=True, metavar="K", help="Number of degrees of freedom to reach."
 )
 @click.option(
-    "--weight", multiple=True, metavar="JOINT=W", help="What locking a joint costs (1); may be repeated."
+    "--branch",
+    type=BRANCH,
+    metavar="B",
+    help="Folding branch from a flat state, by its number or its signs; `synth fold --branches` lists them.",
 )
-@click.option("--protect-joint", multiple=True, metavar="JOINT", help="Do not lock it; may be repeated.")
-@click.option("--protect-link", multiple=True, metavar="LINK", help="Do not lock its joints, nor crease it.")
 @click.option(
-    "--flaps/--no-flaps", default=True, show_default=True, help="Lock flaps too; cut corners off as flaps."
+    "--weight", multiple=True, metavar="JOINT=W", help="Cost of locking a joint, 1 by default; may be repeated."
 )
-@click.option("--limit", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Sets to list.")
-@click.option("--size", type=click.IntRange(1), metavar="N", help="Largest set of diagonals; K - M + 1.")
-@click.option("--leave-out", is_flag=True, help="Of a flat sheet: tell what it has without these creases, too.")
+@click.option(
+    "--protect-joint", multiple=True, metavar="JOINT", help="Joint that must not be locked; may be repeated."
+)
+@click.option(
+    "--protect-link",
+    multiple=True,
+    metavar="LINK",
+    help="Link whose joints must not be locked, and which must not be creased; may be repeated.",
+)
+@click.option(
+    "--flaps/--no-flaps",
+    default=True,
+    show_default=True,
+    help="Lock the joints of flaps too, and allow diagonals that cut off a corner as a flap.",
+)
+@click.option(
+    "--limit",
+    type=click.IntRange(1, 10_000),
+    metavar="N",
+    default=20,
+    show_default=True,
+    help="Largest number of sets to list.",
+)
+@click.option(
+    "--size",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Largest number of diagonals in a set. By default K - M + 1.",
+)
+@click.option(
+    "--leave-out",
+    is_flag=True,
+    help="For a flat sheet: also report its degrees of freedom without the locked creases.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@PRECISION
 def advise(
     file: str,
     freedoms: int,
@@ -43,12 +78,13 @@ def advise(
     leave_out: bool,
     as_json: bool,
 ) -> None:
-    """Say which joints to lock, or which panels to crease along diagonals, so that K freedoms are left.
+    """Find joints to lock, or panels to crease along diagonals, so that K degrees of freedom are left.
 
-    Of M freedoms M - K joints have to be locked: all such sets, cheapest first. Or K - M diagonals and more to be
-    creased: the smallest sets, each folded. From a flat state on the way that the marks choose, or --branch.
-    Play is how much larger than that of the locked joints the play of the rest may be. JOINT is an id, or two
-    links A,B.
+    To lower M degrees of freedom to K, M - K joints have to be locked: all such sets are listed, cheapest first.
+    To raise M to K, at least K - M diagonals have to be creased: the smallest sets are listed, each tested by
+    folding. From a flat state, the folding branch is the one of the mountain-valley assignment, or that of
+    --branch. Play is the largest factor by which play in the locked joints is amplified in the others. JOINT is an
+    id, or two links A,B.
 
     \b
     Examples:
@@ -60,12 +96,12 @@ def advise(
     """
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.edit.named import joint_named, link_named
-    from graphs.files.formats import read
     from synth.advice.advised import advise as advised
     from synth.moving.made import configuration_of, sheet_of
 
     thing = read(file)
     with about(file):
+        thing = precise(thing)
         sheet = sheet_of(thing)
         graph = configuration_of(thing).linkage.graph if sheet is None else mechanism_of_sheet(sheet).sc
         found = advised(

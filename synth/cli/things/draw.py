@@ -12,6 +12,7 @@ import click
 
 from synth.cli.lengths import BRANCH
 from synth.cli.output import FORCE, about, check_picture, plain, tell_written
+from synth.cli.reading import LAYER, LOOK, keep_looks, read
 from synth.cli.runner import LimitsType
 
 if TYPE_CHECKING:
@@ -21,57 +22,89 @@ if TYPE_CHECKING:
 
 __all__ = ["draw"]
 
-_KINDS = ("pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle", "sphere")
+_KINDS = (
+    "pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", "cylinder", "circle",
+    "sphere",
+)  # fmt: skip
 _PATIENCE = 2.0
 """Seconds between two words on how far a catalogue has come."""
 _COLOURS = ("letters", "verdict", "branch", "centres", "none")
 
 
-@click.command(short_help="Draw a crease pattern, a chain, an SC or SCD graph, a model.")
+def _colouring(ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]) -> str:
+    """Return what colours tell; pairs with a look are kept for the drawing that is read."""
+    keep_looks(ctx, tuple(word for word in words if "=" in word))
+    names = [word for word in words if "=" not in word]
+    for name in names:
+        if name not in _COLOURS:
+            ctx.fail(f"--colour: {plain(name)!r} is none of {', '.join(_COLOURS)}, and no M=LOOK")
+    del parameter
+    return names[-1] if names else "letters"
+
+
+@click.command(short_help="Draw a crease pattern, a chain, an SC or SCD graph, or a polyhedron model.")
 @click.argument("file", metavar="FILE")
 @click.option("-o", "--output", required=True, metavar="OUT", help="Picture to write: .svg, .png or .pdf.")
 @click.option(
     "--as",
     "kind",
     type=click.Choice(_KINDS),
-    help="Kind of picture. Default: what suits the file.",
+    help="Kind of picture. By default the one that suits the file.",
     metavar="KIND",
 )
 @click.option(
-    "--colour", type=click.Choice(_COLOURS), default="letters", show_default=True,
-    help="What colours of a crease pattern tell: letters of the file, what moves, how it begins to fold on a "
-    "branch, classes of centres, nothing.",
+    "--colour", multiple=True, metavar="WHAT|" + LOOK, callback=_colouring,
+    help="Colouring of a crease pattern: letters (the assignment in the file; the default), verdict (mobile and "
+    "immobile creases), branch (initial rates of a branch), centres (classes of centres) or none. With M=..., for "
+    "a drawing (.svg, .dxf): assignment of the lines of a colour, a dash pattern or both "
+    "('V=dashed #000000'); - leaves them out.",
 )  # fmt: skip
+@LAYER
 @click.option(
-    "--branch", type=BRANCH, metavar="K", help="With --colour branch: its number, or its signs (see synth fold)."
+    "--branch",
+    type=BRANCH,
+    metavar="K",
+    help="Branch to show with --colour branch or --as marks, by its number or its signs.",
 )
-@click.option("--graph", is_flag=True, help="Draw the SC graph over a crease pattern.")
-@click.option("--numbers/--no-numbers", default=True, show_default=True, help="Numbers of links and joints.")
-@click.option("--paper", type=click.Choice(["light", "dark"]), default="light", show_default=True)
+@click.option("--graph", is_flag=True, help="Draw the SC graph on top of a crease pattern.")
+@click.option(
+    "--numbers/--no-numbers", default=True, show_default=True, help="Label links and joints with their numbers."
+)
+@click.option(
+    "--paper",
+    type=click.Choice(["light", "dark"]),
+    default="light",
+    show_default=True,
+    help="Background of the picture.",
+)
 @click.option(
     "--where", multiple=True, metavar="COLUMN=VALUE",
-    help="Of a catalogue, rows with a number (2, 2..4, 2..) or text in a column; may be repeated.",
+    help="For a catalogue: draw only rows with this number (2, 2..4, 2..) or text in a column; "
+    "may be repeated.",
 )  # fmt: skip
 @FORCE
 def draw(
     file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], force: bool, **look: Any
 ) -> None:
-    """Draw the mechanism of a file, or of an id; or all those of a store, a list or a folder, on pages.
+    """Draw the mechanism of a file or an id, or a catalogue of all mechanisms in a store, a list or a folder.
 
-    KIND is pattern (a crease pattern in its plane), folded (a folded sheet in space), chain (links as bodies,
-    joints as small circles), graph (an SC or SCD graph, with the signs of the centres), model (vertices and
-    rods), solids (hinged at edges, in space), cone (a linkage round a cone, on the first of its cones), circle
-    (the order of its joints round a cone) or sphere (which axes keep orientations in their order). Numbers are
-    those that messages and JSON use; in SVG, shapes carry them as data-link and data-joint.
+    KIND is pattern (a crease pattern in its plane), marks (a pattern with the creases whose assignment disagrees
+    with a branch: the nearest one, or that of --branch), repairs (a pattern with the repairs that reading the
+    drawing needed), folded (a folded sheet in space), chain (links as bodies, joints as small circles), graph (an
+    SC or SCD graph, with the signs of the centres), model (vertices and rods), solids (hinged at edges, in space),
+    cone (a linkage round a cone, on the first of its cones), circle (the order of its joints round a cone) or
+    sphere (which axes keep orientations in their order). Numbers are those that messages and JSON use; in SVG,
+    shapes carry them as data-link and data-joint.
 
-    Of a store (.sqlite), of rows (.jsonl, .parquet), of a graph6 file or of a folder a catalogue is made, 24
-    pictures a page, with id, name, freedoms, centres and symmetry: one .pdf, or a file for each page.
+    A store (.sqlite), rows (.jsonl, .parquet), a graph6 file or a folder gives a catalogue, 24 pictures per page,
+    with id, name, degrees of freedom, centres and symmetry: one .pdf, or one file per page.
 
     \b
     Examples:
       synth draw data/patterns/bird-base.fold -o bird-base.svg
       synth draw data/patterns/bird-base.fold --graph --colour centres -o bird-base.pdf
       synth draw data/patterns/bird-base.fold --colour branch --branch 1 -o bird-base.svg
+      synth draw drawing.svg --as repairs -o repairs.svg
       synth draw data/wiener/fortune-teller.json -o graph.png
       synth draw k1:Cr -o four-bar.svg
       synth draw chains.sqlite -o catalogue.pdf --where symmetry=2.. --where planar=1
@@ -96,7 +129,6 @@ def draw(
 
 def _read(file: str) -> Drawable:
     """Return what a file holds: a mechanism, or orientations."""
-    from graphs.files.formats import read
     from graphs.files.native.orientations import holds_orientations
 
     if not holds_orientations(file):

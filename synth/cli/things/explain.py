@@ -5,18 +5,23 @@ from __future__ import annotations
 import click
 
 from synth.cli.output import about, print_json
+from synth.cli.precision import PRECISION, precise
+from synth.cli.reading import DRAWN, read
 
 __all__ = ["explain"]
 
 
-@click.command(short_help="Say why a mechanism moves although counts say no.")
+@click.command(short_help="Explain why a mechanism moves although counts say that it is rigid.")
 @click.argument("file", metavar="FILE")
+@DRAWN
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@PRECISION
 def explain(file: str, as_json: bool) -> None:
-    """Say which loops hold equations that follow from others, what geometry does it, how far axes may err.
+    """Find the redundant closure equations, the geometry that causes them, and the axis errors they tolerate.
 
-    At the pose of the file: fold a flat pattern first. Errors are those of one axis at a time, the worst way, at
-    which what was idle counts as much as the weakest of the other equations.
+    The analysis is at the configuration of the file; fold a flat pattern first. Axis errors are for one axis at a
+    time, in the worst direction: the size at which a redundant equation constrains as much as the weakest
+    independent one.
 
     \b
     Examples:
@@ -24,11 +29,11 @@ def explain(file: str, as_json: bool) -> None:
       synth generate miura --rows 4 --columns 4 --fold 60 -o miura.fold
       synth explain miura.fold
     """
-    from graphs.files.formats import read
     from synth.overconstraint.explained import explain as explained
 
     thing = read(file)
     with about(file):
+        thing = precise(thing)
         found = explained(thing)
     if as_json:
         print_json({"file": file, **found.to_json()})

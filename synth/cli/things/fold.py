@@ -12,36 +12,68 @@ import click
 
 from synth.cli.lengths import BRANCH
 from synth.cli.output import FORCE, PATIENCE, about, console, plain, print_json, table, tell_written
+from synth.cli.precision import PRECISION, precise
+from synth.cli.reading import DRAWN, read
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
 if TYPE_CHECKING:
-    from graphs.ids import JointId
+    from graphs.ids import JointId, LinkId
     from graphs.mechanism.sc import SCGraph
 
 __all__ = ["fold"]
 
 
-@click.command(short_help="Fold a crease pattern with rigid panels; list its ways to fold.")
+@click.command(short_help="Fold a crease pattern with rigid panels; list its folding branches.")
 @click.argument("file", metavar="FILE")
-@click.option("--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease so far; may be repeated.")
-@click.option("--along", multiple=True, metavar="JOINT=RATE", help="Begin at these rates, then go straight on.")
-@click.option("--all", "whole", is_flag=True, help="Fold all creases together, by one freedom (without --drive).")
+@DRAWN
 @click.option(
-    "--branch", type=BRANCH, metavar="K", help="Take this way from a flat state: its number, or its signs."
+    "--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease to this angle; may be repeated."
 )
-@click.option("--branches", "listed", is_flag=True, help="List the ways to fold from this pose.")
 @click.option(
-    "--frames", type=click.IntRange(1, 10_000), default=20, show_default=True, help="Frames after the first."
+    "--along",
+    multiple=True,
+    metavar="JOINT=RATE",
+    help="Initial joint rates; the motion keeps their direction if it can.",
 )
-@click.option("--collisions", is_flag=True, help="End before panels pass through each other.")
+@click.option(
+    "--point",
+    "points",
+    multiple=True,
+    metavar="LINK=X,Y[,Z]",
+    help="Print where this point of a link is in each frame (a coupler curve); may be repeated.",
+)
+@click.option(
+    "--all",
+    "whole",
+    is_flag=True,
+    help="Fold all creases together, with one degree of freedom. This is the default without --drive and --along.",
+)
+@click.option(
+    "--branch",
+    type=BRANCH,
+    metavar="K",
+    help="Folding branch from a flat state, by its number or its signs; --branches lists them.",
+)
+@click.option("--branches", "listed", is_flag=True, help="List the motion branches from this configuration.")
+@click.option(
+    "--frames",
+    type=click.IntRange(1, 10_000),
+    metavar="N",
+    default=20,
+    show_default=True,
+    help="Number of frames after the first.",
+)
+@click.option("--collisions", is_flag=True, help="Stop the motion before panels pass through each other.")
 @click.option(
     "-o",
     "--output",
     metavar="OUT",
-    help="Write the poses: .fold with frames, a series of .obj files, .gif, or .png, .svg (a strip).",
+    help="Write the motion: .fold with frames, a series of .obj files, a .gif, or a strip of "
+    "pictures (.png, .svg).",
 )
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@PRECISION
 def fold(
     file: str,
     drive: tuple[str, ...],
@@ -50,20 +82,23 @@ def fold(
     branch: int | str | None,
     listed: bool,
     frames: int,
+    points: tuple[str, ...],
     collisions: bool,
     output: str | None,
     force: bool,
     as_json: bool,
 ) -> None:
-    """Fold a crease pattern, or move another linkage. Panels stay rigid; all loops close to 1e-12 in every pose.
+    """Fold a crease pattern, or move another linkage, with rigid panels and closed loops.
 
-    Fold angles are in degrees, valleys positive. From a flat state there are several ways to fold; without
-    --branch it is the one that agrees best with the mountains and valleys of the file. Without --drive, as with
-    --all, the crease that moves most is folded as far as it goes, and the others follow. With several freedoms
-    --along says in which direction: rates of some creases, others as little as may be. JOINT is an id, or two
-    links A,B.
-    What has no panels (solids hinged at edges, rods, a linkage on its cone) moves by joint angles, from the pose;
-    solids are drawn with -o (.png, .svg, .gif).
+    Fold angles are in degrees, valleys positive; the loop-closure residual is below 1e-12 in every frame. A flat
+    state may have several folding branches; --branch chooses one, by default the one that agrees best with the
+    mountains and valleys of the file. Without --drive, and with --all, the crease that moves most is folded until
+    the motion stops, and the others follow. With several degrees of freedom, --along gives the direction: rates of
+    some creases; the others move as little as possible. JOINT is an id, or two links A,B. Every fold angle keeps
+    its sign as long as some motion allows it; the answer names creases that change sign, creases folded against
+    their assignment, and frames in which panels pass through each other. A linkage without panels (solids hinged
+    at edges, rods, a linkage on its cone) moves by joint angles, measured from the configuration of the file; -o
+    draws solids (.png, .svg, .gif).
 
     \b
     Examples:
@@ -72,7 +107,6 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from graphs.files.formats import read
     from synth.drawing.foldings import check_output, write_motion
     from synth.moving.made import configuration_of
     from synth.moving.motion import move
@@ -81,8 +115,9 @@ def fold(
         raise click.UsageError("--drive, --along and --all each say how to move: leave all but one out")
     if output is not None:
         check_output(output, force=force)
-    thing = read(file)
+    thing = read(file, warn=False)
     with about(file):
+        thing = precise(thing)
         at = configuration_of(thing)
         asked, graph = _Joints(drive, along), at.linkage.graph
         with _progress(frames + 1) as report:
@@ -95,19 +130,39 @@ def fold(
                 collisions=collisions,
                 report=report,
             )
+        curves = {text: found.path_of(*_point(graph, text)).tolist() for text in points}
         written = [] if output is None else write_motion(found, output, force=force)
     if as_json:
-        print_json({"file": file, "output": output, **found.to_json()})
+        print_json({"file": file, "output": output, **found.to_json(), "points": curves})
         return
     if listed and found.branches is not None:
-        rows = table("way", "freedoms", "known", "still", "signs", numbers=["way", "freedoms", "still"])
+        rows = table("branch", "DOF", "evidence", "immobile", "signs", numbers=["branch", "DOF", "immobile"])
         for number, one in enumerate(found.branches.branches):
             freedoms = "?" if one.freedoms is None else str(one.freedoms)
             rows.add_row(str(number), freedoms, one.certainty, str(len(one.still)), plain(one.signs, 4096))
         console().print(rows)
     for line in str(found).splitlines():
         click.echo(line)
+    for text, places in curves.items():
+        rows = table("frame", "x", "y", "z", title=f"point {plain(text)}", numbers=["frame", "x", "y", "z"])
+        for number, place in enumerate(places):
+            rows.add_row(str(number), *(f"{x + 0.0:.9g}" for x in place))
+        console().print(rows)
     tell_written(*written)
+
+
+def _point(graph: SCGraph, text: str) -> tuple[LinkId, list[float]]:
+    """Return a link and the coordinates of a point, as they were typed."""
+    from graphs.edit.named import link_named
+
+    link, equals, numbers = text.rpartition("=")
+    try:
+        place = [float(number) for number in numbers.split(",")]
+        if not equals or len(place) not in (2, 3):
+            raise ValueError
+    except ValueError:
+        raise click.BadParameter(f"{plain(text)!r} is not LINK=X,Y or LINK=X,Y,Z", param_hint="--point") from None
+    return link_named(graph, link.strip()), place
 
 
 @contextmanager

@@ -33,15 +33,15 @@ class _Generators(NamedGroup):
 @click.group(
     cls=_Generators,
     invoke_without_command=True,
-    short_help="Make known patterns and linkages by their parameters.",
+    short_help="Make known patterns and linkages from their parameters.",
 )
-@click.option("--list", "listed", is_flag=True, help="List all generators with their freedoms and sources.")
+@click.option("--list", "listed", is_flag=True, help="List all generators with their parameters and sources.")
 @click.option("--json", "as_json", is_flag=True, help="Print the list as JSON.")
 @click.pass_context
 def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
-    """Make a known pattern or linkage: miura, waterbomb, bennett, kaleidocycle, box-pop-up, ...
+    """Make a known pattern or linkage: miura, waterbomb, bennett, kaleidocycle, box-pop-up and others.
 
-    The file that is written goes into every other command. Angles are in degrees, lengths in any unit.
+    Every other command reads the file that a generator writes. Angles are in degrees, lengths in any unit.
 
     \b
     Examples:
@@ -94,7 +94,8 @@ def _command(generator: Generator) -> click.Command:
             [f"--{one.name}"],
             type=int if one.unit == "count" else float,
             metavar={"count": "N", "length": "LENGTH", "angle": "DEGREES"}[one.unit],
-            help=f"{one.meaning}; {one.range}. Default: {one.told(one.default)}",
+            help=f"{one.meaning[0].upper()}{one.meaning[1:]}, from {one.told(one.least)} to {one.told(one.most)}."
+            f"  [default: {one.told(one.default)}]",
         )
         for one in generator.parameters
     ]
@@ -104,20 +105,23 @@ def _command(generator: Generator) -> click.Command:
                 ["--fold"],
                 type=float,
                 metavar="DEGREES",
-                help="Fold the crease that moves most to this angle; like creases fold alike if they can.",
+                help="Fold the crease that moves most to this angle; equivalent creases fold alike if they can.",
             )
         )
-    written = ".fold, .obj or another" if generator.foldable else ".json, or of panels .fold"
+    written = ".fold, .obj or another format" if generator.foldable else ".json, or .fold if it has panels"
     options.append(click.Option(["-o", "--output"], metavar="OUT", help=f"File to write: {written}."))
     options.append(click.Option(["--json", "as_json"], is_flag=True, help="Print the answer as JSON."))
 
     def run(fold: float | None = None, output: str | None = None, **given: Any) -> None:
         _run(generator, fold, output, **given)
 
-    relations = f" Parameters: {generator.relations}." if generator.relations else ""
-    told = f"{generator.title}.\n\nFreedoms: {generator.conditions}.{relations} Source: {generator.source}."
+    relations = f" Limits on parameters: {generator.relations}." if generator.relations else ""
+    text = (
+        f"{generator.title}.\n\n"
+        f"Condition for its degrees of freedom: {generator.conditions}.{relations} Source: {generator.source}."
+    )
     return FORCE(
-        click.Command(generator.name, params=options, callback=run, help=told, short_help=generator.title)
+        click.Command(generator.name, params=options, callback=run, help=text, short_help=f"{generator.title}.")
     )
 
 

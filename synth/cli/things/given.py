@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from synth.cli.reading import read
+
 if TYPE_CHECKING:
     from enumerate.strings.panel_strings import ChainString
     from graphs.convert.table import Mechanism
@@ -15,12 +17,15 @@ if TYPE_CHECKING:
 __all__ = ["MODE", "ROW", "Given", "given"]
 
 ROW = click.option(
-    "--row", type=click.IntRange(min=1), metavar="N", help="Of a store, a list or a folder: which one, from 1."
+    "--row",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="For a store, a list or a folder: number of the row to take, counted from 1.",
 )
 """The option of commands that take one mechanism of many."""
 
 MODE = click.option(
-    "--mode", metavar="SD...", help="Of an R/- string: its mode, as `synth enumerate strings --modes` lists it."
+    "--mode", metavar="SD...", help="For an R/- string: its mode, as `synth enumerate strings --modes` lists it."
 )
 """The option of commands that take R/- strings."""
 
@@ -47,7 +52,6 @@ def given(argument: str, row: int | None = None, mode: str | None = None) -> Giv
     >>> given("RR-R-RRR").thing
     ChainString(clusters=(2, 1, 3))
     """
-    from graphs.files.formats import read
     from synth.drawing.catalogue.entries import entry_numbered, is_catalogue
 
     if is_catalogue(argument):

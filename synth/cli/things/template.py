@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,9 @@ import click
 
 from synth.cli.lengths import LENGTH, LENGTH_OR_NONE
 from synth.cli.output import FORCE, about, plain, print_json, tell_written
+from synth.cli.precision import PRECISION, precise_sheet
+from synth.cli.reading import DRAWN
+from synth.cli.surfaces.circles import surface_asked
 from synth.cli.things.given import MODE, ROW, Given, given
 
 if TYPE_CHECKING:
@@ -27,35 +29,78 @@ _REALISED = 150.0
 _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
 
 
-@click.command(short_help="Print a crease pattern at true scale, to cut out and fold.")
+@click.command(short_help="Write a template at true scale, to cut out and fold.")
 @click.argument("file", metavar="FILE")
+@DRAWN
 @click.option("-o", "--output", required=True, metavar="OUT", help="Template to write: .pdf, .svg or .dxf.")
 @ROW
 @MODE
-@click.option("--as", "kind", type=click.Choice(["sheet", "space"]), help="Realise a type so.  [default: sheet]")
-@click.option("--page", "page", default="A4", show_default=True, help="A4, A3, Letter, or WIDTHxHEIGHT in mm.")
-@click.option("--scale", type=LENGTH, help="Millimetres for a unit.  [default: the file's unit, or 1]")
-@click.option("--size", type=LENGTH, metavar="MM", help="Longer side of the thing; on a cone, of ruling lines.")
 @click.option(
-    "--tabs", type=LENGTH_OR_NONE, default=8.0, show_default=True, metavar="MM", help="Depth of tabs; 0: none."
+    "--as",
+    "kind",
+    type=click.Choice(["sheet", "space"]),
+    help="Kind of realisation, for a type without coordinates.  [default: sheet]",
 )
-@click.option("--slots", is_flag=True, help="Tabs go through slots, without glue.")
+@click.option(
+    "--page",
+    "page",
+    metavar="PAPER",
+    default="A4",
+    show_default=True,
+    help="Paper size: A4, A3, Letter, or WIDTHxHEIGHT in mm.",
+)
+@click.option(
+    "--scale", type=LENGTH, help="Millimetres per unit of the coordinates.  [default: the file's unit, or 1]"
+)
+@click.option(
+    "--size",
+    type=LENGTH,
+    metavar="MM",
+    help="Longer side of the template; on a cone or cylinder, length of the ruling lines.",
+)
+@click.option(
+    "--tabs",
+    type=LENGTH_OR_NONE,
+    default=8.0,
+    show_default=True,
+    metavar="MM",
+    help="Depth of the tabs; 0 leaves them out.",
+)
+@click.option("--slots", is_flag=True, help="Join tabs through slots, without glue.")
 @click.option(
     "--hinges",
     "hinge_kind",
     type=click.Choice(["fold", "offset", "living", "gap"]),
     default="fold",
     show_default=True,
-    help="Thick material: two folds for one, rows of cuts, or panels apart; --hinge-width says how wide.",
+    help="Hinges in thick material: offset (two folds per crease), living (rows of cuts) or "
+    "gap (panels apart). Each requires --hinge-width.",
 )
-@click.option("--hinge-width", type=LENGTH, metavar="MM", help="Of offset, living or gap.")
-@click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="Of a linkage on a cone: its angle.")
-@click.option("--cone", type=click.IntRange(min=1), metavar="K", help="Of one that lies on several: which.")
-@click.option("--radius", type=LENGTH, metavar="MM", help="On a cylinder instead of a cone.")
-@click.option("--thickness", type=LENGTH, metavar="MM", help="On a cone: of the material.  [default: 0.3]")
-@click.option("--note/--no-note", default=True, show_default=True, help="How it is put together, with a picture.")
+@click.option("--hinge-width", type=LENGTH, metavar="MM", help="Width of offset, living or gap hinges.")
+@click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="For a linkage on a cone: cone angle.")
+@click.option(
+    "--cone",
+    "--cylinder",
+    "cone",
+    type=click.IntRange(min=1),
+    metavar="K",
+    help="For a linkage that lies on several cones or cylinders: number of the one to take.",
+)
+@click.option(
+    "--radius", type=LENGTH, metavar="MM", help="Radius of the cylinder.  [default: that of the linkage, in mm]"
+)
+@click.option(
+    "--thickness",
+    type=LENGTH,
+    metavar="MM",
+    help="For a linkage on a cone or cylinder: thickness of the material.  [default: 0.3]",
+)
+@click.option(
+    "--note/--no-note", default=True, show_default=True, help="Add assembly instructions, with a picture."
+)
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@PRECISION
 def template(
     file: str,
     output: str,
@@ -68,20 +113,20 @@ def template(
     as_json: bool,
     **look: Any,
 ) -> None:
-    """Print panels at true scale, to cut out and fold.
+    """Write a template of panels at true scale, to cut out and fold.
 
-    FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of many, of which
-    --row names one. A type without coordinates is realised first, 150 mm wide or high. Coordinates are in the
-    unit that a .fold file names, or millimetres, unless --scale or --size says otherwise. What is larger than a
-    page comes in tiles, never smaller: tiles overlap by 10 mm, and crosses of one name lie over each other.
-    Each page has a gauge of 100 mm: measure it. Of .svg a file is written for each page; a .dxf is one drawing
-    at full size.
+    FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of types, of which --row
+    names one. A type without coordinates is realised first, with a longer side of 150 mm. Coordinates are in the
+    unit that a .fold file names, or in millimetres, unless --scale or --size says otherwise. A template larger
+    than a page is divided into tiles, never made smaller: tiles overlap by 10 mm, and crosses with the same name
+    are laid on each other. Each page has a gauge of 100 mm; measure it after printing. For .svg each page is a
+    file; a .dxf is one drawing at full size.
 
-    Panels that do not lie side by side are laid out in nets, none over another, with tabs: edges of one number are
-    glued, or put together with slots. In thick material folds are strips of a stated width.
+    A folded surface is unfolded into nets without overlaps, with tabs: edges with the same number are glued, or
+    joined by slots. In thick material, folds are strips of a stated width.
 
-    A linkage on a cone, or a row of conical candidates, is cut out as the cone unrolled and a piece for each link,
-    with slots where joints pass from layer to layer.
+    For a linkage on a cone or cylinder, or a row of conical candidates, the template is the unrolled surface and
+    one piece per link, with slots where joints pass from layer to layer.
 
     \b
     Examples:
@@ -94,7 +139,7 @@ def template(
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
-    from graphs.mechanism.conical import ConicalLinkage
+    from graphs.mechanism.on_surface import SurfaceLinkage
     from synth.drawing.mechanisms.orders import OrderOnCircle
     from synth.templates.paper import paper_named
     from synth.templates.writing import check_template, write_template
@@ -105,8 +150,9 @@ def template(
         raise click.BadParameter(str(error), param_hint="--page") from None
     check_template(output, force=force)
     asked = given(file, row, mode)
-    on_surface = isinstance(asked.thing, ConicalLinkage | OrderOnCircle)
-    _refuse(look, _OF_PANELS if on_surface else _OF_SURFACES, "panels" if on_surface else "linkages on cones")
+    asked = replace(asked, thing=precise_sheet(asked.thing))
+    on_surface = isinstance(asked.thing, SurfaceLinkage | OrderOnCircle)
+    _refuse(look, _OF_PANELS if on_surface else _OF_SURFACES, "panels" if on_surface else "linkages on surfaces")
     told: list[str] = []
     with about(asked.name):
         if on_surface:
@@ -161,13 +207,13 @@ def _of_surface(asked: Given, kind: Any, look: Mapping[str, Any]) -> Template:
     """Return the template of a linkage on a cone or a cylinder."""
     from synth.templates.developed.layered import Dimensions
     from synth.templates.developed.template import surface_of, template_on_surface
-    from synth.templates.things import linkage_on_a_cone
+    from synth.templates.things import linkage_on_a_surface
 
     if asked.mode is not None or kind is not None:
         raise click.UsageError("--mode and --as: of types that are realised only")
     thing: Any = asked.thing
-    angle = None if look["cone_angle"] is None else radians(look["cone_angle"])
-    linkage = linkage_on_a_cone(thing, cone_angle=angle, number=look["cone"])
+    cone = surface_asked(look["cone_angle"], None)
+    linkage = linkage_on_a_surface(thing, surface=cone, number=look["cone"])
     sizes = {name: look[name] for name in ("size", "thickness") if look[name] is not None}
     surface = surface_of(linkage, look["radius"])
     return template_on_surface(linkage, surface, Dimensions(**sizes), Path(asked.name).name)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from synth.cli.output import FORCE, about, check_output, tell_written
+from synth.cli.precision import PRECISION, precise_sheet
+from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from synth.viewer.shown import Shown
@@ -17,22 +19,26 @@ if TYPE_CHECKING:
 __all__ = ["view"]
 
 
-@click.command(short_help="Make a page on which a mechanism folds, for any browser.")
+@click.command(short_help="Make an interactive page of a mechanism for any browser, or open the workbench.")
 @click.argument("files", metavar="FILE...", nargs=-1)
-@click.option("-o", "--output", metavar="OUT", help="The page to write: .html. Without it a workbench is opened.")
+@DRAWN
+@click.option(
+    "-o", "--output", metavar="OUT", help="Page to write: .html. By default a workbench opens in the browser."
+)
 @FORCE
+@PRECISION
 def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
-    """Make a page that shows mechanisms and lets them move, without a network: one file, by double click.
+    """Make an interactive page of mechanisms: one file that opens in any browser, without a network.
 
-    The drawing is on it, and the model in space: drag a crease or a panel, or move a slider, one for each freedom,
-    and all others follow, panels rigid, loops closed to 1e-12; a slider along the path goes on where a joint turns
-    back. Ways to move are found now and chosen there; stiff joints, what moves as one, panels that pass through
-    each other and spherical centres are shown; poses are saved as FOLD, OBJ or PNG. Several files make a list to
-    choose from.
+    The page shows the crease pattern and the model in space. Drag a crease or a panel, or move a slider, one for
+    each degree of freedom: all other joints follow, with rigid panels and a loop-closure residual below 1e-12. A
+    slider along the path passes turning points. The motion branches are found when the page is made, and chosen on
+    it. It shows immobile joints, panels that move as one body, panels that pass through each other, and spherical
+    centres; it saves configurations as FOLD, OBJ or PNG. Several files give a list to choose from.
 
-    Without -o the page is opened in a browser with a workbench behind it: drop any file on it that can be read,
-    lock, remove and add creases, take ride-alongs off, download templates.
-    It ends with Ctrl-C, or 10 seconds after its last page was closed (extra: pip install 'synthedra[view]').
+    Without -o a workbench opens in the browser: drop files on it, lock, remove and add creases, remove
+    ride-alongs, download templates. It ends with Ctrl-C, or 10 seconds after its last page was closed. The
+    workbench requires an extra: pip install 'synthedra[view]'.
 
     \b
     Examples:
@@ -69,11 +75,11 @@ def _check_page(output: str, *, force: bool) -> None:
 
 
 def _shown(file: str) -> Shown:
-    from graphs.files.formats import read
     from synth.viewer.shown import shown_of
 
     thing = read(file)
     with about(file):
+        thing = precise_sheet(thing)
         return shown_of(thing, Path(file).name)
 
 

@@ -8,7 +8,7 @@ messages and JSON have them. Theory: docs/theory/crease-patterns.md. The overlay
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
@@ -29,7 +29,7 @@ from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon,
 from synth.drawing.space.panels import panels_made
 from synth.folding.configuration import SheetConfiguration
 
-__all__ = ["COLOURINGS", "crease_scene", "inside", "places_on_page"]
+__all__ = ["COLOURINGS", "DrawnPattern", "Overlay", "crease_scene", "inside", "places_on_page", "width_of_lines"]
 
 COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
 """What colours tell: letters of the file; what is still, and moves as one; how creases begin to fold on a branch;
@@ -61,7 +61,7 @@ _MANY = 120
 
 
 @dataclass(frozen=True, slots=True)
-class _Drawn:
+class DrawnPattern:
     """A sheet on the page with its mechanism."""
 
     sheet: Sheet
@@ -71,8 +71,22 @@ class _Drawn:
     motions: Motions
 
     def middle(self, edge: Sequence[int]) -> Point:
+        """Return the middle of an edge on the page."""
         (ax, ay), (bx, by) = (self.places[v] for v in edge)
         return (ax + bx) / 2, (ay + by) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Overlay:
+    """Signs on a crease pattern: a layer of shapes below its creases, and what is said of it.
+
+    `beyond` are places in the plane of the pattern that the picture is to hold too.
+    """
+
+    name: str
+    shapes: Callable[[DrawnPattern], list[Shape]]
+    said: tuple[str, ...]
+    beyond: tuple[tuple[float, ...], ...] = ()
 
 
 def crease_scene(
@@ -84,6 +98,7 @@ def crease_scene(
     graph: bool = False,
     box: tuple[float, float] = (COLUMN, COLUMN),
     caption: str | None = "",
+    overlay: Overlay | None = None,
 ) -> Scene:
     """Return a picture of a crease pattern that lies in a plane.
 
@@ -102,6 +117,8 @@ def crease_scene(
         Points there are at most.
     caption : str, optional
         Goes before the line that says what is seen; None: no line at all.
+    overlay : Overlay, optional
+        Signs on it.
 
     Raises
     ------
@@ -123,14 +140,17 @@ def crease_scene(
         raise InvariantError("branch", f"the colouring {shown(colour)} shows none", "the colouring 'branch'")
     given, mechanism = panels_made(sheet)
     whole = with_all_edges(given)
-    frame, places = _framed(whole, box)
-    drawn = _Drawn(whole, mechanism, frame, places, _motions(sheet, colour, branch))
+    frame, places = _framed(whole, box, () if overlay is None else overlay.beyond)
+    drawn = DrawnPattern(whole, mechanism, frame, places, _motions(sheet, colour, branch))
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
+    if overlay is not None:
+        layers.insert(1, Layer(overlay.name, tuple(overlay.shapes(drawn))))
     if graph:
         layers.append(Layer("graph", tuple(_graph(drawn))))
     if numbers:
         layers.append(Layer("labels", tuple(_labels(drawn, graph))))
-    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph), drawn.motions.said))
+    said = () if overlay is None else overlay.said
+    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph), drawn.motions.said, *said))
 
 
 def places_on_page(sheet: Sheet, box: tuple[float, float] = (COLUMN, COLUMN)) -> list[Point]:
@@ -141,11 +161,14 @@ def places_on_page(sheet: Sheet, box: tuple[float, float] = (COLUMN, COLUMN)) ->
     return _framed(with_all_edges(sheet), box)[1]
 
 
-def _framed(whole: Sheet, box: tuple[float, float]) -> tuple[Frame, list[Point]]:
+def _framed(
+    whole: Sheet, box: tuple[float, float], beyond: Sequence[tuple[float, ...]] = ()
+) -> tuple[Frame, list[Point]]:
     """Return the frame of a picture, and the places of the vertices in it."""
     flat = flat_places(whole, "a picture of a crease pattern")
-    extent = max(max(p[i] for p in flat) - min(p[i] for p in flat) for i in (0, 1)) if flat else 1.0
-    frame = framed(flat, min(box) / (extent or 1.0), box)
+    every = [*flat, *beyond]
+    extent = max(max(p[i] for p in every) - min(p[i] for p in every) for i in (0, 1)) if every else 1.0
+    frame = framed(every, min(box) / (extent or 1.0), box)
     return frame, frame.row(flat)
 
 
@@ -155,7 +178,7 @@ def _motions(sheet: Sheet | SheetConfiguration, colour: str, branch: int | str |
     return motions_on_branch(sheet, branch) if colour == "branch" else Motions()
 
 
-def _panels(drawn: _Drawn) -> list[Shape]:
+def _panels(drawn: DrawnPattern) -> list[Shape]:
     link_of = {face: link for link, faces in enumerate(drawn.mechanism.panels) for face in faces}
     cluster_of: dict[LinkId, int] = {}
     for number, links in enumerate(drawn.motions.clusters):
@@ -171,10 +194,10 @@ def _panels(drawn: _Drawn) -> list[Shape]:
     return found
 
 
-def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
+def _creases(drawn: DrawnPattern, colour: str, faint: bool) -> list[Shape]:
     """Return the lines, borders and cuts above creases, so that the outline is whole."""
     joint_of = {frozenset(edge): joint for joint, edges in drawn.mechanism.pieces.items() for edge in edges}
-    width = _width(drawn) * (0.7 if faint else 1.0)
+    width = width_of_lines(drawn) * (0.7 if faint else 1.0)
     shrunk = max(width, 0.6)  # dashes of dense patterns are shorter, so that a crease has several
     classes = _class_at(drawn) if colour == "centres" else {}
     found: list[tuple[int, Shape]] = []
@@ -199,7 +222,11 @@ def _creases(drawn: _Drawn, colour: str, faint: bool) -> list[Shape]:
 
 
 def _halves(
-    drawn: _Drawn, edge: Sequence[int], classes: Mapping[int, int], width: float, data: tuple[tuple[str, str], ...]
+    drawn: DrawnPattern,
+    edge: Sequence[int],
+    classes: Mapping[int, int],
+    width: float,
+    data: tuple[tuple[str, str], ...],
 ) -> list[Shape]:
     """Return the halves of a crease, each in the colour of the class of the centre at its end."""
     middle = drawn.middle(edge)
@@ -215,26 +242,26 @@ def _halves(
     ]
 
 
-def _class_at(drawn: _Drawn) -> dict[int, int]:
+def _class_at(drawn: DrawnPattern) -> dict[int, int]:
     """Return the centre class of each vertex that is a centre."""
     numbers = class_numbers(drawn.mechanism.sc)
     return {vertex: numbers[loop] for loop, vertex in enumerate(drawn.mechanism.loop_vertices) if loop in numbers}
 
 
-def _width(drawn: _Drawn) -> float:
+def width_of_lines(drawn: DrawnPattern) -> float:
     """Return how wide lines are: less on dense patterns."""
     lengths = _lengths(drawn)
     return 1.0 if not lengths else min(1.0, max(0.3, median(lengths) / 26))
 
 
-def _lengths(drawn: _Drawn) -> list[float]:
+def _lengths(drawn: DrawnPattern) -> list[float]:
     ends = [(drawn.places[a], drawn.places[b]) for a, b in drawn.mechanism.hinges.values()]
     return [((ax - bx) ** 2 + (ay - by) ** 2) ** 0.5 for (ax, ay), (bx, by) in ends]
 
 
-def _graph(drawn: _Drawn) -> list[Shape]:
+def _graph(drawn: DrawnPattern) -> list[Shape]:
     """Return the SC graph: a line for each joint by way of its crease, a dot for each link, the centres' signs."""
-    sc, size = drawn.mechanism.sc, max(0.25, _width(drawn))
+    sc, size = drawn.mechanism.sc, max(0.25, width_of_lines(drawn))
     middles: dict[LinkId, Point] = {
         link: _middle_of_link(drawn, faces) for link, faces in enumerate(drawn.mechanism.panels)
     }
@@ -250,7 +277,7 @@ def _graph(drawn: _Drawn) -> list[Shape]:
     return found
 
 
-def _middle_of_link(drawn: _Drawn, faces: Sequence[int]) -> Point:
+def _middle_of_link(drawn: DrawnPattern, faces: Sequence[int]) -> Point:
     rows = [[drawn.places[v] for v in drawn.sheet.faces[face]] for face in faces]
     return inside(max(rows, key=lambda row: abs(float(signed_area(row)))))
 
@@ -272,7 +299,7 @@ def inside(row: Sequence[Point]) -> Point:
     return float(middle.x), float(middle.y)
 
 
-def _labels(drawn: _Drawn, graph: bool) -> list[Label]:
+def _labels(drawn: DrawnPattern, graph: bool) -> list[Label]:
     """Return the numbers of links, bold, in their panels, and of joints, beside the middles of their creases."""
     lengths = _lengths(drawn)
     size = min(SMALL, 0.3 * median(lengths), _fitting(drawn, median(lengths))) if lengths else SMALL
@@ -294,14 +321,14 @@ def _labels(drawn: _Drawn, graph: bool) -> list[Label]:
     return placed(wishes, Obstacles(points, lines))
 
 
-def _fitting(drawn: _Drawn, length: float) -> float:
+def _fitting(drawn: DrawnPattern, length: float) -> float:
     """Return the height of letters at which the numbers of a link and of a joint fit beside each other."""
     link = max(map(str, range(len(drawn.mechanism.panels))), key=len, default="")
     joint = max(map(str, drawn.mechanism.hinges), key=len, default="")
     return 0.8 * length / (text_width(link, 1.0) + text_width(joint, 0.85))
 
 
-def _said(drawn: _Drawn, colour: str, graph: bool) -> str:
+def _said(drawn: DrawnPattern, colour: str, graph: bool) -> str:
     sc = drawn.mechanism.sc
     counts = ((len(sc), "link"), (len(sc.joints), "joint"), (len(sc.centre_classes()), "centre"))
     said = ", ".join(numbered(number, word) for number, word in counts)

@@ -11,7 +11,8 @@ from itertools import pairwise
 from math import cos, pi, sin
 
 from graphs.errors import numbered
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.loops.loop import Centre
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import joint_dot
@@ -40,13 +41,13 @@ class OrderOnCircle:
     pairs: Sequence[tuple[int, int]]
 
 
-def order_of_linkage(linkage: ConicalLinkage) -> OrderOnCircle:
+def order_of_linkage(linkage: SurfaceLinkage) -> OrderOnCircle:
     """Return the order of a linkage that is given by steps between its axes.
 
     Raise InvariantError if the steps disagree, or do not lead to every joint.
 
     >>> ring = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])))
-    >>> order = order_of_linkage(ConicalLinkage(ring, steps={("O", "A"): 1.0, ("A", "B"): 1.0, ("B", "C"): 1.0}))
+    >>> order = order_of_linkage(SurfaceLinkage(ring, steps={("O", "A"): 1.0, ("A", "B"): 1.0, ("B", "C"): 1.0}))
     >>> order.azimuths, order.pairs
     ([0.0, 1.0, 2.0, 3.0], [(0, 1), (0, 3), (1, 2), (2, 3)])
     """
@@ -94,9 +95,9 @@ def order_scene(
             label = Label((0, 0), name, size, widest=4, data=(("joint", name),))
             wishes.append((label, beside(at, dot + 0.9 * size, first=-pi / 2 - azimuth)))
         layers.append(Layer("labels", tuple(placed(wishes, obstacles))))
-    said = (
-        f"{numbered(len(order.names), 'joint')} round a cone, seen from the apex; links are chords between joints"
-    )
+    planar = bool(order.chain.loops) and all(loop.centre is Centre.INFINITE for loop in order.chain.loops)
+    where = "cylinder, seen along its axis" if planar else "cone, seen from the apex"
+    said = f"{numbered(len(order.names), 'joint')} round a {where}; links are chords between joints"
     return page_of(frame, layers, captions_of(caption, said))
 
 

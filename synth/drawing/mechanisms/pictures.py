@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -14,7 +15,7 @@ from graphs.convert.table import Mechanism, graph_of, to_sc, to_solids
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.given import check_given
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import SCDGraph
@@ -22,7 +23,9 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
+from synth.drawing.mechanisms.marks import overlay_of_marks
 from synth.drawing.mechanisms.orders import OrderOnCircle, order_of_linkage, order_scene
+from synth.drawing.mechanisms.repairs import overlay_of_repairs
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
 from synth.drawing.mechanisms.strips import strip_scene
@@ -66,11 +69,12 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     thing : Mechanism, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
         What a file may hold, or where that moves from; a string; an order of joints round a cone; a plain
         link-joint graph.
-    kind : {"pattern", "folded", "chain", "graph", "model", "solids", "cone", "circle", "sphere"}, optional
-        A crease pattern in its plane, a folded sheet in space, links as bodies, links as discs with the signs of
-        the centres, vertices and rods, solids in space, a linkage on its circle and cone, the order of joints
-        round a cone, the sphere by the order of orientations. Without it what suits the thing: a sheet is a
-        pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
+    kind : {"pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", ...}, optional
+        One of `KINDS`. A crease pattern in its plane, with the creases whose assignment disagrees with a branch,
+        or with what was repaired when it was read; a folded sheet in space, links as bodies, links as discs with
+        the signs of the centres, vertices and rods, solids in space, a linkage on its circle and surface, the
+        order of joints round a cone, the sphere by the order of orientations. Without it what suits the thing: a
+        sheet is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
     **look
         Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
@@ -99,7 +103,8 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     if kind not in KINDS:
         raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
     how = Look(**look)
-    if kind != "pattern" and (how.colour != "letters" or how.branch is not None or how.graph):
+    branched = how.branch is not None and kind != "marks"
+    if kind != "pattern" and (how.colour != "letters" or branched or how.graph):
         raise UnsolvableError(
             f"colourings, branches and the graph over it are of a pattern; this is drawn as {kind}"
         )
@@ -124,7 +129,7 @@ def _suiting(thing: object) -> str:
         return "graph"
     if isinstance(thing, Orientations):
         return "sphere"
-    if isinstance(thing, OrderOnCircle) or (isinstance(thing, ConicalLinkage) and thing.steps is not None):
+    if isinstance(thing, OrderOnCircle) or (isinstance(thing, SurfaceLinkage) and thing.steps is not None):
         return "circle"
     assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
     return "chain" if assumed else "graph"
@@ -140,6 +145,17 @@ def _pattern(thing: Any, look: Look) -> Scene:
         box=look.box,
         caption=look.caption,
     )
+
+
+def _marks(thing: Any, look: Look) -> Scene:
+    overlay = overlay_of_marks(_sheet(thing), look.branch)
+    return crease_scene(_sheet(thing), numbers=look.numbers, box=look.box, caption=look.caption, overlay=overlay)
+
+
+def _repairs(thing: Any, look: Look) -> Scene:
+    sheet = _sheet(thing)
+    overlay = overlay_of_repairs(sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet)
+    return crease_scene(sheet, numbers=False, box=look.box, caption=look.caption, overlay=overlay)
 
 
 def _folded(thing: Any, look: Look) -> Scene:
@@ -158,25 +174,24 @@ def _sc_graph(thing: Any, look: Look) -> Scene:
     return sc_scene(scene_of, box=look.box, caption=look.caption)
 
 
-def _cone(thing: Any, look: Look) -> Scene:
-    """Return a linkage on the first of its cones, or say that it has none."""
-    if not isinstance(thing, ConicalLinkage):
+def _surface(kind: str, thing: Any, look: Look) -> Scene:
+    """Return a linkage on the first of its cones or cylinders, or say that it has none."""
+    if not isinstance(thing, SurfaceLinkage) or thing.kind != kind:
         raise UnsolvableError(
-            f"only a linkage given by its angles round a cone can be drawn so, and this is {thing!r}"
+            f"only a linkage given by its links, or angles round a {kind}, can be drawn so, and this is {thing!r}"
         )
     if min(look.box) < _SMALL:
-        raise UnsolvableError("a linkage on its cone needs a picture of its own: of many, chains can be drawn")
+        raise UnsolvableError(f"a linkage on its {kind} needs a picture of its own: of many, chains can be drawn")
+    from synth.conformed.linkages import linkage_on_surfaces
     from synth.conformed.rates import ConformedChain
     from synth.drawing.conformed import draw_conformed
-    from synth.surfaces.linkages import map_linkage
 
-    cones = map_linkage(thing).cones
-    if not cones:
-        raise UnsolvableError("the linkage closes on no cone; its chain can be drawn (--as chain)")
-    places = [cones[0].places[joint] for joint in thing.chain.joints]
+    found = linkage_on_surfaces(thing)
+    if not found or found[0].surface is None:
+        raise UnsolvableError(f"the linkage closes on no {kind}, or on any; its chain can be drawn (--as chain)")
     chain = ConformedChain.of(thing.chain, thing.chain.ground)
-    title = look.caption or f"first of {numbered(len(cones), 'cone')}"
-    return draw_conformed(chain, places, cones[0].cone_angle, title)
+    title = look.caption or f"first of {numbered(len(found), kind)}"
+    return draw_conformed(chain, found[0].places, found[0].surface, title)
 
 
 def _solids(thing: Any, look: Look) -> Scene:
@@ -188,7 +203,7 @@ def _solids(thing: Any, look: Look) -> Scene:
 
 
 def _circle(thing: Any, look: Look) -> Scene:
-    if isinstance(thing, ConicalLinkage) and thing.steps is not None:
+    if isinstance(thing, SurfaceLinkage) and thing.steps is not None:
         thing = order_of_linkage(thing)
     if not isinstance(thing, OrderOnCircle):
         raise UnsolvableError(f"only joints in their order round a cone can be drawn so, and this is {thing!r}")
@@ -204,7 +219,7 @@ def _sphere(thing: Any, look: Look) -> Scene:
 
 
 def _graph_of(thing: Any) -> Any:
-    if isinstance(thing, ConicalLinkage | OrderOnCircle):
+    if isinstance(thing, SurfaceLinkage | OrderOnCircle):
         return thing.chain
     return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
 
@@ -226,12 +241,15 @@ def _sheet(thing: object) -> Sheet | SheetConfiguration:
 KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
     {
         "pattern": _pattern,
+        "marks": _marks,
+        "repairs": _repairs,
         "folded": _folded,
         "chain": _chain,
         "graph": _sc_graph,
         "model": _model,
         "solids": _solids,
-        "cone": _cone,
+        "cone": partial(_surface, "cone"),
+        "cylinder": partial(_surface, "cylinder"),
         "circle": _circle,
         "sphere": _sphere,
     }

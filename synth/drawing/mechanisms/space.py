@@ -130,8 +130,7 @@ def _numbers_of_hinges(
 
 def _is_seen(panels: Panels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]) -> bool:
     """Tell whether the middle of a hinge is on a face that is drawn, and on none of those drawn later."""
-    from shapely.geometry import Point as Spot
-    from shapely.geometry import Polygon as Area
+    from shapely.geometry import Point as Spot, Polygon as Area
 
     drawn = list(visible)
     own = [place for place, face in enumerate(drawn) if ends <= set(panels.faces[face])]

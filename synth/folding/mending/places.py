@@ -53,6 +53,11 @@ class VertexPlaces:
         """How far vertices on creases of several pieces are off their lines, at most."""
         return float(np.abs(self.off_lines(self.given)[0]).max(initial=0.0))
 
+    @property
+    def lengths(self) -> Floats:
+        """The lengths of the creases: float[J]."""
+        return np.asarray(np.linalg.norm(self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]], axis=1))
+
     def moved(self, by: Floats) -> Floats:
         """Return the vertices, moved by unknowns float[unknowns]: float[V, 3]."""
         return np.asarray(self.given + by.reshape(len(self.given), -1) @ self.along)

@@ -19,6 +19,7 @@ from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, rates_at, rates_near
+from synth.motion.singular.finite import FoldedStart, folded_start
 from synth.motion.singular.quadrics import Quadric, quadrics_of
 from synth.motion.singular.sampling import rates_towards
 
@@ -34,23 +35,31 @@ _DEAD_ENDS = 200
 class Begun:
     """Rates with which a motion begins, the largest 1 or -1; None where none were found.
 
-    `rigid` says that all choices leave nothing: nothing moves.
+    `rigid` says that all choices leave nothing: nothing moves. `folded` is the folded state from which the motion
+    was followed back to its beginning, where it was found so.
     """
 
     rates: Floats | None
     rigid: bool
+    folded: FoldedStart | None = None
 
 
 def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
-    By Newton's method from the wanted rates. Where that comes to nothing, since on most ways many joints are
-    still, within the nearest space. Wanted are rates or signs of them, float[J].
+    From folded states along the wanted rates, if the linkage is flat; unless these lead to a motion with all of
+    them, by Newton's method from the wanted rates too. Where that comes to nothing, since on most ways many joints
+    are still, within the nearest space. Wanted are rates or signs of them, float[J].
     """
     quadrics = quadrics_of(linkage)
+    folded = _from_folded(closure, linkage, quadrics, wanted)
+    if folded is not None and folded.folded is not None and folded.folded.agree == np.count_nonzero(wanted):
+        return folded
     rates = rates_near(closure, linkage.angles, quadrics, wanted)
-    if rates is not None:
+    if rates is not None and (folded is None or _agree(rates, wanted) >= _agree(folded.rates, wanted)):
         return Begun(rates / np.abs(rates).max(), rigid=False)
+    if folded is not None:
+        return folded
     if closure.joints > MOST_RATES:
         return Begun(None, rigid=False)
     tangent = rates_at(closure, linkage.angles)
@@ -65,6 +74,26 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
                 return Begun(rates, rigid=False)
     through = not list(islice(spaces, 1))
     return Begun(None, rigid=nothing and through)
+
+
+def _from_folded(
+    closure: ClosureEquations, linkage: PosedLinkage, quadrics: Sequence[Quadric], wanted: Floats
+) -> Begun | None:
+    """Return rates near those of a motion that is followed back from a folded state; None where none is found."""
+    if np.abs(linkage.angles).max(initial=0.0) > DOUBLE.parallel:
+        return None
+    found = folded_start(closure, wanted)
+    if found is None:
+        return None
+    near = rates_near(closure, linkage.angles, quadrics, found.rates)
+    lost = near is None or _agree(near, wanted) < found.agree
+    rates = found.rates if lost or near is None else near / np.abs(near).max()
+    return Begun(rates, rigid=False, folded=found)
+
+
+def _agree(rates: Floats | None, wanted: Floats) -> int:
+    """Return how many joints turn as is wanted."""
+    return 0 if rates is None else int((rates * wanted > DOUBLE.zero_rate * np.abs(rates).max()).sum())
 
 
 def spaces_near(

@@ -10,7 +10,7 @@ Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -90,10 +90,15 @@ def shared_quadrics(
 
 
 def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
-    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, `shared_quadrics`."""
-    alone = quadrics_of(linkage, zero)
+    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, `shared_quadrics`.
+
+    Which loops without a centre are listed is a choice among many: where others are sought, those that they have
+    alone are among these.
+    """
     if rows_of(linkage) > MOST_ROWS:
-        return alone
+        return quadrics_of(linkage, zero)
+    centred = replace(linkage, loops=tuple(loop for loop in linkage.loops if loop.centre is not Centre.NONE))
+    alone = quadrics_of(centred, zero)
     return alone + shared_quadrics(linkage, tangent, alone, zero)
 
 

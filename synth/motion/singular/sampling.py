@@ -23,6 +23,7 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.path import PathOptions, driven_path
 from synth.motion.placement import moved
 from synth.motion.second_order import RateSpace, largest_only, rates_at, spaces_within
+from synth.motion.singular.located import located
 from synth.motion.singular.quadrics import all_quadrics, local_forms
 from synth.motion.walk.allowance import Allowance
 
@@ -85,7 +86,8 @@ def followed(
             break
     else:
         return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
-    return Followed(freedoms_at(linkage, closure, end), end, error, far)
+    # what came here moves: where second order leaves nothing, it does not tell
+    return Followed(freedoms_at(linkage, closure, end) or None, end, error, far)
 
 
 def walked(
@@ -112,8 +114,10 @@ def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats
     """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
 
     Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
-    folded along one straight line, for instance, has creases that lie in one plane.
+    folded along one straight line, for instance, has creases that lie in one plane. There Newton's method ends a
+    little beside the branch, and the configuration on it is located first.
     """
+    angles = located(closure, angles)
     tangent = rates_at(closure, angles)
     quadrics = all_quadrics(moved(linkage, angles), tangent)
     spaces = largest_only(list(islice(spaces_within(tangent, quadrics), _SPACES)))
@@ -130,6 +134,8 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     beside the wanted ones are tried, and of what they come to the rates that point along these best are taken.
     """
     start = np.asarray(space.basis.T @ wanted)
+    turn = 1.0 if signed(start) is start else -1.0  # rates against wanted ones are those against what is found
+    start = turn * start
     size = float(np.linalg.norm(start))
     if size <= DOUBLE.zero * np.linalg.norm(wanted):
         return np.zeros_like(wanted)
@@ -143,7 +149,7 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
         found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
         general = [one for one in found if one is not None and _slopes(forms, one) > rank]
         x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
-    return np.zeros_like(wanted) if x is None else _scaled(space.basis @ x)
+    return np.zeros_like(wanted) if x is None else turn * _scaled(space.basis @ x)
 
 
 def general_rates(
@@ -183,7 +189,8 @@ def general_rates(
     if whole or towards is None:
         return others, whole
     near = rates_towards(space, towards)
-    first = [near] if near.any() and not any(same_part(space, near, one) for one in others) else []
+    general = near.any() and _slopes(forms, _unit(space.basis.T @ near)) >= highest
+    first = [near] if general and not any(same_part(space, near, one) for one in others) else []
     return [*first, *others], False
 
 
@@ -192,6 +199,10 @@ def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
     halves = _halves(space)
     mine, theirs = _side(halves, one), _side(halves, other)
     return mine in (theirs, tuple(-sign for sign in theirs))
+
+
+def _unit(vector: Floats) -> Floats:
+    return np.asarray(vector / np.linalg.norm(vector))
 
 
 def _scaled(rates: Floats) -> Floats:

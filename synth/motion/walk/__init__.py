@@ -8,17 +8,6 @@ to where it began; others bring their own. `event` is the record of what was met
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from graphs.lazy import offered
 
-if TYPE_CHECKING:
-    from synth.motion.walk.allowance import Allowance as Allowance
-    from synth.motion.walk.event import PathEvent as PathEvent
-    from synth.motion.walk.walking import Event as Event
-    from synth.motion.walk.walking import Goal as Goal
-    from synth.motion.walk.walking import Walk as Walk
-else:
-    __getattr__, __dir__, __all__ = offered(
-        __name__, {"allowance": "Allowance", "event": "PathEvent", "walking": "Event Goal Walk"}
-    )
+__getattr__, __dir__, __all__ = offered(__name__)

@@ -62,8 +62,8 @@ def circuit_through(
     """
     rates = rates_at(closure, start)
     if rates.shape[1] != 1:
-        freedoms = numbered(rates.shape[1], "infinitesimal freedom")
-        raise UnsolvableError(f"the linkage has {freedoms} at the pose, expected one: no one curve leads on")
+        freedoms = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+        raise UnsolvableError(f"the linkage has {freedoms} at this configuration, expected 1 for a single curve")
     tangent = -rates[:, 0] if towards is not None and rates[:, 0] @ towards < 0.0 else rates[:, 0]
     watched = closure.joints <= WATCHED
     walk = Walk(closure, start, tangent, watch=RankWatch(closure) if watched else None)
@@ -73,5 +73,5 @@ def circuit_through(
     angles = np.array([frame.angles for frame in walk.frames])
     stopped = "" if walk.ended == Return.ROUND else walk.ended
     if stopped:
-        stopped += f" where a joint has turned {degrees(float(np.abs(angles[-1] - start).max())):.6g} degrees"
+        stopped += f" where a joint has turned {degrees(float(np.abs(angles[-1] - start).max())):.6g}°"
     return Path(angles, np.array([frame.error for frame in walk.frames]), stopped, tuple(walk.met), watched)

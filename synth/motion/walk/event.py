@@ -8,15 +8,15 @@ from math import degrees
 from typing import Any, Literal
 
 from graphs.arrays import Floats
-from graphs.errors import shown
+from graphs.errors import numbered, shown
 from graphs.ids import JointId
 
 __all__ = ["EventKind", "PathEvent", "in_degrees", "named"]
 
-EventKind = Literal["turning point", "limit", "rank drop", "collision"]
+EventKind = Literal["turning point", "limit", "rank drop", "collision", "turns over"]
 
 
-_DIGITS: dict[EventKind, int] = {"turning point": 6, "limit": 4, "rank drop": 3, "collision": 6}
+_DIGITS: dict[EventKind, int] = {"turning point": 6, "limit": 4, "rank drop": 3, "collision": 6, "turns over": 2}
 """Decimals of a degree: a singular value of zero, and panels that lie flat on each other, are found to the root of
 rounding."""
 
@@ -27,16 +27,16 @@ class PathEvent:
 
     Attributes
     ----------
-    kind : {"turning point", "limit", "rank drop", "collision"}
+    kind : {"turning point", "limit", "rank drop", "collision", "turns over"}
         Turning point: the driven joint has its extreme angle there. Limit: panels lie on each other. Rank drop:
         the closure equations leave more rates than before and after; branches may part there. Collision: panels
-        begin to pass through each other.
+        begin to pass through each other. Turns over: the angle of a crease changes its sign.
     frame : int
         The last frame before it, or at it.
     driver : int
         Place of the driven joint; of several, of the one that has farthest to go.
     joints : tuple of int
-        Places of the joints that lie at 180 degrees; of other kinds, the driver.
+        Places of the joints that lie at 180 degrees, or turn over; of other kinds, the driver.
     angles : float[J]
         Joint angles there, radians: a turning point closes as frames do, a limit is bracketed to 1e-9 of a step,
         and at a rank drop, where Newton's method would not keep to the path, they are interpolated.
@@ -75,18 +75,23 @@ class PathEvent:
         """The angle of the driver in degrees, to the digits that the place of the event is known to."""
         return round(degrees(float(self.angles[self.driver])), _DIGITS[self.kind]) + 0.0
 
-    def told(self, names: Sequence[JointId]) -> str:
-        """Return one line, joints called by names: sequence of J ids."""
-        at = f"joint {shown(names[self.driver])} at {self._at_deg:.6g} degrees"
+    def line(self, names: Sequence[JointId]) -> str:
+        """Return the event in one line, joints called by names: sequence of J ids."""
+        at = f"at joint {shown(names[self.driver])} = {self._at_deg:.6g}°"
         if self.kind == "turning point":
-            return f"turning point: {at}"
+            return f"turning point {at}"
         if self.kind == "limit":
-            return f"limit: panels lie on each other at joint(s) {named(self.joints, names)}, {at}"
+            return f"limit {at}: panels lie on each other at {named(self.joints, names)}"
         if self.kind == "collision":
-            return f"collision: panels {self.panels[0]} and {self.panels[1]}, {at}"
+            return f"collision {at}: panels {self.panels[0]} and {self.panels[1]}"
+        if self.kind == "turns over":
+            return f"sign change {at}: {named(self.joints, names, 'crease')}, since no motion keeps all signs"
         others = self.other_ways
-        ways = "branches may part" if others is None else f"{others} other way(s) to second order"
-        return f"rank drop: {self.drop} less with {at}; {ways}"
+        lower = f"rank of the closure equations {self.drop} lower"
+        branches = "branches may meet"
+        if others is not None:
+            branches = f"{numbered(others, 'other motion branch', 'other motion branches')} (second order)"
+        return f"singular configuration {at}: {lower}; {branches}"
 
 
 def in_degrees(angle: float, decimals: int = 6) -> str:
@@ -95,17 +100,17 @@ def in_degrees(angle: float, decimals: int = 6) -> str:
     Examples
     --------
     >>> in_degrees(1.0471975511966), in_degrees(-1e-12), in_degrees(1.0458, decimals=1)
-    ('60 degrees', '0 degrees', '59.9 degrees')
+    ('60°', '0°', '59.9°')
     """
-    return f"{round(degrees(angle), decimals) + 0.0:.6g} degrees"
+    return f"{round(degrees(angle), decimals) + 0.0:.6g}°"
 
 
-def named(joints: Sequence[int], names: Sequence[JointId]) -> str:
-    """Return some joints by their names.
+def named(joints: Sequence[int], names: Sequence[JointId], noun: str = "joint") -> str:
+    """Return some joints by their names, after what they are.
 
     Examples
     --------
     >>> named([0, 2], ["a", "b", "c"])
-    "'a', 'c'"
+    "joints 'a', 'c'"
     """
-    return ", ".join(shown(names[joint]) for joint in joints)
+    return f"{noun}{'s' * (len(joints) != 1)} " + ", ".join(shown(names[joint]) for joint in joints)

@@ -46,7 +46,7 @@ class Limit(Event):
         if not self._beyond(exact.after.angles).any():
             return None if exact is step else (exact, "")
         self._over = tuple(np.flatnonzero(self._beyond(exact.after.angles)).tolist())
-        self._reason = f"panels lie on each other at joint(s) {named(self._over, self._names)}"
+        self._reason = f"panels lie on each other at {named(self._over, self._names)}"
         free, _ = exact.last(lambda angles: not self._beyond(angles).any())
         exact = self._flattened(exact.up_to(free))
         if np.abs(exact.chord).max() <= _FLAT:
@@ -154,7 +154,7 @@ class TurningPoint(Event):
             goal.turned = True
             if not only_rates(step.after, step.leaving):
                 how = "the way straight on leads" if walk.straight else "the least rates lead"
-                several = f"there are several freedoms, and {how} no farther"
+                several = f"there are several degrees of freedom, and {how} no farther"
                 walk.ended = f"{goal.turns_back(step.after)}; {several}"
 
     def _turns(self, step: Step) -> bool:

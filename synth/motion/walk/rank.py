@@ -17,6 +17,7 @@ from scipy.optimize import minimize_scalar
 from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
+from synth.motion.newton import TangentSpace
 from synth.motion.walk.step import Step
 
 __all__ = ["WATCHED", "RankWatch"]
@@ -82,6 +83,8 @@ class RankWatch:
     def _followed(self, step: Step) -> float:
         """Return the least singular value at the end of a step, with the sign that continuity gives it."""
         space = step.after.space
+        if not self._steps:
+            self._across = _across_freedoms(space, self._across)
         across = space.sharpened(self._across)
         across = across if across @ self._across >= 0.0 else -across
         image = space.image(across)
@@ -136,3 +139,14 @@ class RankWatch:
         """Return the squares of the singular values, of all joints, the least first: float[J]."""
         jacobian = self._closure.at(angles)[1]
         return np.asarray(scipy.linalg.eigvalsh((jacobian.T @ jacobian).toarray()))
+
+
+def _across_freedoms(space: TangentSpace, start: Floats) -> Floats:
+    """Return the part of a unit vector across the freedoms, to begin with: a unit vector float[J].
+
+    Where most rates are freedoms, most of a random vector is one, and what is followed from there would be taken
+    for a singular value of zero. Where all are, the vector itself.
+    """
+    across = start - space.projected(start)
+    size = float(np.linalg.norm(across))
+    return across / size if size > DOUBLE.clear else start

@@ -25,7 +25,7 @@ from synth.motion.walk.event import EventKind, PathEvent, in_degrees
 from synth.motion.walk.rank import RankWatch
 from synth.motion.walk.step import STRAY, Step
 
-__all__ = ["Event", "Goal", "Walk", "only_rates"]
+__all__ = ["Event", "Goal", "Steering", "Walk", "only_rates"]
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
@@ -60,6 +60,26 @@ class Event:
 
     def after(self, walk: Walk, step: Step) -> None:
         """Record what was met on a step, the walk being at its end."""
+
+
+class Steering(Event):
+    """What chooses among the rates of several freedoms at each step.
+
+    Attributes
+    ----------
+    bound : list of int
+        Joints whose rates are bound on the step that is taken: Newton's method holds them.
+    """
+
+    bound: list[int]
+
+    def admitted(self, walk: Walk, rates: Floats) -> tuple[Floats, float]:
+        """Return rates near given ones, the largest 1 or -1, and how long the step may be."""
+        raise NotImplementedError
+
+    def lost(self, angles: Floats, length: float) -> bool:
+        """Tell whether a step of some length to some angles is to be taken shorter."""
+        raise NotImplementedError
 
 
 class Goal(Event):
@@ -133,7 +153,7 @@ class Goal(Event):
 
     def lost(self, place: Corrected) -> str:
         """Say that there is no step from here: how near it comes to where that is so, rounding decides."""
-        return f"no closed pose is found beyond {self.angle(place, 1)} of {self.driver}"
+        return f"no closed configuration was found beyond {self.angle(place, 1)} of {self.driver}"
 
     def turns_back(self, place: Corrected) -> str:
         """Say that the driven joint turns back before it has its angle."""
@@ -160,6 +180,8 @@ class Walk(Iterator[Step]):
     allowance : Allowance, optional
     watch : RankWatch, optional
         Of the rank on the way; by default it is not watched.
+    kept : Steering, optional
+        Angles that keep their signs as long as they can.
 
     Attributes
     ----------
@@ -208,8 +230,9 @@ class Walk(Iterator[Step]):
         straight: bool = False,
         allowance: Allowance | None = None,
         watch: RankWatch | None = None,
+        kept: Steering | None = None,
     ) -> None:
-        self.closure, self.watch = closure, watch
+        self.closure, self.watch, self.kept = closure, watch, kept
         self.here = corrected(closure, start)
         self.tangent, self.length = tangent, _FIRST
         self.events: list[Event] = []
@@ -223,7 +246,8 @@ class Walk(Iterator[Step]):
 
     def towards(self, goal: Goal, events: Sequence[Event]) -> None:
         """Go on to a goal: back along the curve, if the driven joint does not go the way it is to go."""
-        self.goal, self.events, self.ended, self._steps = goal, [*events, goal], "", 0
+        kept = [] if self.kept is None else [self.kept]
+        self.goal, self.events, self.ended, self._steps = goal, [*events, *kept, goal], "", 0
         if self._begun and self.tangent is not None and goal.way * self.tangent[goal.joint] < 0.0:
             self.tangent = -self.tangent
 
@@ -277,7 +301,7 @@ class Walk(Iterator[Step]):
         return "" if allowed else "the allowance of steps was used up"
 
     def _lost(self) -> str:
-        return "no one way leads on" if self.goal is None else self.goal.lost(self.here)
+        return "no single branch leads on" if self.goal is None else self.goal.lost(self.here)
 
     def _onwards(self) -> Floats:
         """Return the rates to go on with, the largest 1 or -1: the least ones that move the driven joints.
@@ -306,7 +330,8 @@ class Walk(Iterator[Step]):
         """Return a step of the length that can be trusted, at most to what is left of the driven joints' way."""
         here, drivers, left, most = self.here, list[int](), np.zeros(0), inf
         several = self.goal is not None and self.goal.several
-        bend = np.zeros_like(rates) if several else self._bend
+        rates, bound = self._with_signs(rates)
+        bend = np.zeros_like(rates) if several or bound else self._bend
         if self.goal is not None:
             drivers, left = self.goal.drivers, self.goal.left(here)
             joint = self.goal.joint
@@ -318,18 +343,26 @@ class Walk(Iterator[Step]):
             expected = here.angles + length * rates + length**2 / 2.0 * bend
             held = drivers if lands or several else []
             expected[held] = here.angles[held] + (left if lands else length / most * left)[: len(held)]
-            end = corrected(self.closure, expected, held)
+            end = corrected(self.closure, expected, [*held, *bound])
             if end.closed and np.abs(end.angles - expected).max() <= stray * length:
                 arriving = end.space.projected(rates)
                 easy = end.steps <= _EASY and not lands
                 end = exactly_held(self.closure, end, held, expected[held])
-                if end.closed and (several or _alike(arriving, rates)):
+                lost = self.kept is not None and self._begun and self.kept.lost(end.angles, length)
+                if end.closed and not lost and (several or _alike(arriving, rates)):
                     if easy:
                         self.length = min(1.5 * self.length, _LARGEST)
                     return Step(self.closure, here, end, rates, arriving)
             self.length = length / 2.0
         self.length = _FIRST
         return None
+
+    def _with_signs(self, rates: Floats) -> tuple[Floats, list[int]]:
+        """Return the rates at which angles keep their signs, and the joints that they are bound for."""
+        if self.kept is None or not self._begun or self.singular:
+            return rates, []
+        rates, self.length = self.kept.admitted(self, rates)
+        return rates, self.kept.bound
 
     def _arrive(self, step: Step) -> None:
         """Go to the end of a step; where it is singular, rates are more than the curve's."""

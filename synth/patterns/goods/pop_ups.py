@@ -5,7 +5,9 @@ Theory: docs/theory/generators.md.
 
 from __future__ import annotations
 
-from math import acos, cos, degrees, sin, sqrt
+from collections.abc import Iterable
+from itertools import pairwise
+from math import acos, cos, degrees, radians, sin, sqrt, tan
 
 from graphs.errors import InvariantError
 from graphs.ids import JointId
@@ -13,10 +15,11 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.tolerances import DOUBLE
 from synth.patterns.panels import Place, sheet_of_faces
 from synth.patterns.rings.axes import Line
 
-__all__ = ["angle_pop_up", "box_pop_up", "parallel_pop_up", "slit_card"]
+__all__ = ["angle_pop_up", "beaked_box", "box_pop_up", "parallel_pop_up", "slit_card"]
 
 
 def parallel_pop_up(opening: float, left: float, right: float, first: float, second: float) -> HingedSolids:
@@ -99,7 +102,7 @@ def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
 def slit_card(strips: int, depth: float = 1.0, more: float = 0.5, width: float = 1.0) -> Sheet:
     """Return a flat card with strips between slits across its fold, creased beside the fold: boxes that pop up.
 
-    The card and each strip are four links about four parallel axes.
+    The card and each strip are four links about four parallel axes. Slits are cuts: edges marked C.
 
     Parameters
     ----------
@@ -121,17 +124,20 @@ def slit_card(strips: int, depth: float = 1.0, more: float = 0.5, width: float =
     places: list[Place] = [(-far, 0.0), (far, 0.0), (0.0, 0.0)]
     left_side, right_side = [2], [2]  # of the halves, up the fold and round the strips' ends
     faces: list[tuple[int, ...]] = []
+    slits: list[tuple[int, int]] = []
     for strip in range(strips):
         ends = ((2 * strip + 1) * width, (2 * strip + 2) * width)
         v = len(places)
         places += [(x, y) for x in (0.0, -depth, knee, high) for y in ends]
         left_side += [v, v + 2, v + 3, v + 1]
-        right_side += [v, v + 6, v + 7, v + 1]
-        faces += [(v + 2, v + 4, v + 5, v + 3), (v + 4, v + 6, v + 7, v + 5)]
+        right_side += [v, v + 4, v + 6, v + 7, v + 5, v + 1]
+        faces += [(v + 2, v, v + 4, v + 5, v + 1, v + 3), (v + 4, v + 6, v + 7, v + 5)]
+        slits += [pair for w in (v, v + 1) for pair in pairwise((w + 2, w, w + 4, w + 6))]
     height, end = (2 * strips + 1) * width, len(places)
     places += [(0.0, height), (-far, height), (far, height)]
     left, right = (0, *left_side, end, end + 1), (1, end + 2, end, *reversed(right_side))
-    return sheet_of_faces(places, [left, right, *faces], f"Card with {strips} strip{'s' * (strips > 1)}")
+    title = f"Card with {strips} strip{'s' * (strips > 1)}"
+    return sheet_of_faces(places, [left, right, *faces], title, _cuts(slits))
 
 
 def box_pop_up(depth: float = 1.0, more: float = 0.5, width: float = 1.0) -> Sheet:
@@ -143,6 +149,76 @@ def box_pop_up(depth: float = 1.0, more: float = 0.5, width: float = 1.0) -> She
     <Sheet: 4 faces, 5 creases, 14 vertices, flat>
     """
     return slit_card(1, depth, more, width)
+
+
+def beaked_box(
+    depth: float = 1.0, more: float = 0.5, width: float = 1.0, angle: float = radians(40.0), reach: float = 0.6
+) -> Sheet:
+    """Return a flat card with one box whose ridge ends in a beak: a planar and a spherical loop, six links.
+
+    Two creases go from a point of the ridge to the slit, on both sides of it. The card and the box are four links
+    about parallel axes; the box and the two panels of the beak are four about that point. The loops share the
+    ridge.
+
+    Parameters
+    ----------
+    depth, more, width : float, optional
+        As of `slit_card`.
+    angle : float, optional
+        Between the ridge and the creases of the beak, radians.
+    reach : float, optional
+        From the slit to the point where they meet, along the ridge.
+
+    Raises
+    ------
+    InvariantError
+        If the beak is longer than the ridge, or wider than a panel of the box.
+
+    Examples
+    --------
+    >>> beaked_box()
+    <Sheet: 6 faces, 8 creases, 17 vertices, flat>
+    """
+    side = reach * tan(angle)
+    if not (reach < width and side < depth):
+        told = f"a beak of {reach:g} by {2 * side:g} on a ridge of {width:g} between panels of {depth:g}"
+        raise InvariantError("beaked-box", told, "reach below width, reach tan(angle) below depth")
+    card = slit_card(1, depth, more, width)
+    assert card.coordinates is not None
+    v, (left, right, _, _) = 3, card.faces
+    tip, near, far = card.vertices, card.vertices + 1, card.vertices + 2
+    if abs(side - more) < DOUBLE.same_point * (depth + more):
+        near, far = v, near  # the crease ends where the fold does
+    places = [*card.coordinates, (more, width + reach)]
+    places += [(more - side, width)] * (near != v) + [(more + side, width)]
+    slit = sorted({v, v + 2, v + 4, v + 6, near, far}, key=lambda place: places[place][0])
+
+    def along(first: int, last: int) -> list[int]:
+        return slit[slit.index(first) : slit.index(last) + 1]
+
+    faces = [
+        _with_points(left, (v, v + 2), along(v + 2, v)[::-1]),
+        _with_points(right, (v, v + 4, v + 6), along(v, v + 6)),
+        (*along(v + 2, near), tip, v + 5, v + 1, v + 3),
+        (tip, *along(far, v + 6), v + 7, v + 5),
+        (*along(near, v + 4), tip),
+        (*along(v + 4, far), tip),
+    ]
+    slits = [*pairwise(slit), *pairwise((v + 3, v + 1, v + 5, v + 7))]
+    return sheet_of_faces(places, faces, "Card with a box that ends in a beak", _cuts(slits))
+
+
+def _with_points(face: tuple[int, ...], part: tuple[int, ...], along: list[int]) -> tuple[int, ...]:
+    """Return a face in which a walk along several of its vertices, either way round, goes through more of them."""
+    turned = tuple(part) if part[1] == face[(face.index(part[0]) + 1) % len(face)] else tuple(part[::-1])
+    start = face.index(turned[0])
+    rolled = face[start:] + face[:start]
+    assert rolled[: len(part)] == turned
+    return (*(along if turned == tuple(part) else along[::-1]), *rolled[len(part) :])
+
+
+def _cuts(slits: Iterable[tuple[int, int]]) -> dict[frozenset[int], str]:
+    return dict.fromkeys(map(frozenset, slits), "C")
 
 
 def _four_links(lines: list[Line], centre: Centre) -> HingedSolids:

@@ -16,7 +16,7 @@ from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
 
-__all__ = ["platform"]
+__all__ = ["platform", "translating_platform"]
 
 _DIGITS = 14
 _UP = np.array([0.0, 0.0, 1.0])
@@ -61,6 +61,31 @@ def platform(
             joint = f"{kind.value}{leg}-{place}"
             joints[joint] = (row[place], row[place + 1])
             kinds[joint], places[joint] = kind, where
+    return JointedLinkage(SCGraph(links, joints, ground="base"), kinds, places)
+
+
+def translating_platform(size: float, bent: float) -> JointedLinkage:
+    """Return a platform on three C-R-R legs, each with its axes along an edge of a corner of a cube.
+
+    Links between the axes are `size` long, with an angle `bent` (radians) between the two of a leg. The top is
+    shifted, and never turns.
+
+    >>> translating_platform(1.0, 1.2)
+    <JointedLinkage: 8 links, 9 joints: 3C 6R, placed>
+    """
+    links: list[LinkId] = ["base", "top"]
+    joints: dict[JointId, tuple[LinkId, LinkId]] = {}
+    places: dict[JointId, JointPlace] = {}
+    for leg in range(3):
+        along, first, second = (np.eye(3)[(leg + turn) % 3] for turn in range(3))
+        row: list[LinkId] = ["base", f"leg{leg}-1", f"leg{leg}-2", "top"]
+        links += row[1:-1]
+        reach = first, first + cos(bent) * first + sin(bent) * second
+        points = size * np.array([along, along + reach[0], along + reach[1]])
+        for place, (letter, point) in enumerate(zip("CRR", points, strict=True)):
+            joints[f"{letter}{leg}-{place}"] = row[place], row[place + 1]
+            places[f"{letter}{leg}-{place}"] = _place(point, along)
+    kinds = {joint: JointKind.CYLINDRICAL for joint in joints if str(joint).startswith("C")}
     return JointedLinkage(SCGraph(links, joints, ground="base"), kinds, places)
 
 

@@ -17,8 +17,9 @@ from graphs.convert.table import Mechanism, to_sc
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.given import check_given
 from graphs.loops.loop import Centre
-from graphs.mechanism.conical import ConicalLinkage, Pair
+from graphs.mechanism.on_surface import Pair, SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Cone
 from graphs.plain_text import plain
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.generic import exact_mobility
@@ -26,7 +27,7 @@ from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
 from synth.surfaces.circuit import wrapped
-from synth.surfaces.linkages import by_angles, map_linkage
+from synth.surfaces.linkages import by_sizes, map_linkage
 from synth.surfaces.several_loops import link_pairs, loop_steps
 
 __all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
@@ -48,7 +49,7 @@ class OnOneCone(Printed):
 
     Attributes
     ----------
-    linkage : ConicalLinkage
+    linkage : SurfaceLinkage
         Given by steps and lambda, as ``synth cone`` takes it.
     clear : float
         How near a step between two joints of a link comes to nothing or to half a turn, radians.
@@ -64,7 +65,7 @@ class OnOneCone(Printed):
         Which try it is, and how many were asked for at most.
     """
 
-    linkage: ConicalLinkage
+    linkage: SurfaceLinkage
     clear: float
     circuits: tuple[str, ...]
     mobility: int
@@ -76,12 +77,13 @@ class OnOneCone(Printed):
     @property
     def cone_angle(self) -> float:
         """lambda, radians."""
-        return self.linkage.cone_angle or 0.0
+        assert isinstance(self.linkage.surface, Cone)
+        return self.linkage.surface.angle
 
     @property
     def arcs(self) -> dict[Pair, float]:
         """The arc of each link between two of its joints, radians."""
-        return dict(by_angles(self.linkage).angles or {})
+        return dict(by_sizes(self.linkage).angles or {})
 
     @property
     def rank(self) -> tuple[bool, float, int]:
@@ -182,7 +184,7 @@ def realise_on_cone(
     for number, places in enumerate(_placements(chain, seed, tries)):
         motion = first_order(conformed, places)
         found = OnOneCone(
-            linkage=ConicalLinkage.placed(chain, places.tolist(), cone_angle),
+            linkage=SurfaceLinkage.placed(chain, places.tolist(), Cone(cone_angle)),
             clear=_clear(chain, places),
             circuits=tuple(str(loop.circuits.names()) for loop in loop_steps(chain, places)),
             mobility=mobility,
@@ -196,7 +198,7 @@ def realise_on_cone(
         if best.good:
             break
     assert best is not None
-    return replace(best, cones=_cones(best.linkage))
+    return replace(best, cones=_cones(best.linkage, cone_angle))
 
 
 def _check(cone_angle: float, seed: int, tries: int) -> None:
@@ -249,18 +251,18 @@ def _clear(chain: SCGraph, places: Floats) -> float:
     return float(np.minimum(steps, np.pi - steps).min())
 
 
-def _cones(linkage: ConicalLinkage) -> int | None:
+def _cones(linkage: SurfaceLinkage, angle: float) -> int | None:
     """Return on how many cones the link arcs alone lie; None if that is too many to look for.
 
     Raises `UnsolvableError` if the cone that they were laid on is none of these.
     """
     if max(len(loop.joints) for loop in linkage.chain.loops) > _MAPPED:
         return None
-    found = map_linkage(by_angles(linkage)).cones
-    angle = linkage.cone_angle or 0.0
-    if not any(abs(cone.cone_angle - angle) < DOUBLE.same_configuration for cone in found):
+    angles = np.sort(
+        [one.surface.angle for one in map_linkage(by_sizes(linkage)).surfaces if isinstance(one.surface, Cone)]
+    )
+    if not any(abs(one - angle) < DOUBLE.same_configuration for one in angles):
         raise UnsolvableError(f"the link arcs do not lead back to lambda {degrees(angle):.6g} degrees")
-    angles = np.sort([cone.cone_angle for cone in found])
     return 1 + int((np.diff(angles) > DOUBLE.same_configuration).sum())  # two roots near each other: one cone
 
 

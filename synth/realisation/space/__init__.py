@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from graphs.lazy import offered
 
-if TYPE_CHECKING:
-    from synth.realisation.space.lifting import lifted as lifted
-    from synth.realisation.space.receding import receded as receded
-else:
-    __getattr__, __dir__, __all__ = offered(__name__, {"lifting": "lifted", "receding": "receded"})
+__getattr__, __dir__, __all__ = offered(__name__)

@@ -22,16 +22,18 @@ __all__ = ["Kept", "Wishes", "wishes_for"]
 class Wishes:
     """What drawings are to be besides: flat-foldable, symmetric under a group, or both.
 
-    Flat-foldable: reflected in the creases round a vertex or a hole in turn, the sheet closes.
+    Flat-foldable: reflected in the creases round a vertex or a hole in turn, the sheet closes. Other conditions
+    may be added.
     """
 
     flat_foldable: bool = False
     symmetry: Symmetry | None = None
+    others: tuple[Condition, ...] = ()
 
     def conditions(self, pattern: Pattern) -> list[Condition]:
         """Return what drawings meet exactly."""
         flat = [flat_folding(pattern)] if self.flat_foldable else []
-        return [*flat, *([self.symmetry.condition] if self.symmetry is not None else [])]
+        return [*flat, *([self.symmetry.condition] if self.symmetry is not None else []), *self.others]
 
     def kept(self, pattern: Pattern, places: Floats) -> Kept:
         """Return how well a drawing meets them."""

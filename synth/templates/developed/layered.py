@@ -13,12 +13,12 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.mechanism.surfaces import Surface
 from graphs.plain_text import plain
 from graphs.tolerances import DOUBLE
 from synth.conformed.layers import links_in_layers
-from synth.conformed.linkages import OnCone
+from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
-from synth.templates.developed.surfaces import Surface
 from synth.templates.scale import GREATEST
 
 __all__ = ["Dimensions", "Joining", "LayeredLink", "LayeredLinkage", "layered"]
@@ -141,13 +141,13 @@ class LayeredLinkage:
         return layer * self.dimensions.apart
 
 
-def layered(linkage: OnCone, surface: Surface, dimensions: Dimensions) -> LayeredLinkage:
+def layered(linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> LayeredLinkage:
     """Return the links of a linkage in the fewest layers; only its chain and its azimuths matter.
 
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
 
     >>> from synth.conformed.linkages import loop_of_steps
-    >>> from synth.templates.developed.surfaces import Cone
+    >>> from graphs.mechanism.surfaces import Cone
     >>> made = layered(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
     >>> [(link.layer, round(np.degrees(link.width))) for link in made.links]
     [(0, 40), (0, 50), (0, 50), (1, 140)]
@@ -158,7 +158,7 @@ def layered(linkage: OnCone, surface: Surface, dimensions: Dimensions) -> Layere
     for link, own in zip(chain.links, chain.joints_of, strict=True):
         if len(own) < 2:
             raise UnsolvableError(f"link {shown(link)} has one joint: it takes no part of the surface")
-    laid = links_in_layers(chain, places)
+    laid = links_in_layers(chain, places, linkage.begins(chain))
     names = [plain(str(joint), _LONGEST_NAME) for joint in chain.joints]
     bare = [
         LayeredLink(

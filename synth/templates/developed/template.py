@@ -10,14 +10,14 @@ from math import cos, degrees
 import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
+from graphs.mechanism.surfaces import Cone, Cylinder, Surface
 from synth.conformed.layers import links_in_layers
-from synth.conformed.linkages import OnCone
+from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
-from synth.drawing.on_cone import cone_layer
+from synth.drawing.on_surface import surface_layer
 from synth.drawing.scene.shapes import Scene
 from synth.templates.developed.cut_out import flat_pieces
 from synth.templates.developed.layered import Dimensions, Joining, LayeredLinkage, layered
-from synth.templates.developed.surfaces import Cone, Cylinder, Surface
 from synth.templates.template import Template
 
 __all__ = ["surface_of", "template_on_surface"]
@@ -26,21 +26,21 @@ _SIDE = 420.0
 """Points of the side of the picture."""
 
 
-def surface_of(linkage: OnCone, radius: float | None = None) -> Surface:
-    """Return the cone of a linkage, or a cylinder of a radius in millimetres.
+def surface_of(linkage: OnSurface, radius: float | None = None) -> Surface:
+    """Return the surface of a linkage, or a cylinder of a radius; a template takes it for millimetres.
 
-    A linkage given by its azimuths fits every cone and cylinder. Raise UnsolvableError without a cone angle or a
+    A linkage given by its azimuths fits every cone and cylinder. Raise UnsolvableError without a surface or a
     radius.
     """
     if radius is not None:
         return Cylinder(radius)
-    if linkage.cone_angle is None:
+    if linkage.surface is None:
         raise UnsolvableError("the linkage lies on any cone: expected a cone angle (--lambda) or a --radius")
-    return Cone(linkage.cone_angle)
+    return linkage.surface
 
 
 def template_on_surface(
-    linkage: OnCone, surface: Surface, dimensions: Dimensions | None = None, title: str = ""
+    linkage: OnSurface, surface: Surface, dimensions: Dimensions | None = None, title: str = ""
 ) -> Template:
     """Return the template of a linkage on a cone or a cylinder: the surface, and each link as a piece.
 
@@ -48,19 +48,14 @@ def template_on_surface(
     """
     made = layered(linkage, surface, dimensions or Dimensions())
     picture = _picture(linkage, surface)
-    steps = _steps(made)
-    if picture is not None:
-        steps.append(
-            "It then lies as below; the picture puts layers beside each other, so that none hides another."
-        )
+    below = "It then lies as below; the picture puts layers beside each other, so that none hides another."
+    steps = [*_steps(made), below]
     return Template(tuple(flat_pieces(made)), None, linkage, title, (), tuple(steps), picture)
 
 
-def _picture(linkage: OnCone, surface: Surface) -> Scene | None:
-    if not isinstance(surface, Cone):
-        return None
+def _picture(linkage: OnSurface, surface: Surface) -> Scene:
     chain, places = ConformedChain.of(linkage.chain), np.asarray(linkage.places, dtype=float)
-    layer = cone_layer(chain, places, links_in_layers(chain, places), surface.angle, _SIDE)
+    layer = surface_layer(chain, places, links_in_layers(chain, places, linkage.begins(chain)), surface, _SIDE)
     return Scene(_SIDE, _SIDE, (layer,))
 
 

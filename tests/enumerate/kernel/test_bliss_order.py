@@ -1,8 +1,7 @@
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from enumerate.chains.kinematic import chain_rows
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders

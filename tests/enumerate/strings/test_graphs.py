@@ -1,6 +1,5 @@
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from enumerate.strings.graphs import chain_sc, chain_scd, string_of_chain
 from enumerate.strings.panel_strings import ChainString, strings

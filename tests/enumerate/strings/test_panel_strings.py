@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from enumerate.strings.panel_strings import ChainString, count_strings, joint_chain, strings
 from graphs.errors import InvariantError
@@ -68,7 +67,7 @@ def numeric_dof(chain: ChainString, seed: int) -> int:
 def test_freedoms_by_a_rank_over_the_reals(chain, seed):
     assert chain.dof == numeric_dof(chain, seed)
     assert chain.dof == chain.reverse.dof <= min(6, chain.creases)
-    assert bool(chain.comment) == (chain.dof < chain.creases)
+    assert ("creases" in chain.comment or "rotation" in chain.comment) == (chain.dof < chain.creases)
 
 
 def test_clusters_over_three_have_fewer_freedoms_than_creases():
@@ -146,3 +145,14 @@ def test_joint_chains_and_back():
 def test_joint_chains_that_panels_cannot_make(text, message):
     with pytest.raises(InvariantError, match=message):
         joint_chain(text)
+
+
+def test_table_8_notes_which_axes_are_parallel():
+    """A single crease between panels is parallel to those beside it: it stands for a slide."""
+    noted = {chain.text: chain.comment for n in range(1, 7) for chain in strings(n) if "parallel" in chain.comment}
+    assert noted == {
+        "R-R": "all axes parallel", "R-R-R": "all axes parallel", "R-R-RR": "3 axes parallel",
+        "R-R-RRR": "3 axes parallel", "RR-R-RR": "3 axes parallel", "RR-R-RRR": "3 axes parallel",
+    }  # fmt: skip
+    assert all("P" in ChainString.parse(text).mechanism for text in noted if text != "R-R")
+    assert ChainString.parse("R-R-RR-R-R").comment.startswith("3 axes parallel, 3 axes parallel")

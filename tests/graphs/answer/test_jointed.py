@@ -29,7 +29,9 @@ def test_a_type_without_places_has_no_pose():
     linkage = generate("6-sps").mechanism
     answer = mobility(JointedLinkage(linkage.chain, linkage.kinds))
     assert (answer.mobility, answer.pose, answer.counts["passive"]) == (12, None, 6)
-    assert "of a general member, placed at random, the freedoms are 12" in " ".join(answer.warnings)
+    assert "for a generic realisation, placed at random, the result is 12 degrees of freedom" in " ".join(
+        answer.warnings
+    )
 
 
 def test_an_exact_rank_is_not_passed_over_in_silence():
@@ -38,11 +40,33 @@ def test_an_exact_rank_is_not_passed_over_in_silence():
     assert not any("no exact rank" in note for note in mobility(linkage).warnings)
 
 
-def test_a_slide_alone_moves_although_its_revolutes_count_none():
+def test_a_slide_alone_is_counted_as_one_joint():
     chain = SCGraph(2, {"p": (0, 1)})
     answer = mobility(placed(JointedLinkage(chain, {"p": JointKind.PRISMATIC})))
-    assert (answer.mobility, answer.pose.dof, answer.equations["loop_form"].value) == (1, 1, 0)
-    assert "revolutes alone count 0" in " ".join(answer.warnings)
+    assert (answer.mobility, answer.pose.dof, answer.equations["loop_form"].value) == (1, 1, 1)
+    assert (answer.links, answer.joints, answer.counts["revolutes"]) == (2, 1, 6)
+
+
+@pytest.mark.parametrize(
+    ("joints", "row"),
+    [
+        ({"s": (0, 1), "t": (1, 2)}, ("s", "t")),  # a rod on an arm that is open
+        ({"s": (0, 1), "t": (1, 0)}, ("t", "s")),  # two links, two balls
+        ({"s": (0, 1), "t": (1, 0), "r": (0, 2)}, ("s", "t")),  # a rod on one link with both ends
+    ],
+)
+def test_a_link_between_two_balls_spins(joints, row):
+    kinds = {joint: JointKind.REVOLUTE if joint == "r" else JointKind.SPHERICAL for joint in joints}
+    linkage = JointedLinkage(SCGraph(len({end for ends in joints.values() for end in ends}), joints), kinds)
+    (passive,) = passive_freedoms(placed(linkage))
+    assert (passive.joints, passive.freedoms, passive.spins) == (row, 1, True)
+    assert mobility(linkage).counts["passive"] == 1
+
+
+def test_an_open_arm_has_a_spin_for_each_two_balls_in_a_row():
+    arm = SCGraph(5, {i: (i, i + 1) for i in range(4)})
+    kinds = dict(enumerate("SSRS"))
+    assert [one.joints for one in passive_freedoms(placed(JointedLinkage(arm, kinds)))] == [(0, 1), (1, 2, 3)]
 
 
 def freedoms_of_leg_held(linkage, joints):

@@ -32,7 +32,7 @@ def test_a_pop_up_is_a_planar_four_bar(turn, decimals):
     answer = synth.mobility(pop_up(turn, decimals))
     assert (answer.links, answer.joints, answer.mobility, answer.exact.mobility) == (4, 4, 1, 1)
     assert answer.counts["spatial_loops"] == 0
-    assert "geometry: the axes of 1 loop(s) round holes or cuts are parallel: planar" in answer.warnings
+    assert "geometry: the axes of 1 loop round holes or cuts are parallel: planar" in answer.warnings
     without = synth.mobility(pop_up(turn, decimals), geometry=False)
     assert (without.mobility, without.counts["spatial_loops"]) == (-2, 1)
 

@@ -5,8 +5,7 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.hinges import lines_of_hinges
@@ -120,7 +119,7 @@ def test_short_hinges_need_to_know_the_rounding():
             faces_at[i].append((i * 11 + j, i * 11 + j + 1))
     blind = lines_of_hinges(sheet.coordinates, list(faces_at.values()))
     assert sum(map(len, blind.groups)) > joints
-    assert blind.warnings == ("90 hinge(s) may or may not be on one line: kept apart",)
+    assert blind.warnings == ("90 hinges may or may not be on one line: kept apart",)
     extent = np.ptp(np.array(sheet.coordinates), axis=0).max()
     knowing = lines_of_hinges(sheet.coordinates, list(faces_at.values()), rounding=0.005 / extent)
     assert sum(map(len, knowing.groups)) == joints
@@ -155,7 +154,7 @@ def test_without_a_plateau_it_is_told():
     lines = lines_of_hinges(points, bundles)
     assert sum(map(len, lines.groups)) == 18
     assert lines.repairs == ()
-    assert lines.warnings == ("18 hinge(s) may or may not be on one line: kept apart",)
+    assert lines.warnings == ("18 hinges may or may not be on one line: kept apart",)
 
 
 def test_a_sliver_that_only_rounding_straightens_is_told():
@@ -164,7 +163,7 @@ def test_a_sliver_that_only_rounding_straightens_is_told():
     assert lines_of_hinges(points, bundles).warnings == ()
     rounded = lines_of_hinges(points, bundles, rounding=5e-5)
     assert rounded.groups == (((0,), (1,)),)
-    assert rounded.warnings == ("2 hinge(s) may or may not be on one line: kept apart",)
+    assert rounded.warnings == ("2 hinges may or may not be on one line: kept apart",)
 
 
 def test_without_coordinates_or_partners_every_hinge_is_its_own():

@@ -102,7 +102,7 @@ def test_odd_panels_are_refused(panels, message):
 def test_a_tetrahedron_of_panels_is_closed():
     scd = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)])
     report = mobility_report(scd)
-    assert (report.mechanism_class, report.mobility, scd.counts.vertices) == ("exceptional", 0, 4)
+    assert (report.mechanism_class, report.mobility, scd.counts.vertices) == ("closed", 0, 4)
     assert report.equations["polyhedron"].value == 3 * 4 - 6 - 6
 
 

@@ -6,8 +6,7 @@ from collections import Counter
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from graphs.convert import welding
 from graphs.convert.duality import mechanism_of_sheet
@@ -73,14 +72,14 @@ def test_small_errors_are_welded(seed):
 def test_a_line_drawn_twice_counts_once_and_a_crease_wins_over_a_border():
     sheet = traced([*SQUARE, ((0, 0), (1, 1)), ((1, 1), (0, 0)), ((0, 0), (1, 0))], "BBBBMBV")
     assert Counter(sheet.assignments) == {"B": 3, "M": 1, "V": 1}
-    assert any(note.endswith("line(s) drawn twice") and note.startswith("2 ") for note in sheet.repairs)
+    assert any(note.endswith("lines drawn twice") and note.startswith("2 ") for note in sheet.repairs)
 
 
 def test_ends_on_lines_split_them_and_loose_ends_are_pruned():
     sheet = traced([*SQUARE, ((0.5, 0), (0.5, 1)), ((0.5, 0.5), (0.8, 0.5)), ((2, 2), (3, 3))], "BBBBMVV")
     assert (len(sheet.faces), sheet.assignments.count("M")) == (2, 1)
     assert any("that end nowhere pruned" in note for note in sheet.repairs)
-    assert any("in the middle of a line taken out" in note for note in sheet.repairs)
+    assert any("in the middle of a line removed" in note for note in sheet.repairs)
 
 
 def test_a_hole_is_no_face():
@@ -138,7 +137,7 @@ def test_svg_shapes_transforms_and_colours(tmp_path):
     )
     sheet = read(path)
     assert (len(sheet.faces), Counter(sheet.assignments)) == (4, {"B": 8, "M": 2, "V": 2})
-    assert "1 shape(s) with strokes not understood left out: 1 #808080" in sheet.repairs
+    assert "1 shape with strokes not understood left out: 1 #808080" in sheet.repairs
     mechanism = mechanism_of_sheet(sheet)
     assert (mechanism.interior_vertices, len(mechanism.sc)) == (1, 4)
 

@@ -1,7 +1,6 @@
 """Every relative equation gives the difference of the two counts (Wiener 2016, Eqs. 5 to 7)."""
 
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from strategies import scd_graphs
 
 from graphs.count.equations import modified_cgk, overconstraint, polyhedron_equation, spherical_system

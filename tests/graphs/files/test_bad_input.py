@@ -23,7 +23,7 @@ SPHERICAL = {"joints": [0, 1, 2, 3], "centre": "finite"}
 
 DOCUMENTS = {
     "no object": ([], "a list; expected an object with the key 'format'"),
-    "no format": ({}, "format: missing; expected one of synthedra/conical, synthedra/joints, synthedra/polyhedron"),
+    "no format": ({}, "format: missing; expected one of synthedra/conical, synthedra/cylindrical, synthedra/joints, synthedra/polyhedron"),
     "odd format": (SC | {"format": "synthedra/pdf"}, "format: 'synthedra/pdf'; expected one of"),
     "format of odd type": (SC | {"format": ["synthedra/sc"]}, "format: ['synthedra/sc']; expected one of"),
     "version": (SC | {"version": 2}, "version: 2; expected 1"),

@@ -32,12 +32,12 @@ def svg(path, *strokes_and_lines):
 
 BLACK, RED = 'stroke="#000"', 'stroke="#f00"'
 NO_PATTERNS = {
-    "no border": (((2, BORDER), (3, CROSS)), "no border among 6 line(s); expected border lines"),
-    "open border": (((1, BORDER[:3]),), "3 line(s) enclose no face; expected a border that is closed"),
+    "no border": (((2, BORDER), (3, CROSS)), "no border among 6 lines; expected border lines"),
+    "open border": (((1, BORDER[:3]),), "3 lines enclose no face; expected a border that is closed"),
     "all black": (((1, BORDER), (1, CROSS)), "4 faces and no crease; expected mountains or valleys"),
     "nothing left": (
         ((1, BORDER), (2, [(0.2, 0.2, 0.8, 0.8), (0.3, 0.2, 0.5, 0.3)])),
-        "none of 2 crease line(s) lies between two faces; expected creases that reach the border",
+        "none of 2 crease lines lies between two faces; expected creases that reach the border",
     ),
 }
 
@@ -90,16 +90,18 @@ def test_strokes_that_are_not_understood_are_told_by_kind_and_number(tmp_path):
         ('stroke="#400000"', [(0, 0.75, 1, 0.75)]),
     )
     sheet = read(file)
-    told = "4 shape(s) with strokes not understood left out: 2 dashed #000000, 1 #ffa500, 1 #400000"
+    told = "4 shapes with strokes not understood left out: 2 dashed #000000, 1 #ffa500, 1 #400000"
     assert told in sheet.repairs
     assert (len(sheet.faces), Counter(sheet.assignments)) == (4, {"B": 4, "M": 4})
     svg(file, (BLACK, BORDER), (dashed, CROSS))
     assert len(read(file).faces) == 1
     svg(file, (dashed, BORDER), ('stroke="orange"', CROSS))
-    with pytest.raises(FileError, match=r"no line of any length; 6 shape.s. with strokes not understood left out"):
+    with pytest.raises(
+        FileError, match=r"6 of 6 lines have strokes that are not understood: 4 dashed #000000, 2 #ffa"
+    ):
         read(file)
-    svg(file, (dashed, BORDER), (RED, CROSS))
-    with pytest.raises(FileError, match=r"no border among 2 line\(s\); 4 shape.* 4 dashed #000000"):
+    svg(file, (dashed, BORDER), (RED, CROSS * 2))
+    with pytest.raises(FileError, match=r"no border among 4 lines; 4 shape.* 4 dashed #000000"):
         read(file)
 
 

@@ -28,7 +28,7 @@ def test_an_empty_key_frame_gives_way_to_the_first_frame_with_a_pattern(tmp_path
     found = sheet({"file_spec": 1.1, "file_frames": [{"frame_title": "empty"}, SQUARE]}, tmp_path)
     assert found.repairs == ("the key frame is empty; frame 2 of 2 was read",)
     assert len(found.faces) == 2
-    assert sheet(SQUARE | {"file_frames": [{}]}, tmp_path).repairs == ("1 more frame(s) left alone",)
+    assert sheet(SQUARE | {"file_frames": [{}]}, tmp_path).repairs == ("1 more frame not read",)
 
 
 def test_frames_inherit(tmp_path):
@@ -59,7 +59,7 @@ def test_old_names_and_nulls_are_read(tmp_path):
     assert found.assignments == "BUBBM"
     assert found.repairs == (
         "old key edges_foldAngles read as edges_foldAngle",
-        "1 null assignment(s) read as unassigned",
+        "1 null assignment read as unassigned",
     )
     assert len(sheet(SQUARE | {"faces_vertices": None}, tmp_path).faces) == 2
     with pytest.raises(FileError, match=r"edges_foldAngle\[4\]: 'flat'; expected a number"):
@@ -113,18 +113,16 @@ def test_an_edge_listed_twice_is_a_crease_if_either_is(tmp_path):
     del twice["edges_foldAngle"]
     mechanism = mechanism_of_sheet(sheet(twice, tmp_path))
     assert len(mechanism.sc.joints) == 1
-    assert mechanism.repairs == ("2 edge(s) listed twice: a crease counts before a border or a flat edge",)
+    assert mechanism.repairs == ("2 edges listed twice: a crease counts before a border or a flat edge",)
 
 
 def test_a_pattern_that_is_read_is_checked_once(tmp_path, monkeypatch):
     document = {"vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]], "faces_vertices": [[0, 1, 2, 3]]}
     (tmp_path / "a.fold").write_text(json.dumps(document), encoding="utf-8")
     checked, measured = [], []
-    check, precision_of_sheet = Sheet.__post_init__, plane.precision_of_sheet
+    check, as_written = Sheet.__post_init__, plane.precision_as_written
     monkeypatch.setattr(Sheet, "__post_init__", lambda sheet: checked.append(sheet) or check(sheet))
-    monkeypatch.setattr(
-        plane, "precision_of_sheet", lambda sheet: measured.append(sheet) or precision_of_sheet(sheet)
-    )
+    monkeypatch.setattr(plane, "precision_as_written", lambda sheet: measured.append(sheet) or as_written(sheet))
     sheet = read(tmp_path / "a.fold")
     assert (sheet.frames.others, len(checked)) == (0, 1)
     assert not measured  # a sheet that stands on an axis is flat, however precise it is

@@ -198,7 +198,7 @@ def test_equal_lines_are_one(tmp_path):
     path.write_text(square + "4 0 0 1 1\n" + "3 0 0 1 1\n2 1 1 0 0\n" * 10_000)
     sheet = read(path)
     assert sorted(sheet.assignments) == sorted("BBBBM")
-    assert "20000 line(s) drawn twice" in sheet.repairs
+    assert "20000 lines drawn twice" in sheet.repairs
 
 
 def test_lines_that_are_nearly_equal_are_too_many_pairs(tmp_path, monkeypatch):

@@ -154,7 +154,7 @@ def test_what_is_no_linkage_is_refused():
         JointedLinkage(pair, {}, {0: JointPlace((0, 0, 0), ((1, 0, 0),))})
     ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))])
     with pytest.raises(
-        InvariantError, match=r"joint 2 of .*, which has a centre, is prismatic; expected a revolute"
+        InvariantError, match=r"joint 2 of .*, which has a finite centre, is prismatic; expected a revolute"
     ):
         JointedLinkage(ring, {2: P})
     with pytest.raises(UnsolvableError, match="need the axes"):

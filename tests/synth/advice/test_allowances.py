@@ -44,7 +44,7 @@ def test_what_an_allowance_ended_says_so():
     assert "lock 4 joints: the first set\n" in str(whole)
     advice = replace(whole, used_up=True)
     assert advice.to_json()["used_up"]
-    assert "lock 4 joints: the first set; the search ended, its allowance of work was used up" in str(advice)
+    assert "lock 4 joints: the first set; the search ended at its work limit" in str(advice)
 
 
 def test_no_set_of_diagonals_within_the_allowance():

@@ -154,9 +154,13 @@ def test_flaps_are_told_apart():
 
 
 def test_what_is_protected_may_leave_too_little():
-    with pytest.raises(UnsolvableError, match=r"of 3 freedoms at least 1 stay: .* hold 2, and 3 are to be held"):
+    with pytest.raises(
+        UnsolvableError, match=r"at least 1 of 3 degrees of freedom remain: .* removes 2, and 3 are to be removed"
+    ):
         advise(flapped(), 0, flaps=False)
-    with pytest.raises(UnsolvableError, match=r"at least 3 stay: .* hold 0, and 1 are"):
+    with pytest.raises(
+        UnsolvableError, match=r"at least 3 of 3 degrees of freedom remain: .* removes 0, and 1 are"
+    ):
         advise(flapped(), 2, links=range(6))
 
 
@@ -175,7 +179,7 @@ def test_what_is_not_there_is_refused(asked, told):
 
 
 def test_as_many_as_there_are_need_nothing(data):
-    assert "nothing to do" in str(advise(flapped(), 3))
-    assert "0 freedoms at the pose given; wanted 0" in str(
+    assert "nothing to change" in str(advise(flapped(), 3))
+    assert "0 degrees of freedom at this configuration; required: 0" in str(
         advise(read(data / "linkages" / "wampler-cube-locked.json"), 0)
     )

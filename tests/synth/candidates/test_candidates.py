@@ -8,6 +8,7 @@ import signal
 
 import numpy as np
 import pytest
+from commands import run
 from conical import STEPHENSON, WATT
 from rebuilt import Space, closing_error
 
@@ -16,21 +17,22 @@ from enumerate.conical.query import Portion, count_conical_orders
 from enumerate.conical.rounds import canonical_row
 from enumerate.conical.symmetries import links_apart
 from enumerate.runner.columns import row_as_dict
-from enumerate.runner.running import Interrupted
-from enumerate.runner.running import run as run_job
+from enumerate.runner.running import Interrupted, run as run_job
 from enumerate.runner.sinks import RowSink
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.files.formats import read
 from graphs.geometry import angles_between
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob, Filter
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.cycles import loops_of_chain
 from synth.conformed.pose import joint_axes
 from synth.conformed.rates import ConformedChain
+from synth.surfaces.common import common_surfaces
 from synth.surfaces.cone import link_angles
-from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.several_loops import link_pairs, loop_steps
 
 
@@ -48,7 +50,7 @@ def random_candidates(rng, count):
     for number in range(count):
         chain, ground = pool[number % len(pool)]
         lam, joints = rng.uniform(0.15, 1.2), len(chain.joints)
-        one = CandidateJob(chain, (ground,), samples=1, seed=number, cone_angle=lam)
+        one = CandidateJob(chain, (ground,), samples=1, seed=number, surface=None if lam is None else Cone(lam))
         order = canonical_row(rng.permutation(joints), one.query.symmetries(ground), joints)
         [row] = one.work(Portion(ground, order))
         yield one, dict(zip(one.columns, row, strict=True))
@@ -59,7 +61,7 @@ def test_random_candidates_rebuilt_in_space(count, rng):
     """Axes on the cone, loops close, sums are multiples of 360 degrees, links go where velocities say."""
     told = 0
     for job, row in random_candidates(rng, count):
-        lam, places = job.cone_angle, job.places(row)
+        lam, places = job.surface and job.surface.angle, job.places(row)
         chain = job.chain
         axes = joint_axes(places, lam)
         np.testing.assert_allclose(np.arctan2(-axes[:, 1], np.hypot(axes[:, 0], axes[:, 2])), lam, atol=1e-12)
@@ -128,7 +130,7 @@ def moved_as_told(job, row, places, lam):
 
 def test_slots_agree_with_the_counts_and_the_inverse(rng):
     """Link angles of a candidate with lambda give the cone, its signs and its azimuths back."""
-    job = CandidateJob(STEPHENSON, (0,), slots=8, cone_angle=np.radians(35))
+    job = CandidateJob(STEPHENSON, (0,), slots=8, surface=Cone(np.radians(35)))
     rows = job.rows()
     assert len(rows) == count_conical_orders(job.query)
     assert len({tuple(row["slots"]) for row in rows}) == len(rows)
@@ -140,10 +142,10 @@ def test_slots_agree_with_the_counts_and_the_inverse(rng):
         assert sum(half) == row["half_turn_steps"] == len(row["half_turns"])
         if any(half):
             continue
-        angles = {(a, b): float(link_angles(at[b] - at[a], job.cone_angle)) for a, b in link_pairs(STEPHENSON)}
-        cones, families = common_cones(STEPHENSON, angles)
+        angles = {(a, b): float(link_angles(at[b] - at[a], job.surface.angle)) for a, b in link_pairs(STEPHENSON)}
+        cones, families = common_surfaces(STEPHENSON, angles)
         assert not families
-        hits = [one for one in cones if abs(one.cone_angle - job.cone_angle) < 1e-7]
+        hits = [one for one in cones if abs(one.surface.angle - job.surface.angle) < 1e-7]
         assert any(
             np.abs(np.exp(1j * np.array([one.places[j] for j in at])) - turned).max() < 1e-5
             for one in hits
@@ -179,7 +181,7 @@ def test_filters_keep_what_they_say():
 
 def test_a_stopped_run_goes_on(tmp_path):
     store = tmp_path / "watt.sqlite"
-    job = CandidateJob(WATT, (0, 1), slots=9, cone_angle=0.3)
+    job = CandidateJob(WATT, (0, 1), slots=9, surface=Cone(0.3))
 
     def press(progress):
         if progress.done == 3:
@@ -243,7 +245,7 @@ def test_a_unit_of_eight_bars_by_orders():
     ("make", "error", "message"),
     [
         (lambda: CandidateJob(WATT, slots=9, opposites=True), InvariantError, "together"),
-        (lambda: CandidateJob(WATT, cone_angle=0.3), InvariantError, "without angles"),
+        (lambda: CandidateJob(WATT, surface=Cone(0.3)), InvariantError, "without angles"),
         (lambda: CandidateJob(WATT, ("x",)), InvariantError, "no link"),
         (lambda: CandidateJob(WATT, slots=6), InvariantError, "6 slots for 7 joints"),
         (lambda: CandidateJob(WATT, filters=(Filter("rank", 6),)), InvariantError, "no column 'rank'"),
@@ -254,3 +256,29 @@ def test_a_unit_of_eight_bars_by_orders():
 def test_jobs_that_make_no_sense(make, error, message):
     with pytest.raises(error, match=message):
         make()
+
+
+def test_candidates_on_a_cylinder_have_lengths(data):
+    """Of a file on a cylinder: lengths of links by coordinates, the class of their chords, rows written as files."""
+    chain = read(data / "surfaces" / "fig10-four-bar.json").chain
+    job = CandidateJob(chain, (1,), slots=7, surface=Cylinder(3.0))
+    rows = job.rows()
+    assert len(rows) > 5
+    for row in rows:
+        corners = {
+            joint: 3.0 * np.array([np.sin(t), np.cos(t)])
+            for joint, t in zip(chain.joints, job.places(row), strict=True)
+        }
+        for first, second, length in row["link_lengths"]:
+            assert length == pytest.approx(np.linalg.norm(corners[first] - corners[second]), rel=1e-9)
+        lengths = [length for *_, length in row["link_lengths"]]
+        assert (row["grashof_loops"] == 1) == (2 * (max(lengths) + min(lengths)) < sum(lengths) - 1e-12)
+        assert "synthedra/cylindrical" in job.mechanism_text(row)
+    told = run(
+        "enumerate", "conical", "--chain", data / "surfaces" / "fig10-four-bar.json", "--slots", 7, "--radius", 3
+    )
+    assert "radius 3.0" in told.stdout
+    assert (
+        "one of them"
+        in run("enumerate", "conical", "--chain", "watt", "--radius", 3, "--lambda", 3, code=2).output
+    )

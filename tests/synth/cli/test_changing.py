@@ -10,7 +10,9 @@ import jsonschema
 import pytest
 from commands import run
 
-from graphs.files.formats import read
+from graphs.files.formats import read, write
+from graphs.identity.chains import chain_id
+from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -157,6 +159,25 @@ def test_edits_of_patterns_that_cannot_be(words, message, data):
 )
 def test_edits_that_cannot_be(words, message, data):
     assert message in run("edit", data / "wiener" / "watt.json", *words, code=2).stderr
+
+
+def test_a_loop_between_links_that_are_not_adjacent_goes_through_named_joints(data, tmp_path):
+    """Wiener 4.2.5.2: four links between two links of a spherical six-bar make the ten-bar of 4.1.4.6, M 3 to 2."""
+    ring, ten = tmp_path / "ring.json", tmp_path / "ten.json"
+    write(SCGraph(6, [(i, (i + 1) % 6) for i in range(6)], [Loop(range(6))]), ring)
+    (told,) = json.loads(run("edit", "--json", ring, "--add-spatial-loop", "0,2,4:0,1", "-o", ten).stdout)["edits"]
+    assert (told["predicted"], told["counted"], told["mobility"], told["equation"]) == (-1, -1, 2, "Eq. 5")
+    made, known = read(ten), read(data / "wiener" / "hybrid-ten-bar.json")
+    assert chain_id(made) == chain_id(known)
+    assert (
+        (len(made.centred_loops), made.spatial_loops) == (len(known.centred_loops), known.spatial_loops) == (1, 1)
+    )
+    (told,) = json.loads(run("edit", "--json", ring, "--add-loop", "0,3,2:0,1,2").stdout)["edits"]
+    assert (told["predicted"], told["counted"], told["mobility"], told["equation"]) == (0, 0, 3, "Eq. 6")
+    refused = run("edit", ring, "--add-spatial-loop", "0,2,4", code=2).stderr
+    assert "say which joints the new loop goes through" in refused
+    assert "is no joint" in run("edit", ring, "--add-loop", "0,2,4:0,9", code=2).stderr
+    assert "meets link" in run("edit", ring, "--add-loop", "0,2,4:3,4", code=2).stderr
 
 
 def test_reconstruct_writes_the_model(data, tmp_path):

@@ -81,7 +81,7 @@ def test_examples_of_the_help_text_run(tmp_path, monkeypatch, data):
     (tmp_path / "data").symlink_to(data)
     out = run("enumerate", "conical", "--help").stdout
     examples = re.findall(r"^ +synth (.*)$", out.partition("Example")[2], re.MULTILINE)
-    assert len(examples) == 7
+    assert len(examples) == 8
     for example in examples:
         if "--slots 12" not in example:  # the 249 600 of the benchmark
             run(*shlex.split(example))

@@ -8,8 +8,8 @@ from commands import run
 def test_positions_of_a_vertex(data):
     vertex = data / "patterns" / "four-bar-vertex.fold"
     printed = run("positions", vertex, "--drive", "2=90", "--no-circuits").stdout
-    assert printed.startswith("2 positions with joint 2 at 90 degrees")
-    assert "all of them followed: a general member has 2" in printed
+    assert printed.startswith("2 positions with joint 2 at 90°")
+    assert "all solutions tracked: a generic realisation has 2" in printed
     told = json.loads(run("positions", vertex, "--drive", "2=90", "--no-circuits", "--json").stdout)
     assert [one["circuit"] for one in told["positions"]] == [None, None]
     assert sorted(round(one["angles_deg"]["0"], 4) for one in told["positions"]) == [-137.7883, -16.0831]
@@ -22,4 +22,4 @@ def test_out_of_reach_and_bad_words(data, tmp_path):
     assert "'3' is not JOINT=DEGREES" in run("positions", ring, "--drive", "3", code=2).stderr
     lines = run("positions", data / "linkages" / "bennett.json", "--drive", "0=3", code=2).stderr.splitlines()
     assert len(lines) == 1
-    assert "has no finite centre" in lines[0]
+    assert "meet in a point or are parallel" in lines[0]

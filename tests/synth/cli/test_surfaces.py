@@ -13,7 +13,7 @@ from commands import run
 from conical import WATT
 
 from graphs.files.formats import write
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from synth.surfaces.cone import link_angles
 from synth.surfaces.several_loops import link_pairs
 
@@ -117,24 +117,24 @@ def test_a_linkage_of_several_loops(tmp_path, rng):
     )
     places = dict(zip(WATT.joints, rng.uniform(-3, 3, 7), strict=True))
     angles = {(a, b): float(link_angles(places[b] - places[a], 0.7)) for a, b in link_pairs(WATT)}
-    write(ConicalLinkage(WATT, angles=angles), tmp_path / "watt.json")
+    write(SurfaceLinkage(WATT, angles=angles), tmp_path / "watt.json")
     found = told("cone", "map", tmp_path / "watt.json")
     assert any(one["lambda_deg"] == pytest.approx(np.degrees(0.7)) for one in found["cones"])
     assert "lambda 40.1070" in run("cone", "map", tmp_path / "watt.json").stdout
     first = next(iter(angles))
-    write(ConicalLinkage(WATT, angles={**angles, first: angles[first] + 0.01}), tmp_path / "off.json")
+    write(SurfaceLinkage(WATT, angles={**angles, first: angles[first] + 0.01}), tmp_path / "off.json")
     assert "no cone is common to all loops" in run("cone", "map", tmp_path / "off.json").stdout
     assert told("cone", "map", tmp_path / "off.json")["cones"] == []
     assert told("cone", "map", tmp_path / "off.json", "--tolerance", 5)["cones"]
     steps = {(0, j): places[j] - places[0] for j in range(1, 7)}
-    write(ConicalLinkage(WATT, steps=steps), tmp_path / "any.json")
+    write(SurfaceLinkage(WATT, steps=steps), tmp_path / "any.json")
     assert [one["lambda_deg"] for one in told("cone", "map", tmp_path / "any.json")["families"]] == [[0.0, 90.0]]
     assert "every lambda between 0 and 90 degrees" in run("cone", "map", tmp_path / "any.json").stdout
 
 
 def test_behaviour_of_a_four_bar():
     out = run("cone", "behaviour", "--steps", "40,50,50").stdout
-    assert "any cone, link 1 fixed: can be intramobile or extramobile" in out
+    assert "any cone or cylinder, link 1 fixed: can be intramobile or extramobile" in out
     assert "Table 4: case 1, open, A" in out
     (one,) = told("cone", "behaviour", "--steps", "40,50,50,-140", "--ground", 2)["linkages"]
     assert (one["intramobile"], one["extramobile"], one["ground"]) == (False, False, 2)
@@ -232,7 +232,7 @@ def test_a_picture_without_matplotlib_names_the_extra(monkeypatch, tmp_path):
         (["cylinder", "map", "--lengths", "1,-2,2"], "length 2 is -2; expected a length above 0"),
         (["cylinder", "map", "--lengths", "3,4,5", "-o", "a.bmp"], "a.bmp: the extension is not known"),
         (["cone", "map", "missing.json"], "missing.json: no such file"),
-        (["cone", "map", ROOT / "data" / "wiener" / "watt.json"], "a linkage on a cone, 'synthedra/conical'"),
+        (["cone", "map", ROOT / "data" / "wiener" / "watt.json"], "a linkage on a surface, 'synthedra/conical' or 'synthedra/cylindrical'"),
         (["cone", "behaviour", "--steps", "40,50,50", "--lambda", "90"], "the cone angle is 90 degrees; expected 0 or"),
         (["cone", "behaviour", "--steps", "40,50,50", "--lambda", "-1"], "the cone angle is -1 degrees"),
         (["cone", "behaviour", "--steps", "40,0,50"], "step 2 is 0 degrees"),

@@ -70,4 +70,4 @@ def test_a_process_ends_with_70_too():
 @pytest.mark.parametrize("file", ["docs/command-json.md", "docs/architecture.md", "README.md", "CONTRIBUTING.md"])
 def test_the_status_is_listed(file):
     assert "70" in (ROOT / file).read_text(encoding="utf-8")
-    assert "70 a fault of the program" in run("--help").stdout
+    assert "70, a fault of the program" in run("--help").stdout

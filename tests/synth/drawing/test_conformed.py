@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Cone
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
 from synth.drawing.scene.shapes import Label, Polygon
@@ -31,7 +32,7 @@ def test_names_are_no_formulas_and_no_control_characters(tmp_path, kind):
 
 def test_circle_and_cone_are_seen_from_the_same_side():
     """Joints follow each other in one sense in both: neither is the other's mirror image."""
-    circle, cone = draw_conformed(four_bar(), np.radians([20, 140, 250, 300]), 0.4).layers[:2]
+    circle, cone = draw_conformed(four_bar(), np.radians([20, 140, 250, 300]), Cone(0.4)).layers[:2]
     for layer in (circle, cone):
         labels = [shape for shape in layer.shapes if isinstance(shape, Label)]
         at = {label.text: label.at for label in labels if label.data}
@@ -44,8 +45,7 @@ def test_circle_and_cone_are_seen_from_the_same_side():
 def test_the_shadow_holds_ground_and_coupler():
     """The double wedge between the lines of the side links, whatever the order of the joints."""
     from shapely import union_all
-    from shapely.geometry import LineString
-    from shapely.geometry import Polygon as Area
+    from shapely.geometry import LineString, Polygon as Area
 
     for azimuths in ([20, 140, 250, 300], [20, 250, 140, 300], [0, 40, 90, 140], [10, 200, 60, 120]):
         circle = draw_conformed(four_bar(), np.radians(azimuths)).layers[0]
@@ -59,4 +59,4 @@ def test_the_shadow_holds_ground_and_coupler():
 
 def test_the_picture_needs_no_matplotlib(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
-    assert 'data-layer="0"' in svg_text(draw_conformed(four_bar(), np.radians([40, 90, 140, 0]), 0.4))
+    assert 'data-layer="0"' in svg_text(draw_conformed(four_bar(), np.radians([40, 90, 140, 0]), Cone(0.4)))

@@ -147,3 +147,29 @@ def test_the_length_of_an_axis_does_not_matter():
     axes = rng.normal(size=(500, 3))
     for size in (1e-100, 1e100):
         assert np.array_equal(order_verdicts(given, size * axes), order_verdicts(given, axes))
+
+
+def test_the_signs_are_the_rows_of_the_inequalities():
+    """Eq. 2 as n rows, 0 < d_13 < ... < d_1n < d_2n < 180, by angles of lines across G, for either direction."""
+    random = np.random.default_rng(7)
+    seen = set()
+    for _ in range(300):
+        n = int(random.integers(3, 7))
+        orientations = random_orientations(n, random)
+        g = random.normal(size=3)
+        g /= np.linalg.norm(g)
+        lines = [orientations.relative_axis(*pair) for pair in ((1, 2), *required_sequence(n))]
+        u = np.cross(g, lines[0])
+        u /= np.linalg.norm(u)
+        v = np.cross(g, u)
+        turns = np.degrees([np.arctan2(line @ v, line @ u) for line in lines])
+        rows = {}
+        for name, way in zip(DIRECTIONS, (1.0, -1.0), strict=True):
+            d = (way * (turns[1:] - turns[0])) % 180.0
+            row = [d[0] > 0.0, *(d[1:] > d[:-1]), d[-1] < 180.0]
+            assert len(row) == n
+            rows[name] = all(row)
+        kept = order_by_inequalities(orientations, g)
+        assert rows == {name: name == kept for name in DIRECTIONS}
+        seen.add(kept)
+    assert len(seen) == 3

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from cranks import lines_apart, random_orientations
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import InvariantError, UnsolvableError

@@ -122,7 +122,7 @@ def test_the_first_branch_that_will_do_is_one_of_all():
     linkage = linkage_of_sheet(miura(3, 3, np.radians(60)))
     signs = [branch.signs for branch in branches_of(linkage).branches]
     found = first_branch(linkage, lambda rates: bool(np.abs(rates).min() > 1e-7))
-    assert found.signs == next(row for row in signs if "0" not in row)
+    assert found.signs in {row for row in signs if "0" not in row}
     assert first_branch(linkage, lambda rates: False) is None
 
 

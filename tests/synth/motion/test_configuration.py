@@ -67,7 +67,7 @@ def test_of_a_frame_the_linkage_is_that_of_the_frame(data):
 def test_solids_know_their_precision_and_no_sides():
     at = configuration_of(generate("bennett").mechanism)
     assert type(at) is Configuration
-    assert (at.flat, at.limited, at.verb, at.mended) == (False, False, "Moves", ())
+    assert (at.flat, at.limited, at.mended) == (False, False, ())
     assert not at.marks.any()
     with pytest.raises(UnsolvableError, match="panels of a sheet"):
         synth.move(generate("bennett").mechanism, frames=1, collisions=True)

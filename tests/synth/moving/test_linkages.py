@@ -79,13 +79,13 @@ def test_what_has_no_axes_says_so(thing, told):
 
 
 def test_a_linkage_on_two_cones_is_on_neither():
-    from graphs.mechanism.conical import ConicalLinkage
+    from graphs.mechanism.on_surface import SurfaceLinkage
 
     ring = SCGraph(4, {name: (i, (i + 1) % 4) for i, name in enumerate("OABC")}, [Loop("OABC")])
     links = np.radians([120, 95, 45, 85])
     angles = dict(zip([("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")], links.tolist(), strict=True))
     with pytest.raises(UnsolvableError, match="2 cones"):
-        configuration_of(ConicalLinkage(ring, angles=angles))
+        configuration_of(SurfaceLinkage(ring, angles=angles))
 
 
 @pytest.mark.parametrize(("centre", "moved"), [("finite", (0, 0, 0.1)), ("infinite", (0, 0.1, 0))])
@@ -118,7 +118,7 @@ def test_synth_fold_moves_what_has_no_panels(data, tmp_path):
     assert told["stopped"] is None
     assert np.diff(told["joint_angles_deg"]["0"]) == pytest.approx([20, 20, 20])
     assert told["joint_angles_deg"]["2"][-1] == pytest.approx(-60)
-    assert "1 freedom, numerical" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
+    assert "1 degree of freedom (numerical)" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
     assert "no panels to write" in run("fold", file, "-o", tmp_path / "a.fold", code=2).stderr
     assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 

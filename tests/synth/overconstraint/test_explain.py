@@ -1,6 +1,7 @@
 """Why mechanisms move although counts say no: idle equations, their loops, reasons, errors that lock."""
 
 import json
+from collections import Counter
 from dataclasses import replace
 from math import inf, pi, radians
 
@@ -10,6 +11,8 @@ from commands import run
 
 import synth
 from graphs.errors import UnsolvableError
+from graphs.joints import JointedLinkage, JointPlace
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.motion.closure import ClosureEquations
 from synth.moving.made import configuration_of
@@ -48,7 +51,7 @@ def test_a_miura_sheet_has_an_idle_equation_round_every_inner_panel(rows, column
         assert (len(one.loops), one.idle) == (4, 1)
         shared = [set(a) & set(b) for a in one.loops for b in one.loops if a != b]
         assert sum(map(len, shared)) == 8  # each of the four has a crease in common with two
-        assert "fold flat" in one.reasons[0]
+        assert "flat-foldable" in one.reasons[0]
 
 
 @pytest.mark.parametrize("decimals", [6, 4, 3])
@@ -59,21 +62,21 @@ def test_a_rounded_sheet_moves_for_the_reasons_of_the_exact_one(size, decimals):
     exact, rounded = explain(sheet), explain(replace(sheet, coordinates=places))
     assert (rounded.freedoms, rounded.idle, rounded.active) == (exact.freedoms, exact.idle, exact.active)
     assert rounded.sets == exact.sets
-    assert all("fold flat" in one.reasons[0] for one in rounded.sets)
+    assert all("flat-foldable" in one.reasons[0] for one in rounded.sets)
 
 
 def test_equations_of_a_flat_sheet_are_active_at_second_order():
     found = explain(generate("miura", rows=3, columns=3).mechanism)
     assert (found.freedoms, found.idle, found.active) == (4, 4, 4)
-    assert {one.reasons for one in found.sets} == {("all axes in one plane, at this pose",)}
+    assert {one.reasons for one in found.sets} == {("all axes in one plane, at this configuration",)}
     assert found.tolerances == ()
-    assert "at second order 4 of 4 idle equations" in str(found)
+    assert "at second order 4 of 4 redundant closure equations" in str(found)
 
 
 def test_a_general_linkage_has_nothing_idle():
     found = explain(generate("four-bar").mechanism)
     assert (found.freedoms, found.count, found.idle, found.sets) == (1, 1, 0, ())
-    assert "no equation is idle" in str(found)
+    assert "no closure equation is redundant" in str(found)
     with pytest.raises(UnsolvableError, match="needs coordinates"):
         explain(synth.read("k1:Cr"))
 
@@ -134,11 +137,39 @@ def test_growth_is_that_of_rates_for_each_axis():
     assert growths(linkage, order).shape == (3, 24)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_platform_that_does_not_turn_owes_it_to_the_directions_of_its_axes(seed):
+    """Three C-R-R legs, however they lie in space: 3 equations of the slides of Sarrus, 3 of turning."""
+    turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    made = generate("3-crr").mechanism
+    places = {
+        joint: JointPlace(tuple(turn @ place.point), tuple(tuple(turn @ axis) for axis in place.axes))
+        for joint, place in made.places.items()
+    }
+    found = explain(JointedLinkage(made.chain, made.kinds, places))
+    assert (found.freedoms, found.idle, found.active) == (3, 6, 0)
+    by_reason = Counter(one.reasons[0].split(":")[0] for one in found.sets for _ in range(one.idle))
+    assert by_reason == {
+        "two triples of parallel axes (Sarrus)": 3,
+        "axes parallel in each leg": 3,
+    }
+
+
+def test_axes_of_a_leg_that_are_not_parallel_are_not_said_to_be():
+    """A ring of two directions, three and two axes: one equation of turning, and no legs."""
+    axes = [((0, 0, 0), (0, 0, 1)), ((1, 0, 0), (0, 0, 1)), ((1, 1, 0), (0, 0, 1)), ((0, 2, 1), (1, 0, 0)),
+            ((0, 1, 3), (1, 0, 0))]  # fmt: skip
+    ring = SCGraph(5, [(i, (i + 1) % 5) for i in range(5)])
+    found = explain(HingedSolids(ring, dict(enumerate(axes))))
+    (one,) = found.sets
+    assert one.reasons == ("directions of axes alone: the rotational closure equations are dependent",)
+
+
 def test_the_command(tmp_path, data):
     told = json.loads(run("explain", data / "linkages" / "bennett.json", "--json").stdout)
     assert (told["freedoms"], told["count"], told["h"], told["active_at_second_order"]) == (1, -2, 3, 0)
     assert told["sets"][0]["loops"] == [[3, 0, 1, 2]]
     assert {one["joint"] for one in told["tolerances"]} == {0, 1, 2, 3}
     printed = run("explain", data / "linkages" / "bennett.json").stdout
-    assert "3 idle equations in 1 loop of joints '3 0 1 2': opposite links alike" in printed
+    assert "3 redundant equations in 1 loop of joints 3, 0, 1, 2: opposite links equal" in printed
     assert "needs coordinates" in run("explain", "k1:Cr", code=2).stderr

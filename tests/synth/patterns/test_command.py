@@ -34,10 +34,10 @@ def test_a_file_for_every_command(tmp_path):
     printed = run("generate", "miura", "--rows", 2, "--columns", 2, "--fold", 30, "-o", sheet).stdout
     assert "folded to 30 degrees" in printed
     assert "freedoms of finite motion 1, by its source" in printed
-    assert "Folds with 1 freedom from its pose" in run("mobility", sheet).stdout
+    assert "Rigid-foldable from this configuration: 1 degree of freedom" in run("mobility", sheet).stdout
     told = json.loads(run("generate", "bennett", "--twist", 30, "-o", ring, "--json").stdout)
     assert (told["parameters"]["twist"], told["freedoms"], told["output"]) == (pytest.approx(30), 1, str(ring))
-    assert "1 freedom, numerical" in run("fold", ring, "--drive", "0=3", "--frames", 1).stdout
+    assert "1 degree of freedom (numerical)" in run("fold", ring, "--drive", "0=3", "--frames", 1).stdout
 
 
 def test_wrong_words_are_one_line(tmp_path):

@@ -124,7 +124,7 @@ def test_what_is_flat_folds_to_the_end_of_the_range(name):
 def test_a_hexagon_twist_with_two_other_vertices_has_15_ways():
     verdict = mobility(generate("hexagon-twist", other=2).mechanism, exact=False).verdict
     assert (verdict.freedoms, len(verdict.ways), verdict.exhaustive) == (1, 15, True)
-    assert "as it is marked" in verdict.text
+    assert "with the given mountain-valley assignment" in verdict.text
 
 
 def test_the_tips_of_the_bird_base_are_where_the_sides_come_to_the_diagonals(data):
@@ -197,7 +197,7 @@ def test_a_hexagon_twist_is_rigid_but_at_its_twist():
     assert mobility(polygon_twist(6, 0.4), exact=False).verdict.freedoms == 0
     verdict = mobility(generate("hexagon-twist", other=1).mechanism, exact=False).verdict
     assert (verdict.freedoms, len(verdict.ways), verdict.exhaustive) == (1, 6, True)
-    assert "as it is marked" in verdict.text
+    assert "with the given mountain-valley assignment" in verdict.text
     inner = np.array(generate("hexagon-twist", other=2).mechanism.coordinates[:6])
     assert np.arctan2(inner[1, 1], inner[1, 0]) == pytest.approx(pi / 6 - np.arcsin(1 / 4), abs=1e-12)
 
@@ -247,6 +247,10 @@ def test_links_that_do_not_close_on_the_sphere_are_told_why(name, given, told, r
         ("parallel-pop-up", {"left": 2.5, "right": 1.5, "opening": radians(60), "first": 4.0, "holds": True}),
         ("goldberg", {"other": radians(100), "shared": radians(80), "holds": False}),
         ("3-uuu", {"base": 2.0, "top": 2.0, "holds": False}),
+        ("beaked-box", {"width": 0.9, "reach": 0.91, "angle": radians(20), "holds": False}),
+        ("beaked-box", {"width": 0.9, "reach": 0.89, "angle": radians(20), "holds": True}),
+        ("beaked-box", {"depth": 0.8, "reach": 0.6, "angle": radians(54), "holds": False}),
+        ("beaked-box", {"depth": 0.8, "reach": 0.6, "angle": radians(52), "holds": True}),
     ],
 )
 def test_relations_are_those_that_are_checked(name, values):

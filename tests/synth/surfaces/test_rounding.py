@@ -11,10 +11,10 @@ from conical import WATT
 from many_digits import DIGITS, at_most, crossed_cone, loop_on_a_cone, over, root, signed_sums
 
 from synth.fourbar.closing import can_close, kind_of_planar, kind_of_spherical
+from synth.surfaces.common import common_surfaces
 from synth.surfaces.cone import link_angles, map_to_cones
 from synth.surfaces.cyclic import circumradii, cone_angles
 from synth.surfaces.cylinder import map_to_cylinders
-from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.loop_sums import loop_roots
 from synth.surfaces.several_loops import link_pairs
 
@@ -211,14 +211,14 @@ def test_small_linkages_of_several_loops():
         places, lam = rng.uniform(-np.pi, np.pi, 7), np.pi / 2 - scale
         at = dict(zip(WATT.joints, places, strict=True))
         angles = {(a, b): float(link_angles(at[b] - at[a], lam)) for a, b in link_pairs(WATT)}
-        cones, families = common_cones(WATT, angles)
+        cones, families = common_surfaces(WATT, angles)
         (one,) = cones
-        assert (one.cone_angle, one.caution) == (pytest.approx(lam, rel=1e-6), "")
+        assert (one.surface.angle, one.caution) == (pytest.approx(lam, rel=1e-6), "")
         assert families == ()
     # on a short arc the loops close nearly flat: the tolerance lets them close on any cone
     at = dict(zip(WATT.joints, 1e-4 * places, strict=True))
     angles = {(a, b): float(link_angles(at[b] - at[a], 0.7)) for a, b in link_pairs(WATT)}
-    cones, families = common_cones(WATT, angles)
+    cones, families = common_surfaces(WATT, angles)
     assert cones
     assert all("tells no lambda" in one.caution for one in cones)
 
@@ -230,7 +230,7 @@ def test_a_family_of_several_loops_within_rounding_says_so():
     angles = dict(zip(pairs, [1.0, 0.6] * 4, strict=True))
     off = {**angles, pairs[0]: 1.0 + EPS}
     for given, told in ((angles, False), (off, True)):
-        families = common_cones(WATT, given)[1]
+        families = common_surfaces(WATT, given)[1]
         assert len(families) > 1
         assert [bool(family.caution) for family in families] == [told] * len(families)
 

@@ -15,11 +15,11 @@ from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read_linkage, write
 from graphs.geometry import angles_between
 from graphs.loops.loop import Loop
-from graphs.mechanism.conical import ConicalLinkage, places_of_steps
+from graphs.mechanism.on_surface import SurfaceLinkage, places_of_steps
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.pose import joint_axes
+from synth.surfaces.common import common_surfaces
 from synth.surfaces.cone import link_angles, map_to_cones
-from synth.surfaces.linkage_cones import common_cones
 from synth.surfaces.several_loops import link_pairs, loop_steps
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -62,12 +62,12 @@ def test_link_angles_from_a_cone_give_it_back(chain, whole, cases, rng):
     for _ in range(cases):
         places, lam = rng.uniform(-np.pi, np.pi, 7), rng.uniform(0.1, 1.3)
         angles = angles_of(chain, places, lam, None if whole else pairs_in_loops(chain))
-        cones, families = common_cones(chain, angles)
+        cones, families = common_surfaces(chain, angles)
         assert not families
         signs = [np.sign(loop.steps) for loop in loop_steps(chain, places)]
         mirror = signs[0][0]
         wanted = tuple(tuple((one * mirror).astype(int).tolist()) for one in signs)
-        (hit,) = [cone for cone in cones if abs(cone.cone_angle - lam) < 1e-6 and cone.signs == wanted]
+        (hit,) = [cone for cone in cones if abs(cone.surface.angle - lam) < 1e-6 and cone.signs == wanted]
         assert hit.residual < 1e-6
         # its azimuths are ours, but for where they begin and the mirror
         shown = np.array([hit.places[joint] for joint in chain.joints])
@@ -75,7 +75,7 @@ def test_link_angles_from_a_cone_give_it_back(chain, whole, cases, rng):
         assert np.abs(wrap(shown - mirror * (places - places[first]))).max() < 1e-5
         for cone in cones:
             own = np.array([cone.places[joint] for joint in chain.joints])
-            again = angles_of(chain, own, cone.cone_angle, list(angles))
+            again = angles_of(chain, own, cone.surface.angle, list(angles))
             assert again == pytest.approx(angles, abs=1e-6)
 
 
@@ -85,9 +85,9 @@ def test_link_angles_seldom_have_a_common_cone(chain, rng):
     angles = angles_of(chain, places, lam)
     one = next(iter(angles))
     for change in (1e-3, -1e-3):
-        assert common_cones(chain, {**angles, one: angles[one] + change}) == ((), ())
+        assert common_surfaces(chain, {**angles, one: angles[one] + change}) == ((), ())
     # a looser tolerance takes it
-    assert common_cones(chain, {**angles, one: angles[one] + 1e-6}, tolerance=1e-3)[0]
+    assert common_surfaces(chain, {**angles, one: angles[one] + 1e-6}, tolerance=1e-3)[0]
 
 
 @pytest.mark.parametrize("cases", [8, pytest.param(50, marks=pytest.mark.slow)])
@@ -97,12 +97,12 @@ def test_one_loop_is_what_the_mapping_says(cases, rng):
     for _ in range(cases):
         places, lam = rng.uniform(-np.pi, np.pi, 4), rng.uniform(0.1, 1.3)
         angles = angles_of(FOUR_BAR, places, lam, pairs)
-        mine, _ = common_cones(FOUR_BAR, angles)
+        mine, _ = common_surfaces(FOUR_BAR, angles)
         theirs = map_to_cones(list(angles.values())).cones
         assert [(one.signs[0], one.turns[0], one.circuits[0]) for one in mine] == [
             (one.signs, one.turns, one.circuit) for one in theirs
         ]
-        np.testing.assert_allclose([one.cone_angle for one in mine], [one.size for one in theirs], atol=1e-12)
+        np.testing.assert_allclose([one.surface.angle for one in mine], [one.size for one in theirs], atol=1e-12)
 
 
 def test_families_of_several_loops():
@@ -110,7 +110,7 @@ def test_families_of_several_loops():
     a, b = np.radians([60, 35])
     pairs = pairs_in_loops(WATT)
     angles = dict(zip(pairs, [a, b, a, b, a, b, a, b], strict=True))
-    cones, families = common_cones(WATT, angles)
+    cones, families = common_surfaces(WATT, angles)
     assert families
     assert all(one.interval == (0.0, pytest.approx(np.pi / 2 - a / 2)) for one in families)
     for one in families:
@@ -135,13 +135,13 @@ def test_families_of_several_loops():
 def test_link_angles_that_do_not_do(change, message, rng):
     angles = angles_of(WATT, rng.uniform(-3, 3, 7), 0.5)
     with pytest.raises(InvariantError) as error:
-        common_cones(WATT, change(angles))
+        common_surfaces(WATT, change(angles))
     assert message in str(error.value)
 
 
 def test_a_chain_without_loops_is_refused():
     with pytest.raises(UnsolvableError, match="no loops"):
-        common_cones(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]), {})
+        common_surfaces(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]), {})
 
 
 def test_steps_may_lead_any_way():
@@ -182,14 +182,14 @@ def schema():
 
 def test_files_come_back_as_they_were(tmp_path, rng):
     places = rng.uniform(-np.pi, np.pi, 7)
-    linkage = ConicalLinkage(WATT, angles=angles_of(WATT, places, 0.5))
+    linkage = SurfaceLinkage(WATT, angles=angles_of(WATT, places, 0.5))
     write(linkage, tmp_path / "a.json")
     jsonschema.validate(json.loads((tmp_path / "a.json").read_text()), schema())
     again = read_linkage(tmp_path / "a.json")
     assert again.angles == pytest.approx(linkage.angles, abs=1e-11)
     assert again.chain.joints == WATT.joints
-    cones, _ = common_cones(again.chain, again.angles)
-    assert any(abs(cone.cone_angle - 0.5) < 1e-6 for cone in cones)
+    cones, _ = common_surfaces(again.chain, again.angles)
+    assert any(abs(cone.surface.angle - 0.5) < 1e-6 for cone in cones)
     fig = read_linkage(FIG_11)
     write(fig, tmp_path / "b.json")
     assert (tmp_path / "b.json").read_text() == FIG_11.read_text()
@@ -231,7 +231,7 @@ def test_link_angles_with_a_cone_angle_are_refused(tmp_path):
     document["angles"] = document.pop("steps")
     path = tmp_path / "bad.json"
     path.write_text(json.dumps({**document, "angles": [["O", "A", 40]]}))
-    with pytest.raises(FileError, match="lambda_deg: a cone angle with link angles"):
+    with pytest.raises(FileError, match="lambda_deg: a cone with angles"):
         read_linkage(path)
 
 
@@ -240,6 +240,6 @@ def test_a_loop_may_be_named_from_any_joint(rng):
     turned = SCGraph(6, dict(WATT.joints), [Loop((2, 1, 0, 3)), Loop((5, 6, 3, 4))])
     places = rng.uniform(-np.pi, np.pi, 7)
     angles = angles_of(WATT, places, 0.4)
-    one, two = (common_cones(chain, angles)[0] for chain in (WATT, turned))
-    np.testing.assert_allclose([c.cone_angle for c in one], [c.cone_angle for c in two], atol=1e-9)
+    one, two = (common_surfaces(chain, angles)[0] for chain in (WATT, turned))
+    np.testing.assert_allclose([c.surface.angle for c in one], [c.surface.angle for c in two], atol=1e-9)
     assert [sorted(c.circuits) for c in one] == [sorted(c.circuits) for c in two]

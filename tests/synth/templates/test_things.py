@@ -12,10 +12,10 @@ from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.table import to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from synth.templates.developed.surfaces import Cylinder
+from graphs.mechanism.surfaces import Cylinder
 from synth.templates.developed.template import template_on_surface
 from synth.templates.template import template_of
-from synth.templates.things import linkage_on_a_cone, panels_of_thing
+from synth.templates.things import linkage_on_a_surface, panels_of_thing
 
 FOUR_BAR = "m1:a-b.ac-.b-d.cd-"
 LISTED = [(chain, mode) for creases in range(1, 7) for chain in strings(creases) for mode in chain.modes()]
@@ -89,5 +89,5 @@ def test_a_template_names_the_configuration_of_what_it_is_made_of(data, tmp_path
     told = json.loads(run("template", file, "-o", made, "--json").stdout)
     assert (told["configuration"]["links"], told["configuration"]["loops"]) == (6, 2)
     assert (told["pieces"], told["output"]) == (7, [str(made)])
-    on_any_cone = replace(linkage_on_a_cone(read(file)), cone_angle=None)
+    on_any_cone = replace(linkage_on_a_surface(read(file)), surface=None)
     assert template_on_surface(on_any_cone, Cylinder(50.0)).to_json()["configuration"] is None

@@ -1,6 +1,7 @@
 """Verdicts: the sentence, the numbers, how they are known, and what they are never to say."""
 
 import json
+import re
 from dataclasses import replace
 
 import networkx as nx
@@ -21,9 +22,12 @@ KEYS = {
     "certainty",
     "branches",
     "exhaustive",
+    "not_followed",
     "stiff_joints",
     "stiff_places",
     "clusters",
+    "as_written",
+    "within_precision",
     "text",
 }
 
@@ -42,17 +46,19 @@ def test_a_miura_sheet_folds_though_its_type_is_rigid():
     assert (answer.mobility, answer.exact.mobility, answer.pose.dof) == (-3, 0, 6)
     assert (answer.verdict.freedoms, answer.verdict.basis, answer.verdict.certainty) == (1, "motion", "proved")
     assert answer.verdict.text == (
-        "Folds with 1 freedom from flat as it is marked (8 ways: 1 with 3, 7 with 1); in general position "
-        "this type would be rigid (M = -3): its geometry is special, h = 4."
+        "Rigid-foldable from the flat state with the given mountain-valley assignment: 1 degree of freedom. "
+        "8 folding branches: 1 with 3 DOF, 7 with 1 DOF. "
+        "Overconstrained: a generic realisation is rigid (M = -3, h = 4)."
     )
-    assert str(answer).startswith("Folds with 1 freedom")
+    assert str(answer).startswith("Rigid-foldable from the flat state")
 
 
 def test_without_marks_the_freest_way_is_told():
     """Along its three straight lines."""
     verdict = told(unmarked(miura(4, 4, 1.0)))
     assert verdict.freedoms == 3
-    assert "marked" not in verdict.text
+    assert "from the flat state: up to 3 degrees of freedom." in verdict.text
+    assert "assignment" not in verdict.text
 
 
 def test_marks_that_no_way_has_are_said():
@@ -63,7 +69,7 @@ def test_marks_that_no_way_has_are_said():
         letters[i] = "V"
     verdict = told(replace(sheet, assignments="".join(letters)))
     assert verdict.freedoms == 1
-    assert "though no way begins as it is marked" in verdict.text
+    assert "1 degree of freedom, but not with the given assignment (proved)." in verdict.text
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -71,12 +77,12 @@ def test_marks_choose_up_to_the_sign_of_all(mirrored):
     sheet = miura(3, 4, 1.0)
     if mirrored:
         sheet = replace(sheet, assignments=sheet.assignments.translate(str.maketrans("MV", "VM")))
-    assert "as it is marked (" in told(sheet).text
+    assert "with the given mountain-valley assignment: 1 degree" in told(sheet).text
 
 
 def test_a_rigid_thing_is_proved_rigid():
     verdict = told(fan(np.radians([0, 120, 240])))
-    assert (verdict.freedoms, verdict.certainty, verdict.text) == (0, "proved", "Rigid: nothing moves.")
+    assert (verdict.freedoms, verdict.certainty, verdict.text) == (0, "proved", "Rigid.")
     assert len(verdict.stiff_joints) == 3
     assert verdict.clusters == ((0, 1, 2),)
     assert set(verdict.places) == set(verdict.stiff_joints)
@@ -87,8 +93,8 @@ def test_a_flap_on_a_rigid_thing_is_its_one_freedom():
     faces = ((0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 4, 2))
     verdict = told(Sheet(5, (), "", faces, corners))
     assert verdict.freedoms == 1
-    assert verdict.text.startswith("Rigid but for flaps: joints ")
-    assert "cannot move; 1 freedom is the flap " in verdict.text
+    assert verdict.text.startswith("Rigid except for flaps: 1 degree of freedom, at the flap joint ")
+    assert ". Immobile joints: " in verdict.text
     assert len(verdict.stiff_joints) == 3
 
 
@@ -97,7 +103,7 @@ def test_a_sector_of_180_degrees_leaves_the_others_stiff():
     verdict = told(fan(np.radians([0, 180, 230, 300])))
     assert verdict.freedoms == 1
     assert len(verdict.stiff_joints) == 2
-    assert "cannot move" in verdict.text
+    assert "Immobile joints: " in verdict.text
     assert len(verdict.clusters) == 1
 
 
@@ -119,7 +125,7 @@ def test_folded_poses_are_regular():
     folded = synth.fold(sheet, drive={1: 1.0}, frames=1).frames()[-1]
     verdict = told(folded)
     assert (verdict.freedoms, verdict.basis, verdict.certainty) == (1, "pose", "proved")
-    assert verdict.text == "Folds with 1 freedom from its pose."
+    assert verdict.text == "Rigid-foldable from this configuration: 1 degree of freedom."
 
 
 def test_types_without_coordinates_have_their_generic_mobility(data):
@@ -127,7 +133,7 @@ def test_types_without_coordinates_have_their_generic_mobility(data):
     assert (verdict.freedoms, verdict.basis, verdict.certainty) == (2, "generic", "proved")
     rigid = mobility(read(data / "wiener" / "concentric-loops.json")).verdict
     assert rigid.freedoms == 0
-    assert rigid.text.startswith("In general position it is rigid")
+    assert rigid.text.startswith("A generic realisation is rigid")
     counted = mobility(nx.cycle_graph(5), exact=False).verdict
     assert (counted.freedoms, counted.basis, counted.certainty) == (2, "count", "not known")
 
@@ -136,7 +142,7 @@ def test_motion_is_left_out_on_request():
     sheet = miura(2, 2, 1.0)
     verdict = mobility(sheet, motion=False).verdict
     assert verdict.basis == "generic"
-    assert "its motion was left out" in verdict.text
+    assert "its motion was not analysed" in verdict.text
     assert mobility(sheet, pose=False).verdict.basis == "generic"
 
 
@@ -144,10 +150,24 @@ def test_the_command_gives_the_verdict_first(tmp_path, data):
     file = tmp_path / "miura.fold"
     write(miura(3, 3, 1.0), file)
     lines = run("mobility", file).stdout.splitlines()
-    assert lines[1].startswith("Folds with 1 freedom from flat")
+    assert lines[1].startswith("Rigid-foldable from the flat state")
     [report] = json.loads(run("mobility", "--json", file).stdout)
     assert report["verdict"].keys() == KEYS
     assert [way["freedoms"] for way in report["verdict"]["branches"]].count(1) == 3
-    assert run("mobility", "--no-motion", file).stdout.splitlines()[1].startswith("In general position")
+    assert run("mobility", "--no-motion", file).stdout.splitlines()[1].startswith("A generic realisation")
     table = run("mobility", file, data / "wiener" / "watt.json").stdout
-    assert "freedoms" in table
+    assert "DOF" in table
+
+
+def test_the_table_of_equations_is_printed_on_request(data):
+    """The line names those that apply; the table has all of them, as the data have."""
+    file = data / "wiener" / "watt.json"
+    short, long = run("mobility", file).stdout, run("mobility", "--verbose", file).stdout
+    answer = mobility(read(file))
+    [line] = [line for line in short.splitlines() if line.startswith("equations that apply: ")]
+    rows = [line for line in long.splitlines() if re.search(r" (yes|no)  ", line)]
+    assert len(rows) == len(answer.equations) == len(answer.to_json()["equations"])
+    assert not any(equation.why in short for equation in answer.equations.values())
+    assert all(equation.why in long for equation in answer.equations.values())
+    named = line.removeprefix("equations that apply: ").partition("   ")[0].split("; ")
+    assert len(named) == sum(one.applies and one.value is not None for one in answer.equations.values())

@@ -156,7 +156,7 @@ def test_what_is_saved_is_read_and_closes(opened, data, tmp_path):
     place = tmp_path / "pose.fold"
     place.write_text(json.dumps(window.pose()))
     answer = synth.mobility(read(place))
-    assert "5 freedoms from its pose" in answer.verdict.text
+    assert "from this configuration: 5 degrees of freedom" in answer.verdict.text
 
 
 def test_a_panel_that_is_dragged_takes_the_others_with_it(opened, data):
@@ -280,7 +280,7 @@ def test_ways_and_mechanisms_are_chosen(opened, data):
     window.to(20)
     assert window.angle() == pytest.approx(20)
     window.tab.get_by_label("Mechanism").select_option("1")
-    assert "Moves with 1 freedom" in window.tab.locator(".verdict").text_content()
+    assert "Mobile from this configuration: 1 degree of freedom" in window.tab.locator(".verdict").text_content()
     assert not window.tab.get_by_label("Way to move").is_visible()
 
 

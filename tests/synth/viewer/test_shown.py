@@ -60,7 +60,7 @@ def test_what_is_rigid_is_shown_with_the_reason(data):
     shown = shown_of(read(data / "linkages" / "wampler-cube-locked.json"))
     assert shown.moving.ways is None
     assert len(shown.moving.bodies.faces) > 20
-    assert "nothing folds, which is proved" in shown.notes[0]
+    assert "no motion begins at this configuration (proved: " in shown.notes[0]
     assert len(shown.stiff) == len(shown.moving.linkage.angles)
 
 

@@ -1,13 +1,13 @@
 """Crease patterns as DXF: lines by the names of their layers, or else by their colours.
 
 Names that say what a line is are known in the forms that drawing programs and paper cutters use. Other names say
-nothing, and the colour counts, which is that of the origami colours (:mod:`graphs.files.patterns.strokes`).
+nothing, and the colour counts, and the legend (:mod:`graphs.files.patterns.legend`).
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +16,12 @@ from graphs.convert.tracing import MOST
 from graphs.convert.welding import Lines
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.check import Checker
+from graphs.files.patterns.dxf.colours import rgb_of_number
 from graphs.files.patterns.dxf.records import Record, records
 from graphs.files.patterns.dxf.shapes import drawn_shapes
 from graphs.files.patterns.dxf.written import DxfLayer, DxfLine, dxf_of
-from graphs.files.patterns.strokes import described_strokes, letter_of_colour
+from graphs.files.patterns.legend import LEFT_OUT, UNSTATED, Legend
+from graphs.files.patterns.strokes import Dash, Stroke, dash_of_line_type
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
 from graphs.mechanism.plane import flat_places
@@ -38,8 +40,8 @@ _NAMES = {
     "U": "crease creases fold folds score hinge unassigned",
 }
 _LETTERS = {name: letter for letter, names in _NAMES.items() for name in names.split()}
-_COLOURS = {1: "M", 2: "F", 3: "C", 5: "V", 6: "U", 7: "B", 250: "B"}
-"""Number of a colour to the assignment; 7 is black on white paper."""
+_NOTES = ("TEXT", "MTEXT", "DIMENSION", "LEADER", "POINT", "HATCH", "VIEWPORT", "ATTDEF", "IMAGE")
+"""Records that are no lines of a drawing, and are not missed."""
 _WRITTEN = {
     "B": DxfLayer("BORDER", 7),
     "C": DxfLayer("CUT", 3),
@@ -65,53 +67,45 @@ class _Layer:
 _PLAIN = _Layer(7, "CONTINUOUS")
 
 
-def sheet_from_dxf(path: Path) -> Sheet:
-    """Read the lines of a DXF file and trace its faces.
+def sheet_from_dxf(path: Path, legend: Legend = UNSTATED) -> Sheet:
+    """Read the lines of a DXF file and trace its faces; the legend says what strokes are, where that was stated.
 
     A FileError names the record, or why the lines make no pattern (:mod:`graphs.files.patterns.traced`).
     """
+    check = Checker(path)
     held = list(records(read_text(path), path))
     layers = {
         one.word(2): _Layer(one.whole(62, 7), one.word(6, "CONTINUOUS"))
         for one in held
         if (one.section, one.name) == ("TABLES", "LAYER")
     }
+    drawn = list(drawn_shapes([one for one in held if one.section == "ENTITIES"]))
+    strokes = [_stroke(record, layers.get(record.word(8), _PLAIN), pieces) for record, pieces in drawn]
+    understood = check.build(lambda: legend.understood(strokes))
     ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
     letters = ""
-    unread: Counter[str] = Counter()
-    for record, pieces in drawn_shapes([one for one in held if one.section == "ENTITIES"]):
-        layer = layers.get(record.word(8), _PLAIN)
-        letter = _letter(record, layer)
-        if pieces is None or letter is None:
-            unread[_kind(record, layer, shape=pieces is not None)] += 1
-            continue
-        ends += pieces
-        letters += letter * len(pieces)
+    for (_, pieces), letter in zip(drawn, understood.letters, strict=True):
+        if pieces is not None and letter is not None and letter != LEFT_OUT:
+            ends += pieces
+            letters += letter * len(pieces)
     array = np.array(ends, dtype=float).reshape(-1, 2, 2)
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "an arc that is too large", "coordinates")
-    left_out = described_strokes(unread)
-    sheet = traced_sheet(
-        Lines(array, letters),
-        Checker(path),
-        border="border lines (a layer CUT or BORDER, or black)",
-        unread=f"; {left_out}" if left_out else "",
-    )
-    return replace(sheet, repairs=(*sheet.repairs, *([left_out] if left_out else [])))
+    border = "border lines (a layer CUT or BORDER, or black)"
+    return traced_sheet(Lines(array, letters), check, border=border, understood=understood)
 
 
-def _letter(record: Record, layer: _Layer) -> str | None:
-    """Return the assignment of a shape, None if it is not understood, or not shown in the drawing."""
-    colour = _colour(record, layer)
-    if colour < 0 or record.whole(_PAPER_SPACE, 0):
-        return None
-    named = _LETTERS.get(record.word(8).lower())
-    if named is not None:
-        return named
+def _stroke(record: Record, layer: _Layer, pieces: Sequence[object] | None) -> Stroke:
+    """Return how a record looks: of no colour, and no line to be missed, what is hidden or a note."""
+    colour, name = _colour(record, layer), record.word(8, "0")
+    kind = _kind(record, layer, shape=pieces is not None)
+    hidden = colour < 0 or record.whole(_PAPER_SPACE, 0) != 0
+    if hidden or pieces is None:
+        return Stroke(None, kind=kind, lines=int(not hidden and record.name not in _NOTES))
     true = record.whole(420, -1)
-    rgb = (true >> 16 & 255, true >> 8 & 255, true & 255)
-    letter = letter_of_colour(*rgb) if true >= 0 else _COLOURS.get(colour)
-    return None if letter == "B" and _is_dashed(record, layer) else letter
+    rgb = (true >> 16 & 255, true >> 8 & 255, true & 255) if true >= 0 else rgb_of_number(colour)
+    letter = _LETTERS.get(name.lower())
+    return Stroke(rgb, _dash(record, layer), (name,), None if true >= 0 else colour, letter, kind, len(pieces))
 
 
 def _colour(record: Record, layer: _Layer) -> int:
@@ -122,9 +116,9 @@ def _colour(record: Record, layer: _Layer) -> int:
     return {_BY_LAYER: layer.colour, _BY_BLOCK: _PLAIN.colour}.get(colour, colour)
 
 
-def _is_dashed(record: Record, layer: _Layer) -> bool:
+def _dash(record: Record, layer: _Layer) -> Dash:
     own = record.word(6, "BYLAYER").upper()
-    return (layer.line_type.upper() if own == "BYLAYER" else own) not in ("CONTINUOUS", "BYBLOCK")
+    return dash_of_line_type(layer.line_type if own == "BYLAYER" else own)
 
 
 def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
@@ -132,8 +126,10 @@ def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
     name = plain(record.name, _LONGEST)
     if not shape:
         return name
-    dashed = "dashed " if _is_dashed(record, layer) else ""
-    return f"{dashed}{name} of colour {_colour(record, layer)} on layer {plain(record.word(8, '0'), _LONGEST)}"
+    dash = _dash(record, layer)
+    if dash != "solid":
+        name = f"{dash} {name}"
+    return f"{name} of colour {_colour(record, layer)} on layer {plain(record.word(8, '0'), _LONGEST)}"
 
 
 def dxf_text(sheet: Sheet) -> str:

@@ -57,7 +57,7 @@ test("a factor solves the regularised normal equations", () => {
   const pattern = new NormalPattern(4, closure.loops, [2, 0, 3, 1]);
   const { solve, regular } = pattern.solver(closure.loops, derivatives, 1e-3);
   const given = Float64Array.of(1, 2, 3, 5);
-  const found = solve(given);
+  const found = solve(given.slice());
   const back = closure.gathered(derivatives, closure.image(derivatives, found));
   let most = 1;
   for (let joint = 0; joint < 4; joint++) {
@@ -96,6 +96,22 @@ test("a rocker turns back, and can be driven the other way from there", () => {
   const stops = [motion.to(one(3), 6), motion.to(one(3), -6)];
   assert.deepEqual(stops, ["turns back", "turns back"]);
   assert.ok(motion.pose.error <= 1e-12);
+});
+
+test("a joint comes to angles just before it turns back, also if a step leads past both", () => {
+  for (const [points, joint, way] of /** @type {[number[][], number, number][]} */ ([
+    [[[4, 5, 0], [2, 3, 0], [4, 0, 0], [0, 3, 0]], 3, -1],
+    [[[4, 0, 0], [2, 0, 0], [2, 4, 0], [3, 5, 0]], 2, -1],
+  ])) {
+    const linkage = { ...parallelogram("infinite"), points };
+    const whole = new Motion(linkage, null);
+    assert.equal(whole.to(one(joint), 7 * way), "turns back");
+    for (const before of [1e-3, 3e-4, 1e-4, 3e-5, 1e-5]) {
+      const motion = new Motion(linkage, null), goal = whole.pose.angles[joint] - way * before;
+      assert.equal(motion.to(one(joint), goal), "");
+      assert.equal(motion.pose.angles[joint], goal);
+    }
+  }
 });
 
 /** Five bars in the plane: two freedoms. */

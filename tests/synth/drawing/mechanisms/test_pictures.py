@@ -177,7 +177,7 @@ def test_only_sheets_are_patterns(kind):
 
 
 def test_kinds_and_colourings_that_are_none():
-    with pytest.raises(InvariantError, match="kind 'x' is not known; expected pattern, folded"):
+    with pytest.raises(InvariantError, match="kind 'x' is not known; expected pattern, marks, repairs, folded"):
         draw(read("k1:Cr"), "x")
     with pytest.raises(InvariantError, match="colouring 'x' is not known; expected letters"):
         draw(read(DATA / "patterns" / "bird-base.fold"), colour="x")
@@ -201,7 +201,7 @@ def test_a_linkage_round_a_cone_lies_on_it():
     scene = draw(linkage, "cone")
     assert {"circle", "cone"} <= {layer.name for layer in scene.layers}
     assert values(drawn(linkage, "cone"), "data-joint") == set(map(str, linkage.chain.joints))
-    with pytest.raises(UnsolvableError, match="only a linkage given by its angles"):
+    with pytest.raises(UnsolvableError, match="only a linkage given by its links, or angles round a cone"):
         draw(read("k1:Cr"), "cone")
 
 

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pytest
 from commands import run
 
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -44,7 +44,7 @@ def of_kind(kind, name):
         axes = [((0, 0, 0), (0, 0, 1)), ((1, 0, 0), (0, 1, 1)), ((1, 1, 0), (1, 0, 1)), ((0, 1, 0), (1, 0, 0))]
         return HingedSolids(chain, dict(zip(chain.joints, axes, strict=True)))
     if kind == "circle":
-        return ConicalLinkage(chain, steps={(name, 1): 1.0, (1, 2): 1.0, (2, 3): 1.5})
+        return SurfaceLinkage(chain, steps={(name, 1): 1.0, (1, 2): 1.0, (2, 3): 1.5})
     if kind == "stubs":
         return SCDGraph(
             [name, "b"], {name: (name, "b")}, rotation={name: (name, None, None), "b": (name, None, None)}

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
@@ -18,7 +17,6 @@ from synth.folding.motion import fold
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.misfit import TURNED, least_misfit
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 
@@ -38,14 +36,18 @@ def farthest(one, other):
 @pytest.mark.parametrize(("size", "noise"), [(3, 1e-5), (4, 1e-6), pytest.param(5, 1e-4, marks=pytest.mark.slow)])
 def test_a_noisy_miura_sheet_gets_all_its_branches_back(size, noise):
     noisy = disturbed(miura(size, size, 1.0), noise)
-    assert not branches_of(linkage_of_sheet(noisy)).branches
+    as_written = branches_of(
+        linkage_of_sheet(noisy)
+    ).branches  # squares of a noise of 1e-5 are hardly told from zero
+    assert len(as_written) < 2 ** (size - 1)
+    assert all(branch.certainty != "proved" for branch in as_written)
     pattern = configuration_of_sheet(noisy)
     assert [branch.certainty for branch in pattern.branches.branches] == ["proved"] * 2 ** (size - 1)
     assert sorted(branch.freedoms for branch in pattern.branches.branches) == [1] * (2 ** (size - 1) - 1) + [
         size - 1
     ]
     assert 0.0 < farthest(pattern.sheet, noisy) < 4 * noise
-    assert str(pattern.repairs[0]).endswith("angles that nearly agree are equal")
+    assert "so that angles that nearly agree are equal (coordinates precise to " in str(pattern.repairs[0])
 
 
 def test_a_noisy_sheet_folds_and_says_what_was_moved():
@@ -55,7 +57,7 @@ def test_a_noisy_sheet_folds_and_says_what_was_moved():
     assert folded.closure < 1e-12
     assert folded.apart < 1e-12
     assert folded.to_json()["mended"] == [str(folded.configuration.repairs[0])]
-    assert str(folded).startswith("mended: vertices moved by up to")
+    assert "\nrepaired: vertices moved by up to" in str(folded)
 
 
 def test_a_folded_sheet_is_moved_along_its_motion():
@@ -86,46 +88,16 @@ def test_what_is_rigid_stays_so():
     assert pattern.branches.no_motion == "proved"
 
 
-@pytest.mark.parametrize("noise", [1e-3, 1e-5])
-def test_how_nearly_a_rigid_sheet_moves(noise):
-    """One crease held at ten degrees, its loops stay open by less than the noise; by another solver too."""
-    sheet = miura(3, 3, 1.0)
-    way = branches_of(linkage_of_sheet(sheet)).branches[0]
-    assert least_misfit(ClosureEquations(linkage_of_sheet(sheet)), np.zeros(12), way.rates) < 1e-12
-    linkage = linkage_of_sheet(disturbed(sheet, noise))
-    closure = ClosureEquations(linkage)
-    misfit = least_misfit(closure, linkage.angles, way.rates)
-    assert 1e-12 < misfit < noise
-    driver = int(np.abs(way.rates).argmax())
-    others = [joint for joint in range(12) if joint != driver]
-
-    def opened(x):
-        angles = np.insert(x, driver, np.sign(way.rates[driver]) * TURNED)
-        return closure.at(angles)[0]
-
-    best = least_squares(opened, TURNED * way.rates[others], xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    assert misfit == pytest.approx(np.abs(best.fun).max(), rel=0.05)
-
-
-def test_what_nothing_mends_is_told_with_how_nearly_it_moves():
-    sheet = disturbed(miura(3, 3, 1.0), 1e-4)
-    places = np.array(sheet.coordinates)
-    places[5] += (2e-3, -1e-3)
-    pattern = configuration_of_sheet(replace(sheet, coordinates=tuple(map(tuple, places.tolist()))))
-    assert not pattern.branches.branches
-    assert "; turned by 10 degrees its loops close to " in pattern.doubt
-
-
 def test_a_sheet_is_put_into_its_plane():
     sheet = fan(np.radians([0, 60, 180, 300]))
     lifted = [(x, y, z) for (x, y), z in zip(sheet.coordinates, [3e-7, 0, -2e-7, 1e-7, 0], strict=True)]
     lifted = replace(sheet, coordinates=tuple(lifted))
-    mended = flattened(lifted)
+    mended = flattened(lifted, precision_of_sheet(lifted))
     assert 1e-7 < mended.moved < 4e-7
     assert precision_of_sheet(mended.sheet).size < 1e-12
     assert len(configuration_of_sheet(lifted).branches.branches) == 2
     tent = replace(sheet, coordinates=tuple((x, y, 0.3 - 0.3 * (x * x + y * y)) for x, y in sheet.coordinates))
-    assert flattened(tent) is None
+    assert flattened(tent, precision_of_sheet(tent)) is None
 
 
 def test_a_crease_of_two_pieces_is_made_straight():

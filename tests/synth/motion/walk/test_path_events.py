@@ -71,8 +71,8 @@ def test_what_is_out_of_reach_is_told_with_how_far_it_came():
         closure, path.angles[-1], [0], path.angles[-1][0] + np.radians([-0.2, -0.1, 0.1, 0.2])
     )
     assert (round_the_top.angles[1:, 6] < path.angles[-1][6]).all()
-    assert "turns back at 1.03816 degrees" in path.stopped
-    assert "before 2 degrees; past that, the path comes round to there" in path.stopped
+    assert "turns back at 1.03816°" in path.stopped
+    assert "before 2°; past that, the path comes round to there" in path.stopped
 
 
 def test_a_rocker_turns_back_where_crank_and_coupler_are_in_line():
@@ -99,7 +99,9 @@ def test_a_parallelogram_stays_one_past_its_flat_position(angles):
     (event,) = path.events
     assert np.degrees(event.angles) == pytest.approx([90, -90, 90, -90], abs=1e-4)
     assert (event.drop, event.other_ways) == (1, 1)
-    assert event.told("abcd").startswith("rank drop: 1 less with joint 'a' at 90 degrees")
+    assert event.line("abcd").startswith(
+        "singular configuration at joint 'a' = 90°: rank of the closure equations 1 lower"
+    )
     np.testing.assert_allclose(path.angles[-1], np.radians([200, -200, 200, -200]), atol=1e-9)
 
 
@@ -139,8 +141,8 @@ def test_a_limit_names_joints_by_their_ids():
     bare = fan(np.radians([0, 70, 170, 290]), "MVVV")
     rim = tuple((k, k % 4 + 1) for k in range(1, 5))
     folded = fold(replace(bare, edges=rim + bare.edges, assignments="BBBB" + bare.assignments), drive={4: np.pi})
-    assert "panels lie on each other at joint(s) 7, with the driven joint 4 at 123.1" in folded.path.stopped
+    assert "panels lie on each other at joint 7, with the driven joint 4 at 123.1" in folded.path.stopped
     (event,) = folded.to_json()["events"]
     assert (event["kind"], event["joints"], event["driver"]) == ("limit", [7], 4)
     assert abs(folded.path.angles[-1][3]) == pytest.approx(np.pi, abs=1e-8)
-    assert "limit: panels lie on each other at joint(s) 7" in str(folded)
+    assert ": panels lie on each other at joint 7" in str(folded)

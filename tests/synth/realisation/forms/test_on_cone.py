@@ -8,7 +8,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, read_linkage, write
 from graphs.identity.chains import chain_id
 from synth.realisation.forms.on_cone import realise_on_cone
-from synth.surfaces.linkages import by_angles, map_linkage
+from synth.surfaces.linkages import by_sizes, map_linkage
 
 LAMBDA = np.radians(25.0)
 
@@ -22,9 +22,9 @@ def test_the_file_leads_back_to_the_cone_by_steps_and_by_arcs(stephenson, tmp_pa
     found = realise_on_cone(stephenson, cone_angle=LAMBDA)
     write(found.linkage, tmp_path / "on-cone.json")
     linkage = read_linkage(tmp_path / "on-cone.json")
-    assert map_linkage(linkage).cones[0].cone_angle == pytest.approx(LAMBDA, abs=1e-11)
-    (cone,) = map_linkage(by_angles(linkage)).cones
-    assert cone.cone_angle == pytest.approx(LAMBDA, abs=1e-9)
+    assert map_linkage(linkage).surfaces[0].surface.angle == pytest.approx(LAMBDA, abs=1e-11)
+    (cone,) = map_linkage(by_sizes(linkage)).surfaces
+    assert cone.surface.angle == pytest.approx(LAMBDA, abs=1e-9)
     assert cone.circuits == found.circuits == ("open", "open")
     assert found.cones == 1
     assert chain_id(linkage.chain) == chain_id(stephenson)

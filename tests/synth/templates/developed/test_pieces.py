@@ -11,15 +11,15 @@ from commands import run
 from conical import FOUR_BAR, STEPHENSON, WATT
 
 from graphs.errors import UnsolvableError
-from graphs.mechanism.conical import ConicalLinkage
+from graphs.mechanism.on_surface import SurfaceLinkage
+from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
-from synth.conformed.linkages import OnCone, loop_of_steps
+from synth.conformed.linkages import OnSurface, loop_of_steps
 from synth.templates.developed.layered import Dimensions, layered
-from synth.templates.developed.surfaces import Cone, Cylinder
 from synth.templates.developed.template import surface_of, template_on_surface
 from synth.templates.pages import pages_of
 from synth.templates.paper import Paper
-from synth.templates.things import linkage_on_a_cone
+from synth.templates.things import linkage_on_a_surface
 
 LAMBDA = np.radians(28)
 SIZES = Dimensions(size=90, thickness=0.4)
@@ -31,7 +31,7 @@ def candidates(name):
     """Every candidate of a chain, evenly spaced."""
     chain = CHAINS[name]
     job = CandidateJob(chain)
-    return [OnCone(chain, job.places(row).tolist(), LAMBDA) for row in job.rows()]
+    return [OnSurface(chain, job.places(row).tolist(), LAMBDA) for row in job.rows()]
 
 
 def rolled_up(points, layer):
@@ -112,7 +112,7 @@ def test_pieces_of_every_candidate_lie_on_the_cone_in_their_layers_without_meeti
         check_pieces(linkage)
         rng = np.random.default_rng(int(1e6 * sum(linkage.places)))
         varied = np.array(linkage.places) + rng.uniform(-0.2, 0.2, len(linkage.places))
-        check_pieces(OnCone(linkage.chain, varied.tolist(), LAMBDA))
+        check_pieces(OnSurface(linkage.chain, varied.tolist(), LAMBDA))
 
 
 def test_a_tab_lies_on_the_link_that_it_is_glued_to_and_off_all_other_tabs():
@@ -168,12 +168,12 @@ def test_a_row_of_candidates_prints_with_the_angle_that_is_asked_for(tmp_path, d
 def test_of_several_cones_one_has_to_be_asked_for():
     arcs = np.radians([120, 95, 45, 85])
     pairs = [tuple(pair) for pair in ("CO", "OA", "AB", "BC")]
-    two = ConicalLinkage(FOUR_BAR, angles=dict(zip(pairs, arcs.tolist(), strict=True)))
+    two = SurfaceLinkage(FOUR_BAR, angles=dict(zip(pairs, arcs.tolist(), strict=True)))
     with pytest.raises(UnsolvableError, match=r"lies on 2 cones, of .* expected --cone"):
-        linkage_on_a_cone(two)
-    assert linkage_on_a_cone(two, number=2).cone_angle != linkage_on_a_cone(two, number=1).cone_angle
+        linkage_on_a_surface(two)
+    assert linkage_on_a_surface(two, number=2).cone_angle != linkage_on_a_surface(two, number=1).cone_angle
     with pytest.raises(UnsolvableError, match="none of number 3"):
-        linkage_on_a_cone(two, number=3)
+        linkage_on_a_surface(two, number=3)
 
 
 def test_joints_on_one_ruling_line_have_no_room():

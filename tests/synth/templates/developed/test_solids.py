@@ -9,11 +9,11 @@ from conical import STEPHENSON
 
 from graphs.errors import UnsolvableError
 from graphs.files.solids.mesh import is_watertight
+from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
-from synth.conformed.linkages import OnCone, loop_of_steps
+from synth.conformed.linkages import OnSurface, loop_of_steps
 from synth.templates.developed.layered import Dimensions, layered
 from synth.templates.developed.solids import solids_on_surface
-from synth.templates.developed.surfaces import Cone, Cylinder
 
 LAMBDA = np.radians(28)
 SIZES = Dimensions(size=90, thickness=1.0)
@@ -23,7 +23,7 @@ SIZES = Dimensions(size=90, thickness=1.0)
 def linkages():
     job = CandidateJob(STEPHENSON)
     rows = job.rows()[::34]
-    return [layered(OnCone(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES) for row in rows]
+    return [layered(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES) for row in rows]
 
 
 def volume_of(linkage, link, gap):

@@ -93,7 +93,7 @@ def test_where_it_is_not_folded_the_reason_is_told(tmp_path):
     assert why == "64 panels: more than 60 are not folded for a picture"
     square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (1, 0), (1, 1), (0, 1)))
     template, why = pictured(template_of(square, size=100), square)
-    assert "nothing folds" in why
+    assert "rigid: the sheet has no creases" in why
     assert [page.picture for page in pages_of(template, A4)] == [None, None]
 
 

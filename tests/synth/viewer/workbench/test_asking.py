@@ -75,7 +75,7 @@ def test_the_last_line_is_the_answer(data):
     lines = asyncio.run(gathered(Engine().lines("reading", [place.name], place.read_bytes()))).splitlines()
     told = [json.loads(line) for line in lines if line]
     assert [one["step"] for one in told[:-1]] == [0, 1, 2, 3]
-    assert told[-1]["shown"]["verdict"] == "Folds with 1 freedom from its pose."
+    assert told[-1]["shown"]["verdict"] == "Rigid-foldable from this configuration: 1 degree of freedom."
 
 
 @pytest.mark.slow

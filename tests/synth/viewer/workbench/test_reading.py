@@ -72,12 +72,12 @@ def test_what_is_large_is_judged_on_request():
     shown = shown_of(sheet)
     assert shown.on_request
     assert shown.verdict == synth.mobility(sheet).verdict.text
-    assert "the motion of 1230 panels is looked for on request" in shown.verdict
+    assert "the motion of 1230 panels is analysed on request" in shown.verdict
     assert len(shown.moving.bodies.faces) == 1230
     assert shown.moving.ways is None
     shown = shown_of(sheet, motion=True)
     assert not shown.on_request
-    assert "Folds with 1 freedom" in shown.verdict
+    assert "Rigid-foldable from" in shown.verdict
     assert len(shown.moving.ways.all[0].drivers) == 1
 
 

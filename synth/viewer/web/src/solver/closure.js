@@ -105,6 +105,28 @@ export class Closure {
     }
     return made;
   }
+
+  /**
+   * Return the transposed derivatives times what rates leave of given amounts, divided: a sum of rows.
+   *
+   * @param {Float64Array} derivatives
+   * @param {Float64Array} given - By what loops part.
+   * @param {Float64Array} rates
+   * @param {number} divisor
+   */
+  gatheredRest(derivatives, given, rates, divisor) {
+    const made = new Float64Array(this.joints);
+    for (const { joints, equations, row, start } of this.loops) {
+      const k = joints.length;
+      for (let e = 0, from = start; e < equations; e++, from += k) {
+        let sum = 0;
+        for (let i = 0; i < k; i++) sum += derivatives[from + i] * rates[joints[i]];
+        const factor = (given[row + e] - sum) / divisor;
+        for (let i = 0; i < k; i++) made[joints[i]] += derivatives[from + i] * factor;
+      }
+    }
+    return made;
+  }
 }
 
 /**

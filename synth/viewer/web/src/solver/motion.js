@@ -1,5 +1,5 @@
 /**
- * A linkage moved from where it is: synth/motion/walk/leg.py without what the page does not need.
+ * A linkage moved from where it is: synth/motion/walk/walking.py and events.py without what the page does not need.
  *
  * One joint is driven at a time, while others may be held: so each freedom has a joint of its own. Either the driven
  * joint goes to an angle, and the path ends where it turns back; or the path goes straight on, past such points.
@@ -263,15 +263,16 @@ export class Motion {
   #landed(stepping, whole, way, value) {
     const joint = stepping.driver;
     let [step, stopped] = this.#withinLimits(whole);
-    if (way * (value - step.after.angles[joint]) < 0) {
+    const ahead = () => way * (value - step.after.angles[joint]);
+    if (ahead() > 0 && step.turns(joint, way)) {
+      step = step.upTo(step.turning(joint, way));
+      stopped = "turns back";
+    }
+    if (ahead() < 0) { // also where it passed its goal before it turned back
       const landed = step.landing(joint, value);
       if (landed === null) return "lost";
       step = step.upTo(landed);
       stopped = "";
-    }
-    if (way * step.arriving[joint] < 0 && way * (value - step.after.angles[joint]) !== 0) {
-      step = step.upTo(step.turning(joint, way));
-      stopped = "turns back";
     }
     return this.#ended(stepping, step, stopped);
   }
@@ -285,7 +286,9 @@ export class Motion {
   #withinLimits(whole) {
     const step = this.#flattened(whole);
     if (!this.#beyond(step.after.angles)) return [step, ""];
-    return [step.upTo(step.last((angles) => !this.#beyond(angles))), "limit"];
+    const ended = this.#flattened(step.upTo(step.last((angles) => !this.#beyond(angles))));
+    const stays = largest(added(ended.after.angles, -1, ended.before.angles)) <= FLAT; // but for what loops tell of it
+    return [stays ? whole.upTo(whole.before) : ended, "limit"];
   }
 
   /**

@@ -9,7 +9,7 @@
 /** @import { Tolerances } from "./types.js" */
 import { NormalPattern } from "./cholesky.js";
 import { solvedSymmetric } from "./small.js";
-import { added, largest, putAll } from "./vectors.js";
+import { added, largest, putAll, takeOff } from "./vectors.js";
 
 /**
  * Part of the largest diagonal entry of the normal equations that is added to all. Rounding along freedoms is
@@ -21,8 +21,6 @@ const STEPS = 12;
 const HOLDS = 2;
 /** A step that leaves more of the error than this is the last with its derivatives. */
 const SLOW = 0.1;
-/** Part of a wanted rate by which it may be missed. */
-const MISSED = 1e-4;
 
 /** The equations of one linkage, with what all their factors share. */
 export class Equations {
@@ -52,7 +50,7 @@ export class Equations {
     for (let steps = 1; steps <= STEPS; steps++) {
       if (best.error <= this.tolerances.closed / 100) break;
       space ??= best.space;
-      const moved = added(best.angles, 1, space.step(off, held));
+      const moved = added(best.angles, -1, space.step(off, held));
       ({ residual, derivatives } = this.closure.at(moved));
       const tried = new Corrected(this, moved, largest(residual), steps, derivatives);
       const slow = !(tried.error <= SLOW * best.error);
@@ -136,13 +134,13 @@ export class TangentSpace {
   }
 
   /**
-   * Return the least change of joint angles that takes a residual away to first order.
+   * Return the least change of joint angles that makes a residual to first order: taken off, it closes loops.
    *
    * @param {Float64Array} residual
    * @param {number[]} held - Places of joints that are not to move, if they need not.
    */
   step(residual, held) {
-    return this.#without(added(new Float64Array(this.closure.joints), -1, this.#leastExactly(residual)), held);
+    return this.#without(this.#leastExactly(residual), held);
   }
 
   /**
@@ -153,9 +151,9 @@ export class TangentSpace {
    * @returns {Float64Array}
    */
   projected(rates, held = []) {
-    let kept = rates;
+    const kept = rates.slice();
     for (let n = 0; n < 2; n++) { // the second takes off what regularisation left
-      kept = added(kept, -1, this.#least(this.closure.image(this.derivatives, kept)));
+      takeOff(kept, this.#least(this.closure.image(this.derivatives, kept)));
     }
     return this.#without(kept, held);
   }
@@ -169,7 +167,8 @@ export class TangentSpace {
    * @param {Float64Array} off - Of each equation.
    */
   #least(off) {
-    return this.#sumOfRows(off, this.solve(this.closure.gathered(this.derivatives, off)));
+    const rates = this.solve(this.closure.gathered(this.derivatives, off));
+    return this.closure.gatheredRest(this.derivatives, off, rates, this.regular);
   }
 
   /**
@@ -179,20 +178,8 @@ export class TangentSpace {
    */
   #leastExactly(off) {
     const rates = this.solve(this.closure.gathered(this.derivatives, off));
-    const least = this.#sumOfRows(off, rates);
-    return added(least, 1, this.#least(this.closure.image(this.derivatives, added(rates, -1, least))));
-  }
-
-  /**
-   * Return a solution of the normal equations as a sum of the rows of A.
-   *
-   * @param {Float64Array} off
-   * @param {Float64Array} rates - The solution.
-   */
-  #sumOfRows(off, rates) {
-    const left = this.closure.image(this.derivatives, rates);
-    for (let row = 0; row < left.length; row++) left[row] = (off[row] - left[row]) / this.regular;
-    return this.closure.gathered(this.derivatives, left);
+    const least = this.closure.gatheredRest(this.derivatives, off, rates, this.regular);
+    return takeOff(least, this.#least(this.closure.image(this.derivatives, added(least, -1, rates))));
   }
 
   /**
@@ -207,7 +194,8 @@ export class TangentSpace {
     const rates = this.#combined(joints, this.#shares(joints, joints.map((_, n) => (n ? 0 : wanted))));
     const most = Math.max(...joints.map((one) => Math.abs(this.#move(one)[joint])));
     const missed = Math.max(...joints.map((one, n) => Math.abs(rates[one] - (n ? 0 : wanted))));
-    return missed <= MISSED * Math.abs(wanted) && most > this.zero ? rates : rates.fill(0);
+    // normal equations keep half the digits
+    return missed <= Math.sqrt(this.zero) * Math.abs(wanted) && most > this.zero ? rates : rates.fill(0);
   }
 
   /**

@@ -1,5 +1,5 @@
 /**
- * One step of a path, and the poses on it: synth/motion/walk/between.py.
+ * One step of a path, and the poses on it: synth/motion/walk/step.py.
  *
  * A cubic through both ends with the rates of both keeps to the path to the fourth power of the step.
  */
@@ -10,6 +10,8 @@ import { added, dot, largest, put } from "./vectors.js";
 /** Parts of a step that are told apart; of turning points, that are seen. */
 const NEAR = 1e-9, SEEN = 1e-3;
 const HALVINGS = 40;
+/** Part of a step before its end: where that is singular, rates there are more than the path's. */
+const SHORT_OF_END = 0.999;
 
 export class Step {
   /**
@@ -105,6 +107,26 @@ export class Step {
   }
 
   /**
+   * Tell whether a joint turns back on the step, not only among the rates of a singular end.
+   *
+   * @param {number} joint
+   * @param {number} way - In which it went: 1 or -1.
+   */
+  turns(joint, way) {
+    return way * this.arriving[joint] < 0 && way * this.#speed(this.#at(SHORT_OF_END), joint) < 0;
+  }
+
+  /**
+   * Return the rate of a joint at a pose of the step.
+   *
+   * @param {Corrected} place
+   * @param {number} joint
+   */
+  #speed(place, joint) {
+    return place.space.projected(this.leaving, this.path.held)[joint];
+  }
+
+  /**
    * Return a pose just before a joint turns back, which it does on this step.
    *
    * @param {number} joint
@@ -115,8 +137,7 @@ export class Step {
     while (high - low > SEEN) {
       const middle = (low + high) / 2;
       const between = this.#at(middle);
-      const speed = way * between.space.projected(this.leaving, this.path.held)[joint];
-      if (between.closed && speed > 0) [low, kept] = [middle, between];
+      if (between.closed && way * this.#speed(between, joint) > 0) [low, kept] = [middle, between];
       else high = middle;
     }
     return kept;

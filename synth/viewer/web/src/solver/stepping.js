@@ -1,5 +1,5 @@
 /**
- * Steps along a path, each no longer than can be trusted: synth/motion/walk/stepping.py, one joint driven.
+ * Steps along a path, each no longer than can be trusted: synth/motion/walk/walking.py, one joint driven.
  *
  * A step goes along rates at which loops stay closed, bent as the last step was, and is corrected by Newton's
  * method. It is halved if its end does not close, lies far from where it was expected, or goes on in another
@@ -12,8 +12,11 @@ import { added, alike, dot, largest, put } from "./vectors.js";
 
 /** Steps, radians of the joint that moves most. */
 const FIRST = 0.02, LARGEST = 0.2, LEAST = 1e-6;
-/** A corrected pose is at most this part of its step from where it was expected. */
-const STRAY = 0.5;
+/**
+ * A corrected pose is at most this part of its step from where it was expected; the second is for a step that begins
+ * at a singular pose: rates there are chosen to second order only.
+ */
+const STRAY = 0.25, STRAY_FIRST = 0.5;
 /** Cosine of the angle between directions before and after a step, at least. */
 const ALIKE = 0.6;
 /** A driven joint that has less than this part of the largest rate may be about to turn back. */
@@ -124,7 +127,7 @@ export class Stepping {
    * @param {number | null} goal - Angle of the driven joint after a step of that length; null: any.
    */
   #taken(here, rates, most, goal) {
-    const joint = this.driver;
+    const joint = this.driver, stray = this.begun ? STRAY : STRAY_FIRST;
     while (this.#length >= LEAST) {
       const whole = this.#length >= most;
       const length = whole ? most : this.#length;
@@ -135,7 +138,7 @@ export class Stepping {
       const held = lands ? [joint, ...this.held] : this.held;
       for (const one of this.held) expected[one] = here.angles[one];
       let end = this.equations.corrected(expected, held);
-      if (end.closed && largest(added(end.angles, -1, expected)) <= STRAY * length) {
+      if (end.closed && largest(added(end.angles, -1, expected)) <= stray * length) {
         const arriving = end.space.projected(rates, this.held);
         const easy = end.steps <= EASY && !whole;
         if (held.length) end = this.equations.exactlyHeld(end, held, expected);

@@ -36,6 +36,17 @@ export function added(one, factor, other) {
 }
 
 /**
+ * Take a row off another one, in its place.
+ *
+ * @param {Float64Array} whole
+ * @param {Float64Array} part
+ */
+export function takeOff(whole, part) {
+  for (let i = 0; i < whole.length; i++) whole[i] -= part[i];
+  return whole;
+}
+
+/**
  * @param {Float64Array} angles
  * @param {number} joint
  * @param {number} value

@@ -1,0 +1,306 @@
+"""What drawings are made of: straight lines, right angles, Kawasaki's sums, equal angles and lengths, planes.
+
+Each relation that a sheet may have been drawn to hold comes with how far it is off, as the displacement of one
+coordinate that would make it so: deviations over the norms of their gradients. Theory: docs/theory/precision.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse
+
+from graphs.arrays import Floats
+from graphs.mechanism.sheet import Sheet
+
+__all__ = ["OF_45", "Relations", "nearly_exact", "nearly_fine", "nearly_soft"]
+
+Numbers = npt.NDArray[np.int64]
+
+OF_45 = "multiples of 45 degrees"
+_EIGHTH = pi / 4
+_FINE = np.radians([15.0, 22.5, 30.0])
+"""Angles that drawings have between multiples of 45 degrees: parts of 90 degrees by six, and by four."""
+_LONGEST_RUN = 6
+"""So many neighbouring corners make up an angle, at most."""
+_BENT = 0.3
+"""A panel that is planar by no more than chance is off its plane by this part of its size."""
+_MOST_CREASES = 32
+"""Alternating sums are taken of vertices of no more creases."""
+
+
+class Relations(NamedTuple):
+    """Relations of one kind: how far each is off, and how far off one would be by chance at most.
+
+    Both are displacements of a coordinate, in units of the extent; by chance all up to `reach` are alike. A row of
+    `between` has entries at the three coordinates of each vertex that the relation is between.
+    """
+
+    kind: str
+    off: Floats
+    reach: Floats
+    between: scipy.sparse.csr_array
+
+
+def nearly_exact(sheet: Sheet, points: Floats) -> list[Relations]:
+    """Return relations that hardly any drawing has nearly and not exactly: lines, right angles, sums, planes.
+
+    The points, float[n, 3], are in units of the extent.
+    """
+    corners = _Corners(sheet, points)
+    if not len(corners.apex):
+        return []
+    runs = _sums(corners)
+    turns = np.rint(runs.sums / _EIGHTH)
+    off = runs.sums - turns * _EIGHTH
+    straight = turns == 4
+    found = [
+        corners.relations("straight lines", runs.rows[straight], off[straight], _EIGHTH / 2),
+        corners.relations(OF_45, runs.rows[~straight], off[~straight], _EIGHTH / 2),
+        *_round_vertices(corners),
+    ]
+    if np.ptp(points[:, 2]) > 0.0:
+        found.append(_planes(sheet, points))
+    return found
+
+
+def nearly_fine(sheet: Sheet, points: Floats) -> Relations:
+    """Return angles near multiples of 15 and 22.5 degrees that are none of 45."""
+    corners = _Corners(sheet, points)
+    runs = _sums(corners)
+    rest = runs.sums % _EIGHTH
+    off = rest[:, None] - _FINE
+    nearest = np.abs(off).argmin(axis=1)
+    reach = np.array([11.25, 7.5, 11.25])[nearest]
+    picked = off[np.arange(len(off)), nearest]
+    return corners.relations("multiples of 15 and 22.5 degrees", runs.rows, picked, np.radians(reach))
+
+
+def nearly_soft(sheet: Sheet, points: Floats) -> list[Relations]:
+    """Return relations of neighbours that patterns of slowly changing cells have nearly: equals and parallels."""
+    corners = _Corners(sheet, points)
+    beside = corners.after_in_face
+    second = beside[beside]
+    whole = corners.sides > 3
+    pairs = [np.stack([np.arange(len(beside)), beside], axis=1)]
+    pairs.append(np.stack([np.arange(len(beside)), second], axis=1)[whole])
+    here = np.flatnonzero(corners.following >= 0)
+    pairs.append(np.stack([here, corners.following[here]], axis=1))
+    across = corners.across
+    there = np.flatnonzero(across > np.arange(len(across)))
+    pairs.append(np.stack([there, across[there]], axis=1))
+    both = np.concatenate(pairs)
+    rows = _rows(both, np.array([1.0, -1.0]), len(beside))
+    equal = corners.relations("equal angles", rows, rows @ corners.angles, pi / 2)
+    sides = np.stack([np.arange(len(beside)), beside], axis=1)[whole]
+    rows = _rows(sides, np.array([1.0, 1.0]), len(beside))
+    parallel = corners.relations("parallel sides", rows, rows @ corners.angles - pi, pi / 2)
+    return [equal, parallel, corners.lengths_alike(beside, second, whole)]
+
+
+class _Runs(NamedTuple):
+    """Sums of neighbouring corners at a vertex: which, and how much, radians."""
+
+    rows: scipy.sparse.csr_array
+    sums: Floats
+
+
+@dataclass(frozen=True)
+class _Corners:
+    """The corners of the faces of a sheet: angles between a side and the next, and where they are."""
+
+    sheet: Sheet
+    points: Floats
+
+    @cached_property
+    def _listed(self) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+        """Of each corner its vertex, the one after and before it in the face, and the number of the face."""
+        faces = self.sheet.faces
+        apex = np.array([v for face in faces for v in face], dtype=np.int64)
+        after = np.array([v for face in faces for v in (*face[1:], face[0])], dtype=np.int64)
+        before = np.array([v for face in faces for v in (face[-1], *face[:-1])], dtype=np.int64)
+        number = np.repeat(np.arange(len(faces)), [len(face) for face in faces])
+        return apex, after, before, number
+
+    @property
+    def apex(self) -> Numbers:
+        return self._listed[0]
+
+    @cached_property
+    def sides(self) -> Numbers:
+        """How many sides the face of each corner has."""
+        number = self._listed[3]
+        return np.bincount(number)[number]
+
+    @cached_property
+    def after_in_face(self) -> Numbers:
+        """The next corner of the same face."""
+        number = self._listed[3]
+        following = np.arange(1, len(number) + 1)
+        starts = np.searchsorted(number, number)
+        ends = np.searchsorted(number, number, side="right")
+        return np.where(following == ends, starts, following)
+
+    def _at(self, vertex: Numbers, after: Numbers) -> Numbers:
+        """Return the corner at each vertex whose first side goes to another; -1 where there is none."""
+        many = len(self.points)
+        keys = self.apex * many + self._listed[1]
+        order = np.argsort(keys, kind="stable")
+        wanted = vertex * many + after
+        place = np.minimum(np.searchsorted(keys[order], wanted), len(order) - 1)
+        found = order[place]
+        return np.where(keys[found] == wanted, found, -1)
+
+    @cached_property
+    def following(self) -> Numbers:
+        """The next corner round the vertex, -1 at the border."""
+        return self._at(self.apex, self._listed[2])
+
+    @cached_property
+    def across(self) -> Numbers:
+        """The corner at the other end of the first side, in the face beyond it; -1 at the border."""
+        return self._at(self._listed[1], self.apex)
+
+    @cached_property
+    def degree(self) -> Numbers:
+        """How many corners the vertex of each has, where they go all round; else 0."""
+        many = np.bincount(self.apex, minlength=len(self.points))
+        open_ones = np.zeros(len(self.points), dtype=bool)
+        open_ones[self.apex[self.following < 0]] = True
+        return np.where(open_ones, 0, many)[self.apex]
+
+    @cached_property
+    def _turned(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """Angles, radians, and how fast the two sides turn with their far ends; lengths of the first sides."""
+        apex, after, before, number = self._listed
+        out, back = self.points[after] - self.points[apex], self.points[before] - self.points[apex]
+        area = np.zeros((len(self.sheet.faces), 3))
+        middle = self.points.mean(axis=0)
+        np.add.at(area, number, np.cross(self.points[apex] - middle, self.points[after] - middle))
+        size = np.linalg.norm(area, axis=1, keepdims=True)
+        normal = (area / np.where(size == 0.0, 1.0, size))[number]
+        angles = np.arctan2((np.cross(out, back) * normal).sum(axis=1), (out * back).sum(axis=1)) % (2 * pi)
+        first, last = (out**2).sum(axis=1), (back**2).sum(axis=1)
+        first[first == 0.0], last[last == 0.0] = np.inf, np.inf
+        return angles, -np.cross(normal, out) / first[:, None], np.cross(normal, back) / last[:, None], first
+
+    @property
+    def angles(self) -> Floats:
+        return self._turned[0]
+
+    @cached_property
+    def slopes(self) -> scipy.sparse.csr_array:
+        """The derivatives of angles by coordinates: corners by 3 n."""
+        apex, after, before, _ = self._listed
+        _, first, last, _ = self._turned
+        return _derivatives([(after, first), (before, last), (apex, -first - last)], len(self.points))
+
+    def relations(self, kind: str, rows: scipy.sparse.csr_array, off: Floats, reach: float | Floats) -> Relations:
+        """Return relations between angles, whose sums rows name, with how far they are off in radians."""
+        return _relations(kind, rows @ self.slopes, off, reach)
+
+    def lengths_alike(self, beside: Numbers, second: Numbers, whole: npt.NDArray[np.bool_]) -> Relations:
+        """Return how nearly a side of a face is as long as the next one, or as the opposite one."""
+        apex, after, _, _ = self._listed
+        squares = self._turned[3]
+        rates = (self.points[after] - self.points[apex]) / squares[:, None]
+        slopes = _derivatives([(after, rates), (apex, -rates)], len(self.points))
+        own = np.arange(len(beside))
+        pairs = np.concatenate([np.stack([own, beside], axis=1), np.stack([own, second], axis=1)[whole]])
+        rows = _rows(pairs, np.array([1.0, -1.0]), len(beside))
+        return _relations("equal lengths", rows @ slopes, rows @ (0.5 * np.log(squares)), 1.0)
+
+
+def _derivatives(parts: list[tuple[Numbers, Floats]], many: int) -> scipy.sparse.csr_array:
+    """Return derivatives by coordinates, rows by 3 n: of each row by some points, float[rows, 3] each."""
+    rows = np.arange(len(parts[0][0]))
+    held = np.concatenate([rate.ravel() for _, rate in parts])
+    at = np.concatenate([np.repeat(rows, 3) for _ in parts])
+    to = np.concatenate([(3 * vertex[:, None] + np.arange(3)).ravel() for vertex, _ in parts])
+    return scipy.sparse.csr_array((held, (at, to)), shape=(len(rows), 3 * many))
+
+
+def _rows(columns: Numbers, signs: Floats, width: int) -> scipy.sparse.csr_array:
+    """Return rows of a sum each: which corners, int[n, k], with which signs, float[k]."""
+    many, each = columns.shape
+    at = np.repeat(np.arange(many), each)
+    return scipy.sparse.csr_array((np.tile(signs, many), (at, columns.ravel())), shape=(many, width))
+
+
+def _relations(kind: str, slopes: scipy.sparse.csr_array, off: Floats, reach: float | Floats) -> Relations:
+    steep = np.sqrt(np.asarray(slopes.multiply(slopes).sum(axis=1)).ravel())
+    moved = steep > 0.0
+    reaches = (reach + np.zeros_like(off))[moved] / steep[moved]
+    return Relations(kind, np.abs(off[moved]) / steep[moved], reaches, slopes[np.flatnonzero(moved)])
+
+
+def _sums(corners: _Corners) -> _Runs:
+    """Return the sums of one, two, ... neighbouring corners; of the two parts of a whole turn the smaller one."""
+    starts = np.arange(len(corners.apex))
+    ends, columns, sums, widths = starts, [starts], [], []
+    at, to = [], []
+    total, rows = corners.angles.copy(), 0
+    for run in range(1, _LONGEST_RUN + 1):
+        degree = corners.degree[starts]
+        kept = (degree == 0) | (2 * run < degree) | ((2 * run == degree) & (starts < corners.following[ends]))
+        picked = [column[kept] for column in columns]
+        many = int(kept.sum())
+        at.append(np.tile(np.arange(rows, rows + many), run))
+        to.append(np.concatenate(picked))
+        sums.append(total[kept])
+        widths.append(many)
+        rows += many
+        ends = corners.following[ends]
+        going = (ends >= 0) & ((degree == 0) | (2 * (run + 1) <= degree))
+        if not going.any():
+            break
+        starts, ends, total = starts[going], ends[going], total[going] + corners.angles[ends[going]]
+        columns = [*(column[going] for column in columns), ends]
+    index = (np.concatenate(at), np.concatenate(to))
+    held = np.ones(len(index[0]))
+    return _Runs(scipy.sparse.csr_array((held, index), shape=(rows, len(corners.apex))), np.concatenate(sums))
+
+
+def _round_vertices(corners: _Corners) -> Iterator[Relations]:
+    """Yield alternating sums at inner vertices, zero if the paper folds flat; of folded ones whole turns too."""
+    _, first = np.unique(corners.apex, return_index=True)
+    degrees = corners.degree[first]
+    folded = bool(np.ptp(corners.points[:, 2]) > 0.0)
+    for degree in np.unique(degrees[(degrees >= 3) & (degrees <= _MOST_CREASES)]).tolist():
+        here = first[degrees == degree]
+        columns = [here]
+        for _ in range(degree - 1):
+            columns.append(corners.following[columns[-1]])
+        whole = np.stack(columns, axis=1)
+        if degree % 2 == 0 and degree > 2:
+            rows = _rows(whole, np.resize([1.0, -1.0], degree), len(corners.apex))
+            yield corners.relations("Kawasaki's sums", rows, rows @ corners.angles, 1.0)
+        if folded:
+            rows = _rows(whole, np.ones(degree), len(corners.apex))
+            yield corners.relations("whole turns of paper", rows, rows @ corners.angles - 2 * pi, 1.0)
+
+
+def _planes(sheet: Sheet, points: Floats) -> Relations:
+    """Return how nearly four vertices of a panel in turn lie in one plane."""
+    fours = [
+        (face[k], *(face[(k + step) % len(face)] for step in (1, 2, 3)))
+        for face in sheet.faces
+        if len(face) > 3
+        for k in range(1 if len(face) == 4 else len(face))
+    ]
+    if not fours:
+        return Relations("planar panels", np.zeros(0), np.zeros(0), scipy.sparse.csr_array((0, points.size)))
+    around = np.array(fours, dtype=np.int64).T
+    a, b, c, d = points[around]
+    volume = (np.cross(b - a, c - a) * (d - a)).sum(axis=1)
+    areas = [np.cross(d - b, c - b), np.cross(c - a, d - a), np.cross(d - a, b - a), np.cross(b - a, c - a)]
+    slopes = _derivatives(list(zip(around, areas, strict=True)), len(points))
+    size = (np.linalg.norm(c - a, axis=1) + np.linalg.norm(d - b, axis=1)) / 2.0
+    steep = np.sqrt(np.asarray(slopes.multiply(slopes).sum(axis=1)).ravel())
+    return _relations("planar panels", slopes, volume, _BENT * size * steep)

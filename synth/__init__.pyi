@@ -1,0 +1,42 @@
+from enumerate.chains.kinematic import chains as chains, count_chains as count_chains
+from enumerate.sc.graphs import count_sc_graphs as count_sc_graphs, sc_graphs as sc_graphs
+from enumerate.scd.graphs import count_scd_graphs as count_scd_graphs, scd_graphs as scd_graphs
+from enumerate.strings.panel_strings import strings as strings
+from graphs.answer.identity import identify as identify
+from graphs.answer.reconstruction import reconstruct as reconstruct
+from graphs.convert.by_name import convert as convert
+from graphs.errors import (
+    FileError as FileError,
+    InvariantError as InvariantError,
+    SynthedraError as SynthedraError,
+    UnsolvableError as UnsolvableError,
+)
+from graphs.files.formats import read as read, write as write
+from graphs.loops.loop import Centre as Centre, Loop as Loop
+from graphs.mechanism.on_surface import SurfaceLinkage as SurfaceLinkage
+from graphs.mechanism.polyhedron import PolyhedronModel as PolyhedronModel
+from graphs.mechanism.sc import SCGraph as SCGraph
+from graphs.mechanism.scd import SCDGraph as SCDGraph
+from graphs.mechanism.sheet import Sheet as Sheet
+from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
+from graphs.reduce.ride_alongs import reduce as reduce
+from synth.advice.advised import advise as advise
+from synth.assembly.found import positions as positions
+from synth.atlas.asked.opened import open_atlas as open_atlas
+from synth.compliance.stated import states as states
+from synth.drawing.mechanisms.pictures import draw as draw
+from synth.folding.motion import fold as fold
+from synth.guidance.fourbars import four_bars as four_bars
+from synth.guidance.order import analyse_order as analyse_order
+from synth.guidance.orientations import Orientations as Orientations
+from synth.guidance.synthesis import guiding_dyads as guiding_dyads
+from synth.moving.motion import move as move
+from synth.notebook import load_ipython_extension as load_ipython_extension
+from synth.overconstraint.explained import explain as explain
+from synth.patterns.generated import generate as generate
+from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
+from synth.realisation.realised import realise as realise
+from synth.surfaces.cone import map_to_cones as map_to_cones
+from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
+from synth.surfaces.linkages import map_linkage as map_linkage
+from synth.verdict.judged import mobility as mobility

@@ -1,0 +1,346 @@
+"""The nearest mechanisms that move: for each branch that a crease pattern nearly has, vertices at which it has it.
+
+Angles that are meant to be alike come first, since then most patterns have all their branches again; of the
+branches that are left each is fitted, together with those before it as long as that is possible, else by itself:
+mending along one may lose another. Theory: docs/theory/mending.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.duality import SheetMechanism
+from graphs.mechanism.precision import Precision
+from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE, Tolerances
+from synth.folding.mending.angles import MeantAngles
+from synth.folding.mending.fitting import Fitting
+from synth.folding.mending.near import NearBranch, covers, near_branches, spaces_at, zeros_of
+from synth.folding.mending.places import VertexPlaces
+from synth.folding.mending.repair import FARTHEST, Mended, precision_with_pieces, with_vertices
+from synth.motion.branches import MOST_BRANCHES
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.motion.misfit import EXACT
+from synth.motion.second_order import RateSpace, rates_near
+from synth.motion.singular.flat_vertices import FlatVertices
+from synth.motion.singular.quadrics import quadrics_of
+from synth.motion.singular.sampling import followed
+from synth.motion.walk.allowance import Allowance
+
+__all__ = ["ALL_BRANCHES", "Nearby", "Written", "beyond_precision", "nearby"]
+
+ALL_BRANCHES = 120
+"""Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
+_WORK = 3e4
+"""Unknowns of all rounds of all fittings together: a few seconds."""
+_SEPARATE = 4
+"""After so many branches for which nothing was found no others are tried."""
+_ALONG = "loops close along a motion"
+_ALL_BUT = 0.1
+"""What is open by less than this part of the precision, by the square of the turn, may be near to a mechanism."""
+_AROUND = 2.0
+"""An attempt with a vertex farther off than this times the reach says nothing of what is within."""
+_FOLLOW = 5e2
+"""What following a branch takes of the work."""
+_FARTHER = (1e-4, 1e-3)
+"""Errors of a coordinate, of the extent, at which the nearest mechanism of a rigid pattern is looked for."""
+_TIGHTER = (1.0, 0.25)
+"""Angles are taken to be alike if they agree within these parts of their errors."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """A crease pattern as it is written, opened along cuts: its linkage, precision, and wanted signs of rates."""
+
+    sheet: Sheet
+    mechanism: SheetMechanism
+    linkage: PosedLinkage
+    precision: Precision
+    wanted: Floats
+
+    @property
+    def small(self) -> bool:
+        """Whether all spaces of rates are looked for."""
+        return len(self.linkage.graph.joints) <= ALL_BRANCHES
+
+
+@dataclass(frozen=True)
+class Nearby:
+    """Mechanisms near a crease pattern that move in ways which it nearly has.
+
+    Attributes
+    ----------
+    within : tuple of Mended
+        Within reach, that on which the assignment is a branch first, or else that with the most branches; each
+        with branches that those before it have not.
+    beyond : Mended or None
+        The nearest one beyond reach, where there is none within.
+    unsettled : bool
+        Whether some branch nearly agrees for which no mechanism was found: the fitting did not converge, or the
+        work was used up.
+    nearly : bool
+        Whether rates nearly agree that do not agree exactly.
+    written_first : bool
+        Whether the pattern as it is written is better than these: has the assignment, or more branches.
+    written_too : bool
+        Whether it has branches that these have not.
+    """
+
+    within: tuple[Mended, ...] = ()
+    beyond: Mended | None = None
+    unsettled: bool = False
+    nearly: bool = False
+    written_first: bool = False
+    written_too: bool = False
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """A mended pattern, None for that as it is written, and the numbers of the near branches that it has."""
+
+    mended: Mended | None
+    has: frozenset[int]
+
+
+def nearby(written: Written, levels: int = 3) -> Nearby:
+    """Return the nearest mechanisms with the branches that a pattern nearly has.
+
+    A vertex is displaced by four times the precision, at most. Nothing is done where a pattern has all of them as
+    it is written, or its coordinates are exact. What nearly agrees is looked for at wider and wider zeros, up to
+    three levels, until anything is found.
+    """
+    places = VertexPlaces(written.sheet, written.mechanism, written.linkage)
+    precision = precision_with_pieces(places, written.precision)
+    if precision.size <= EXACT:
+        return Nearby()
+    if not written.small:
+        return _Large(written, places, precision).nearby()
+    return _Search(written, places, precision).nearby(levels)
+
+
+def beyond_precision(written: Written) -> Mended | None:
+    """Return the nearest mechanism that was found beyond the precision of a pattern that does not move.
+
+    Its branches are looked for at errors ten times larger each time; None where there is none, and of a pattern
+    too large for all its branches, which is not looked at.
+    """
+    if not written.small:
+        return None
+    for size in _FARTHER:
+        if size > written.precision.size:
+            near = nearby(replace(written, precision=Precision(size, "a larger one, tried")), 1)
+            found = [*near.within[:1], *([near.beyond] if near.beyond else [])]
+            if found:
+                return replace(found[0], precision=written.precision)
+    return None
+
+
+class _Tried:
+    """What all searches have in common: the reach, angles that are meant, patterns with moved vertices."""
+
+    def __init__(self, written: Written, places: VertexPlaces, precision: Precision) -> None:
+        self.written, self.places, self.precision = written, places, precision
+        self.reach = max(FARTHEST * precision.size, places.bent)  # pieces of a crease were taken to be in line
+        self.allowance = Allowance(_WORK)
+
+    @cached_property
+    def bases(self) -> list[tuple[Fitting, str]]:
+        """Return fittings whose angles are as they are meant, the most of them first, with what holds."""
+        angles = [MeantAngles(self.places, part * self.precision.size) for part in _TIGHTER]
+        if len(angles[0]) == len(angles[1]):
+            angles.pop()
+        angles = [*(one for one in angles if len(one)), MeantAngles(self.places, 0.0)]
+        found = []
+        for one in angles:
+            fitting = Fitting(self.places, one, self.written.linkage.angles, self.allowance)
+            if fitting.at_the_pose() and fitting.moved <= self.reach:
+                why = (
+                    "angles that nearly agree are equal" if len(one) else "creases are straight and panels planar"
+                )
+                found.append((fitting, why))
+        return found
+
+    def mended(self, fitting: Fitting, why: str) -> Mended:
+        """Return the pattern with its vertices moved."""
+        linkage = self.written.linkage
+        corners = fitting.corners * linkage.extent + linkage.middle
+        return Mended(with_vertices(self.written.sheet, corners), fitting.moved, self.precision, why)
+
+    def linkage(self, mended: Mended) -> PosedLinkage:
+        """Return the linkage of a mended pattern."""
+        return linkage_of_sheet(mended.sheet, self.written.mechanism)
+
+
+class _Search(_Tried):
+    """The search in a pattern of which all spaces of rates are looked for."""
+
+    def __init__(self, written: Written, places: VertexPlaces, precision: Precision) -> None:
+        super().__init__(written, places, precision)
+        self.near: list[NearBranch] = []
+        self.candidates: list[_Candidate] = []
+        self.beyond: Mended | None = None
+        self.unsettled = False
+
+    def nearby(self, levels: int) -> Nearby:
+        """Return what was found at the first of so many levels of what nearly agrees at which anything was."""
+        lengths = self.places.lengths
+        exactly, left, bent = frozenset[int](), list[int](), self.places.bent > EXACT
+        linkage, wanted = self.written.linkage, self.written.wanted
+        for zero in zeros_of(self.precision.size, lengths)[:levels]:
+            more, complete = near_branches(linkage, zero, wanted, MOST_BRANCHES, self.near)
+            self.near += more
+            self.unsettled |= not complete
+            exactly = self._had_by(linkage, range(len(self.near)), follow=False)
+            left = [number for number in range(len(self.near)) if number not in exactly]
+            if left or bent:
+                self._mend(left)
+            if exactly or self.candidates:
+                break
+        within = self._sorted(exactly)
+        mended = tuple(one.mended for one in within if one.mended is not None)
+        beyond = self.beyond if not within else None
+        unsettled = self.unsettled or bool(self._open(left) and self.allowance.used_up)
+        first = bool(within and within[0].mended is None)
+        return Nearby(mended, beyond, unsettled, bool(left), first, any(one.mended is None for one in within))
+
+    def _mend(self, left: Sequence[int]) -> None:
+        """Move vertices so that the pattern has the near branches that are left, as far as that is possible."""
+        for fitting, why in self.bases:
+            if fitting.moved > EXACT:
+                self._add(self.mended(fitting, why), fitting)
+            if self._open(left):
+                self._fit(fitting, left)
+            if self.candidates and not self._open(left):
+                break
+
+    def _open(self, left: Sequence[int]) -> list[int]:
+        """Return the near branches that no mechanism has yet."""
+        return [number for number in left if not any(number in one.has for one in self.candidates)]
+
+    def _had_by(self, linkage: PosedLinkage, numbers: Sequence[int], *, follow: bool) -> frozenset[int]:
+        """Return which near branches a linkage has; where that is not clear at the pose they are followed."""
+        spaces, _ = spaces_at(linkage, MOST_BRANCHES)
+        closure, linear = ClosureEquations(linkage), FlatVertices(linkage).linear
+        had = set()
+        for number in numbers:
+            for space in spaces:
+                if covers(space, self.near[number].space):
+                    if not follow or (linear and not space.left) or self._moves(closure, linkage, space, number):
+                        had.add(number)
+                    break
+        return frozenset(had)
+
+    def _moves(self, closure: ClosureEquations, linkage: PosedLinkage, space: RateSpace, number: int) -> bool:
+        """Tell whether a motion begins in a space, near to that of a near branch, with all its freedoms."""
+        if not self.allowance.take(_FOLLOW):
+            return False
+        begun = space.basis @ (space.basis.T @ self.near[number].motions[-1])
+        rates = begun / np.abs(begun).max()
+        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
+        came = followed(linkage, closure, rates, still)
+        return came.far > 0.0 and (
+            bool(space.left) or (came.freedoms or 0) >= self.near[number].space.basis.shape[1]
+        )
+
+    def _add(self, mended: Mended, fitting: Fitting) -> _Candidate | None:
+        """Take a mended pattern among the candidates if it has any near branch."""
+        has = self._had_by(self.linkage(mended), range(len(self.near)), follow=True)
+        if not has and self.near:
+            return None
+        if mended.moved > self.reach:
+            if self.beyond is None or mended.moved < self.beyond.moved:
+                self.beyond = mended
+            return None
+        self.candidates.append(_Candidate(mended, has))
+        return self.candidates[-1]
+
+    def _fit(self, base: Fitting, left: Sequence[int]) -> None:
+        """Fit vertices along the near branches that no mechanism has yet: together, else each by itself."""
+        together, tried = base, 0
+        for number in left:
+            if number not in self._open(left) or tried >= _SEPARATE:
+                continue
+            fitted = self._fitted(dict.fromkeys((together, base)), self.near[number])
+            found = None if fitted is None else self._add(self.mended(fitted, _ALONG), fitted)
+            if fitted is not None and found is not None and number in found.has:
+                together = fitted
+            else:
+                tried += 1
+
+    def _fitted(self, starts: Iterable[Fitting], near: NearBranch) -> Fitting | None:
+        """Return the first fitting along the motions of a near branch, begun with others, that closes."""
+        unsettled = False
+        for start, motions in product(starts, near.begun):
+            fitted = start.along(motions)
+            if fitted is not None:
+                return fitted
+            # what all but closed may have been near to a mechanism, if no vertex was far from where it is written
+            all_but = 0.0 < start.error <= _ALL_BUT * self.precision.size
+            unsettled |= (all_but and start.displaced <= _AROUND * self.reach) or start.error == np.inf
+        self.unsettled |= unsettled
+        return None
+
+    def _sorted(self, exactly: frozenset[int]) -> list[_Candidate]:
+        """Return the candidates, the best first, each of which has what those before it have not.
+
+        The pattern as it is written is one of them where it has any near branch.
+        """
+
+        def worth(one: _Candidate) -> tuple[float, ...]:
+            spaces = [self.near[number].space.basis.shape[1] for number in one.has]
+            agreements = [self.near[number].agreement(self.written.wanted) for number in one.has]
+            moved = 0.0 if one.mended is None else one.mended.moved
+            return (max(agreements, default=-np.inf), len(spaces), sum(spaces), -moved)
+
+        whole = self.places.bent <= EXACT  # else panels come apart at creases of several pieces
+        every = [*self.candidates, *([_Candidate(None, exactly)] if exactly and whole else [])]
+        chosen, has = list[_Candidate](), set[int]()
+        for one in sorted(every, key=worth, reverse=True):
+            if not chosen or one.has - has:
+                chosen.append(one)
+                has |= one.has
+        return chosen
+
+
+class _Large(_Tried):
+    """The search in a pattern that is too large for all its branches: along the assignment."""
+
+    def nearby(self) -> Nearby:
+        """Return what was found."""
+        if self.places.bent <= EXACT and self._moves(self.written.linkage):
+            return Nearby()
+        rates = None
+        for fitting, why in self.bases:
+            mended = self.mended(fitting, why)
+            if fitting.moved > EXACT and self._moves(self.linkage(mended)):
+                return Nearby((mended,), nearly=True)
+            rates = self._nearly() if rates is None else rates
+            fitted = None if rates is None else fitting.along([rates])
+            if fitted is None or fitted.moved > self.reach:
+                continue
+            mended = self.mended(fitted, _ALONG)
+            if self._moves(self.linkage(mended)):
+                return Nearby((mended,), nearly=True)
+        return Nearby(unsettled=rates is not None, nearly=rates is not None)
+
+    def _moves(self, linkage: PosedLinkage) -> bool:
+        return self._rates(linkage) is not None
+
+    def _rates(self, linkage: PosedLinkage, zero: float = DOUBLE.closed) -> Floats | None:
+        closure, wanted = ClosureEquations(linkage), self.written.wanted
+        return rates_near(closure, linkage.angles, quadrics_of(linkage), wanted, zero)
+
+    def _nearly(self) -> Floats | None:
+        """Return rates near to the assignment that nearly agree."""
+        linkage, zero = self.written.linkage, Tolerances.of(self.precision.size).zero
+        rates = rates_near(
+            ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), self.written.wanted, zero
+        )
+        return None if rates is None else rates / np.abs(rates).max()

@@ -1,0 +1,25 @@
+from synth.fourbar.closing import (
+    FourBarKind as FourBarKind,
+    can_close as can_close,
+    checked_link_angles as checked_link_angles,
+    checked_link_lengths as checked_link_lengths,
+    grashof_class as grashof_class,
+    kind_of_planar as kind_of_planar,
+    kind_of_spherical as kind_of_spherical,
+    planar_differences as planar_differences,
+    spherical_differences as spherical_differences,
+)
+from synth.fourbar.joint_lines import (
+    in_a_hemisphere as in_a_hemisphere,
+    minimal_supplementary as minimal_supplementary,
+    supplementary as supplementary,
+)
+from synth.fourbar.position import (
+    input_limits_planar as input_limits_planar,
+    input_limits_spherical as input_limits_spherical,
+    output_planar as output_planar,
+    output_spherical as output_spherical,
+    transmission_planar as transmission_planar,
+    transmission_spherical as transmission_spherical,
+)
+from synth.fourbar.rounding import rounding_of as rounding_of

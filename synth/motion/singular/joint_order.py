@@ -1,0 +1,272 @@
+"""An order of the joints that depends on the mechanism alone, not on how a file numbers them.
+
+A search that is cut off, or that begins at random numbers, depends on the order of joints and of equations; so
+does a choice among equals. Branches are looked for in this order, and told in that of the file. Joints are told
+apart by what a motion, a mirror and another unit of length leave: the links they share, the angles and moments
+between their axes, their distances from the centres of loops. Classes are refined until nothing new is told (by
+colour refinement); of joints that are still alike, as those are that a symmetry takes to each other, one is taken
+out and refinement goes on. Theory: docs/theory/rounding.md.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphs.arrays import Floats, Ints
+from graphs.canonical import canonical_order, trailing
+from graphs.geometry import lines_meet
+from graphs.loops.loop import Centre
+from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import DOUBLE
+from synth.motion.linkage import PosedLinkage, PosedLoop
+
+__all__ = ["in_order", "joint_order"]
+
+_BENT = 0.37
+"""Invariants x count as 1 / (x + this): sums of squares are alike where their terms are not."""
+
+_SHARES = (1.0, 0.731, 0.519, 0.347)
+"""Of several invariants that are added to one."""
+
+
+def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
+    """Return the places of the joints of a linkage in an order that renaming, moving and mirroring leave as it is.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    marks : float[J], optional
+        1, -1 or 0 of each joint, by which joints that are alike are told apart; up to the sign of all.
+
+    Returns
+    -------
+    int[J]
+
+    Examples
+    --------
+    The sectors of a vertex are told apart by their angles, wherever its list of creases begins:
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, .2), (-.5, -.7))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> ways = (faces, faces[2:] + faces[:2])
+    >>> here, there = (linkage_of_sheet(Sheet(5, (), "", way, corners)) for way in ways)
+    >>> bool(np.allclose(here.points[joint_order(here)], there.points[joint_order(there)]))
+    True
+    """
+    joints = len(linkage.angles)
+    if joints < 2:
+        return np.arange(joints)
+    return _swept(linkage, _labels(linkage, marks))
+
+
+def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
+    """Return the joints in the order of their classes."""
+    relations = _Relations.of(linkage)
+    angles = np.concatenate([np.cos(linkage.angles), np.full(relations.centres, 2.0)])
+    colours = relations.refined(_classes(np.zeros(len(angles), dtype=np.int64), angles))
+    if marks is None or not marks.any():
+        return relations.order(colours)
+    sides = [np.concatenate([sign * marks, np.zeros(relations.centres)]) for sign in _signs(colours, marks)]
+    orders = [relations.order(relations.refined(_classes(colours, side))) for side in sides]
+    seen = [
+        np.concatenate([side[order], relations.pairs[np.ix_(order, order)].ravel()])
+        for order, side in zip(orders, sides, strict=True)
+    ]
+    return orders[canonical_order(seen, DOUBLE.zero)[0]]
+
+
+def _swept(linkage: PosedLinkage, labels: Ints) -> Ints:
+    """Return the joints loop by loop, from a loop far out to those that share most joints with the loops before.
+
+    So cases that do not fit come to nothing after few choices. Of loops that are alike the first by its labels is
+    taken.
+    """
+    rank = np.argsort(labels)
+    centres = {number: _centre(linkage, loop) for number, loop in enumerate(linkage.loops) if _is_about(loop)}
+    if not centres:
+        return labels
+    around = np.array(list(centres.values()))
+    far = np.linalg.norm(around[:, None] - around[None], axis=2).mean(axis=1)
+    names = [sorted(rank[list(linkage.loops[number].joints)].tolist()) for number in centres]
+    by_name = sorted(range(len(names)), key=names.__getitem__)
+    start = by_name[trailing(-far[by_name])]
+    loops_of: dict[int, list[int]] = {}
+    for number, name in enumerate(names):
+        for joint in name:
+            loops_of.setdefault(joint, []).append(number)
+    placed: dict[int, None] = {}
+    left, shared, met = set(range(len(names))), Counter[int](), dict[int, int]()
+    met[start] = 0
+    while left:
+        here = [number for number in met if number in left]
+        if not here:
+            met[next(number for number in by_name if number in left)] = len(met)
+            continue
+        number = min(here, key=lambda one: (-shared[one], -met[one]))
+        left.remove(number)
+        new = [joint for joint in names[number] if joint not in placed]
+        placed |= dict.fromkeys(new)
+        beyond = sorted({other for joint in new for other in loops_of[joint]} & left, key=names.__getitem__)
+        for other in beyond:
+            met.setdefault(other, len(met))
+        shared.update(other for joint in new for other in loops_of[joint])
+    rest = [joint for joint in range(len(labels)) if joint not in placed]
+    return labels[[*placed, *rest]]
+
+
+def _is_about(loop: PosedLoop) -> bool:
+    return loop.centre is Centre.FINITE and len(loop.joints) > 1
+
+
+def in_order(linkage: PosedLinkage, order: Ints) -> PosedLinkage:
+    """Return a linkage with its joints in an order, and its loops by these, beginning at their first joint.
+
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> axes = {joint: ((joint, 0.0, 0.0), (0.0, 0.0, 1.0)) for joint in range(2)}
+    >>> chain = linkage_of_axes(SCGraph(3, [(0, 1), (1, 2)]), axes)
+    >>> list(in_order(chain, np.array([1, 0])).graph.joints)
+    [1, 0]
+    """
+    graph, names = linkage.graph, list(linkage.graph.joints)
+    place = np.argsort(order)
+    loops = sorted((_begun_at_first(loop, place) for loop in linkage.loops), key=_loop_rank)
+    joints = {names[old]: graph.joints[names[old]] for old in order.tolist()}
+    return replace(
+        linkage,
+        graph=SCGraph(graph.nodes, joints, graph.loops, closing=graph.closing, ground=graph.ground),
+        points=linkage.points[order],
+        directions=linkage.directions[order],
+        angles=linkage.angles[order],
+        loops=tuple(loops),
+    )
+
+
+def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:
+    """Return a loop by new places, from the least on towards the lesser of its neighbours."""
+    joints, signs = [int(place[joint]) for joint in loop.joints], list(loop.signs)
+    first = joints.index(min(joints))
+    joints, signs = joints[first:] + joints[:first], signs[first:] + signs[:first]
+    if joints[-1] < joints[1]:
+        joints = [joints[0], *joints[:0:-1]]
+        signs = [-sign for sign in (signs[0], *signs[:0:-1])]
+    return PosedLoop(tuple(joints), tuple(signs), loop.centre)
+
+
+def _loop_rank(loop: PosedLoop) -> tuple[bool, list[int]]:
+    """Return what loops are sorted by: those about a point first, in the order of their last joints."""
+    return loop.centre is not Centre.FINITE, sorted(loop.joints, reverse=True)
+
+
+def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
+    """Return the sign of marks that the first class whose marks are not in balance makes positive, or both."""
+    sums = np.bincount(colours[: len(marks)], weights=marks)
+    uneven = sums[np.abs(sums) > 0.5]
+    return (float(np.sign(uneven[0])),) if len(uneven) else (1.0, -1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class _Relations:
+    """What joints and centres are to each other: the mean of it over a class tells its members apart.
+
+    Attributes
+    ----------
+    pairs : float[n, n]
+        Symmetric; the joints first, then the centres of loops about a point. A sum of invariants, each with a
+        share of its own.
+    joints, centres : int
+    """
+
+    pairs: Floats
+    joints: int
+    centres: int
+
+    @classmethod
+    def of(cls, linkage: PosedLinkage) -> _Relations:
+        """Return what the joints of a linkage and the centres of its loops are to each other."""
+        joints = len(linkage.angles)
+        about = [loop for loop in linkage.loops if _is_about(loop)]
+        centres = np.array([_centre(linkage, loop) for loop in about]).reshape(-1, 3)
+        size = joints + len(about)
+        distances, passing = np.zeros((size, size)), np.zeros((size, size))
+        apart = ((centres[:, None] - centres[None]) ** 2).sum(axis=2)
+        unit = apart.mean() if about else 1.0
+        unit = unit if unit > DOUBLE.same_point**2 else 1.0
+        distances[joints:, joints:] = apart / unit
+        off = centres[None] - linkage.points[:, None]
+        off = off - (off * linkage.directions[:, None]).sum(axis=2)[..., None] * linkage.directions[:, None]
+        distances[:joints, joints:] = (off**2).sum(axis=2) / unit
+        distances[joints:, :joints] = distances[:joints, joints:].T
+        for number, loop in enumerate(about):
+            passing[list(loop.joints), joints + number] = passing[joints + number, list(loop.joints)] = 1.0
+        passing[:joints, :joints] = _links_shared(linkage)
+        between = np.zeros((size, size))
+        between[:joints, :joints] = 1.0 / ((linkage.directions @ linkage.directions.T) ** 2 + _BENT)
+        moments = np.zeros((size, size))
+        moments[:joints, :joints] = _moments(linkage)
+        invariants = (1.0 / (distances + _BENT), passing, between, moments)
+        pairs = sum(share * one for share, one in zip(_SHARES, invariants, strict=True))
+        return cls(np.asarray(pairs), joints, len(about))
+
+    def refined(self, colours: Ints) -> Ints:
+        """Return the classes that relations to the classes before tell apart, until these are no more."""
+        while True:
+            classes = int(colours.max()) + 1
+            names = np.random.default_rng(classes).uniform(0.5, 1.0, classes)
+            finer = _classes(colours, self.pairs @ names[colours] / len(colours))
+            if finer.max() == colours.max():
+                return colours
+            colours = finer
+
+    def order(self, colours: Ints) -> Ints:
+        """Return the joints in the order of their classes; of several in a class one is taken out at a time."""
+        while True:
+            here = colours[: self.joints]
+            sizes = np.bincount(here)
+            several = np.flatnonzero(sizes > 1)
+            if not len(several):
+                return np.argsort(here)
+            colours = 2 * colours
+            colours[int(np.argmax(here == several[0]))] -= 1
+            colours = self.refined(np.unique(colours, return_inverse=True)[1])
+
+
+def _classes(colours: Ints, seen: Floats) -> Ints:
+    """Return classes by the classes before, and within these by numbers that differ by more than rounding.
+
+    What is nearly symmetric, in rounded coordinates, is not.
+    """
+    order = np.lexsort((seen, colours))
+    new = (np.diff(colours[order]) > 0) | (np.diff(seen[order]) > DOUBLE.zero * np.abs(seen).max(initial=0.0))
+    finer = np.empty(len(colours), dtype=np.int64)
+    finer[order] = np.concatenate([[0], np.cumsum(new)])
+    return finer
+
+
+def _centre(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
+    joints = list(loop.joints)
+    return np.asarray(lines_meet(linkage.points[joints], linkage.directions[joints]).point)
+
+
+def _links_shared(linkage: PosedLinkage) -> Floats:
+    """Return how many links two joints share: float[J, J], 0 on the diagonal."""
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    ends = np.zeros((len(linkage.angles), len(number)))
+    for place, (first, second) in enumerate(linkage.graph.joints.values()):
+        ends[place, number[first]] = ends[place, number[second]] = 1.0
+    shared = ends @ ends.T
+    np.fill_diagonal(shared, 0.0)
+    return np.asarray(shared)
+
+
+def _moments(linkage: PosedLinkage) -> Floats:
+    """Return the squares of the moments between axes, as parts of the largest; zeros where all lie in a plane."""
+    off = np.cross(linkage.points, linkage.directions)
+    moments = linkage.directions @ off.T
+    moments = (moments + moments.T) ** 2
+    largest = moments.max(initial=0.0)
+    return np.asarray(moments / largest if largest > DOUBLE.flat**2 else np.zeros_like(moments))

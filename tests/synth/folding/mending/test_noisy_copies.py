@@ -1,0 +1,184 @@
+"""Copies with errors of a known size: verdicts as those of the patterns, whatever was done to the coordinates."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from noisy_copies import (
+    MOVING,
+    RIGID,
+    agrees,
+    copy_of,
+    exact,
+    kinds,
+    sentence,
+    stated,
+    tapered,
+    verdict_on_copy,
+    with_places,
+    wrongly_proved,
+)
+
+from graphs.mechanism.precision import extent_of
+from synth.folding.configuration import configuration_of_sheet
+from synth.folding.mending.nearest import nearby
+from synth.motion.branches import branches_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_sheet
+from synth.motion.path import PathOptions, driven_path
+from synth.patterns.creases.twists import polygon_twist
+from synth.verdict.of_motion import verdict_of_motion
+
+QUICK = ["miura 3 x 3", "tapered 3 x 3", "square twist", "map 3 x 3", "huffman 3 x 3", "fish base"]
+
+
+def turned_round_and_back(sheet, degrees, decimals, factor=1.0):
+    """A sheet rounded while it was turned: its digits show nothing."""
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    turn = np.array([[c, s], [-s, c]])
+    places = (np.array(sheet.coordinates) @ turn).round(decimals) @ turn.T * factor
+    return with_places(sheet, places), 0.5 * 10.0**-decimals * factor / extent_of(places)
+
+
+@pytest.mark.parametrize("factor", [1.0, 25.4])
+@pytest.mark.parametrize(
+    ("name", "freedoms", "ways"),
+    [("square twist", 1, {1: 6}), ("map 4 x 4", 3, {3: 2}), ("miura 3 x 3", 1, {1: 3, 2: 1})],
+)
+def test_a_turn_and_another_unit_do_not_hide_what_folds(name, freedoms, ways, factor):
+    sheet, size = turned_round_and_back(MOVING[name](), 33, 6, factor)
+    verdict = verdict_of_motion(stated(sheet, size))
+    assert (verdict.freedoms, kinds(verdict), verdict.exhaustive) == (freedoms, ways, True)
+    assert (verdict.as_written.freedoms or 0) < freedoms or name == "miura 3 x 3"
+    assert 0.0 < verdict.within_precision.misfit <= 4 * size
+    assert f": {freedoms} degree" in verdict.text or f": up to {freedoms} degree" in verdict.text
+    assert ", within the drawing's precision (vertices moved by at most " in verdict.text
+
+
+@pytest.mark.parametrize("noise", [1e-3, 1e-5, 1e-7])
+def test_two_freedoms_come_back_in_both_ways(noise):
+    sheet, size = copy_of("map 3 x 3", noise, 0)
+    verdict = verdict_of_motion(stated(sheet, size))
+    assert (verdict.freedoms, kinds(verdict), verdict.stiff_joints) == (2, {2: 2}, exact("map 3 x 3").stiff_joints)
+
+
+def test_a_tapered_sheet_drawn_by_a_program():
+    """Turned by seven degrees, scaled from 72 to 90 dots an inch and rounded to two decimals between."""
+    sheet = tapered(5)
+    drawn = with_places(sheet, np.array(sheet.coordinates) * 300.0)
+    written, size = turned_round_and_back(drawn, -7, 2, 2.8346)
+    verdict = verdict_of_motion(stated(written, size))
+    assert (verdict.freedoms, kinds(verdict)) == (4, {1: 15, 4: 1})
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("name", QUICK)
+def test_copies_move_as_the_pattern_does(name, seed):
+    for size in (1e-4, 1e-7):
+        verdict = verdict_on_copy(name, size, seed)
+        assert agrees(name, verdict), (size, verdict)
+        assert not wrongly_proved(name, verdict)
+
+
+@pytest.mark.parametrize("name", ["bent miura 3 x 3", "bent square twist"])
+def test_copies_of_what_is_rigid_never_fold(name):
+    verdict = verdict_on_copy(name, 1e-5, 0)
+    assert verdict.freedoms in (0, None)
+    assert sentence(verdict) in ("rigid", "unknown")
+    assert verdict.as_written.freedoms == 0
+    if verdict.within_precision.misfit is not None:
+        assert verdict.within_precision.misfit > 10 * 1e-5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*MOVING, *RIGID])
+def test_fifty_copies_of_each(name):
+    verdicts = []
+    for seed in range(50):
+        size = 10.0 ** np.random.default_rng((seed, 7)).uniform(-8, -3)
+        verdicts.append(verdict_on_copy(name, size, seed))
+    assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
+    if name in RIGID:
+        assert all(sentence(verdict) != "moves" for verdict in verdicts)
+    else:
+        assert sum(agrees(name, verdict) for verdict in verdicts) >= 49
+
+
+@pytest.mark.parametrize(
+    ("name", "noise"), [("miura 3 x 3", 1e-5), ("hexagon twist", 1e-6), ("square twist", 1e-4)]
+)
+def test_the_misfit_is_that_of_a_pattern_that_folds(name, noise):
+    """The mended pattern, read as exact, followed far with closed loops; displacements measured once more."""
+    sheet, size = copy_of(name, noise, 2)
+    at = stated(sheet, size)
+    places, before = (np.array(one.coordinates) for one in (at.sheet, sheet))
+    moved = np.sqrt(((places - before) ** 2).sum(axis=1)).max() / extent_of(before)
+    assert at.misfit == pytest.approx(moved, rel=1e-6)
+    assert moved <= 4 * size
+    linkage = linkage_of_sheet(at.sheet)
+    closure = ClosureEquations(linkage)
+    [*every] = branches_of(linkage).branches
+    assert len(every) == len(exact(name).ways)
+    for branch in every:
+        driver = int(np.abs(branch.rates).argmax())
+        goal = 1.0 * np.sign(branch.rates[driver])
+        options = PathOptions(branch.rates, straight=True)
+        path = driven_path(closure.locked(branch.still), linkage.angles, [driver], [goal], options=options)
+        assert not path.stopped
+        assert path.errors.max() < 1e-12
+
+
+def test_a_motion_closes_wherever_it_is_followed():
+    """Six multipliers have to make one: loops close at configurations that were not fitted, too."""
+    sheet, size = copy_of("hexagon twist", 1e-4, 4)
+    at = stated(sheet, size)
+    linkage = at.linkage
+    closure = ClosureEquations(linkage)
+    for branch in at.branches.branches:
+        driver = int(np.abs(branch.rates).argmax())
+        goals = np.sign(branch.rates[driver]) * np.radians([[7], [23], [41], [66]])
+        path = driven_path(closure, linkage.angles, [driver], goals, options=PathOptions(branch.rates))
+        assert path.errors.max() < 1e-12
+
+
+def test_what_moves_as_written_is_left_and_said_to_be_exact():
+    verdict = exact("miura 3 x 3")
+    assert verdict.as_written.to_json() == {"freedoms": 1, "certainty": "proved"}
+    assert verdict.within_precision.misfit == 0.0
+    assert {way.misfit for way in verdict.ways} == {0.0}
+
+
+def test_the_nearest_mechanism_beyond_the_precision_is_told():
+    """A twist off by 3e-3 radians: the nearest pattern that folds is no farther than that of the right twist."""
+    right, off = (polygon_twist(6, np.arcsin(0.25) + by) for by in (0.0, 3e-3))
+    verdict = verdict_of_motion(stated(off, 1e-5))
+    apart = np.linalg.norm(np.array(right.coordinates) - np.array(off.coordinates), axis=1).max()
+    assert (verdict.freedoms, verdict.as_written.certainty) == (0, "proved")
+    assert verdict.certainty == "numerical"
+    assert 4e-5 < verdict.within_precision.misfit <= apart / extent_of(np.array(off.coordinates))
+    assert "; the nearest rigid-foldable pattern has vertices moved by up to " in verdict.text
+    assert verdict.text.endswith(" times the precision.")
+
+
+def test_nothing_is_done_to_exact_coordinates():
+    at = configuration_of_sheet(MOVING["map 3 x 3"]())
+    assert nearby(at.as_drawn).within == ()
+    assert (at.written, at.elsewhere, at.misfit) == (None, (), 0.0)
+
+
+def test_branches_of_other_mechanisms_are_listed_last(monkeypatch):
+    """Of two mechanisms the first has two of six branches here; the others are found on the second."""
+    sheet, size = copy_of("square twist", 1e-5, 0)
+    at = stated(sheet, size)
+    other = replace(at, alternatives=())
+    fewer = replace(at.branches, branches=at.branches.branches[:2])
+    alone = replace(at, alternatives=(other,))
+    monkeypatch.setitem(alone.__dict__, "branches", fewer)
+    assert len(alone.elsewhere) == 4
+    found, number = alone.of_branch(3)
+    assert found is other
+    assert found.branch(number).signs == at.branches.branches[number].signs
+    assert alone.of_branch(1) == (alone, 1)
+    assert alone.of_branch(alone.elsewhere[2][0].branch(alone.elsewhere[2][1]).signs) == alone.elsewhere[2]
+    verdict = verdict_of_motion(alone)
+    assert len(verdict.ways) == 6
