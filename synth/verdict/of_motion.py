@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphs.ids import JointId
-from graphs.mechanism.precision import ESTIMATED
+from graphs.mechanism.precision import BY_DIGITS, ESTIMATED
 from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch, Branches, Certainty
@@ -128,11 +128,16 @@ def _of_branches(configuration: Configuration, found: Branches, generic: int | N
 
 
 def _unmoved(configuration: Configuration, found: Branches) -> tuple[int | None, Certainty]:
-    """Return the freedoms of what does not move, and how that is known: proved if nothing nearly moves either."""
+    """Return the freedoms of what does not move, and how that is known: proved if nothing nearly moves either.
+
+    Where the digits alone tell the precision, coordinates may have larger errors that nothing shows: a mechanism
+    nearby is then what may be meant.
+    """
     if not found.exhaustive or configuration.unsettled:
         return None, "not known"
-    sure = not configuration.nearly and configuration.precision.source != ESTIMATED
-    return 0, "proved" if sure else "numerical"
+    precision = configuration.precision
+    doubtful = precision.source == ESTIMATED or (precision.evidence == BY_DIGITS and configuration.nearest)
+    return 0, "numerical" if configuration.nearly or doubtful else "proved"
 
 
 def _marked(configuration: Configuration, ways: int) -> tuple[int | None, Marked | None]:

@@ -26,7 +26,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace, corrected
 from synth.motion.walk.allowance import Allowance
 
-__all__ = ["Fitting"]
+__all__ = ["FARTHEST_PATTERN", "Fitting"]
 
 _TURNS = tuple(radians(turn) for turn in (12.0, 30.0, 55.0, 90.0))
 """Of the joint that moves most, at the configurations that have to close along the first motion."""
@@ -38,7 +38,7 @@ _ADDED = 6
 """So many configurations are added, at most, where a motion stays open."""
 _BEYOND = 30.0
 """What stays open by more than this times what vertices were moved by is out of reach, where panels meet."""
-_FARTHEST = 0.01
+FARTHEST_PATTERN = 0.01
 """Vertices are displaced by this part of the extent at most: what is nearest farther off is another pattern."""
 _STEP = radians(3.0)
 _ENOUGH = 2
@@ -127,7 +127,7 @@ class Fitting:
             self._state = closed
         return closed is not None
 
-    def along(self, motions: Sequence[Floats], most: float = _FARTHEST) -> Fitting | None:
+    def along(self, motions: Sequence[Floats], most: float = FARTHEST_PATTERN) -> Fitting | None:
         """Return a fitting along motions too, which begin at rates float[J] each; None where there is none.
 
         Joints whose rate is zero are locked: the equations of what lies flat while other joints move are squares.

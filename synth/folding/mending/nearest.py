@@ -20,7 +20,7 @@ from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
 from synth.folding.mending.angles import MeantAngles
-from synth.folding.mending.fitting import Fitting
+from synth.folding.mending.fitting import FARTHEST_PATTERN, Fitting
 from synth.folding.mending.near import NearBranch, covers, near_branches, spaces_at, zeros_of
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.repair import FARTHEST, Mended, precision_with_pieces, with_vertices
@@ -186,6 +186,7 @@ class _Search(_Tried):
         self.near: list[NearBranch] = []
         self.candidates: list[_Candidate] = []
         self.beyond: Mended | None = None
+        self.only_beyond: set[int] = set()  # near branches of mechanisms that were found beyond reach
         self.unsettled = False
 
     def nearby(self, levels: int) -> Nearby:
@@ -255,6 +256,7 @@ class _Search(_Tried):
         if not has and self.near:
             return None
         if mended.moved > self.reach:
+            self.only_beyond |= has
             if self.beyond is None or mended.moved < self.beyond.moved:
                 self.beyond = mended
             return None
@@ -267,18 +269,22 @@ class _Search(_Tried):
         for number in left:
             if number not in self._open(left) or tried >= _SEPARATE:
                 continue
-            fitted = self._fitted(dict.fromkeys((together, base)), self.near[number])
+            fitted = self._fitted(dict.fromkeys((together, base)), number)
             found = None if fitted is None else self._add(self.mended(fitted, _ALONG), fitted)
             if fitted is not None and found is not None and number in found.has:
                 together = fitted
             else:
                 tried += 1
 
-    def _fitted(self, starts: Iterable[Fitting], near: NearBranch) -> Fitting | None:
-        """Return the first fitting along the motions of a near branch, begun with others, that closes."""
+    def _fitted(self, starts: Iterable[Fitting], number: int) -> Fitting | None:
+        """Return the first fitting along the motions of a near branch, begun with others, that closes.
+
+        Once a branch was found beyond reach, it is looked for no farther off than is near to the reach.
+        """
         unsettled = False
-        for start, motions in product(starts, near.begun):
-            fitted = start.along(motions)
+        most = _AROUND * self.reach if number in self.only_beyond else FARTHEST_PATTERN
+        for start, motions in product(starts, self.near[number].begun):
+            fitted = start.along(motions, most)
             if fitted is not None:
                 return fitted
             # what all but closed may have been near to a mechanism, if no vertex was far from where it is written
