@@ -22,7 +22,7 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from synth.folding.collisions import Collision, Panels
 from synth.folding.mending.near import covers
-from synth.folding.mending.nearest import Nearby, Written, beyond_precision, nearby
+from synth.folding.mending.nearest import ALL_BRANCHES, Nearby, Written, beyond_precision, nearby
 from synth.folding.mending.repair import Mended, flattened
 from synth.folding.opened import opened
 from synth.folding.vertices import vertex_places
@@ -135,7 +135,9 @@ class SheetConfiguration(Configuration):
         """What is to be said of the coordinates where nothing moves or a motion ends; empty if nothing is."""
         if self.branches is None or self.branches.branches:
             return doubt_of(self.precision)
-        return doubt_of_rigid(self.precision, None if self.nearest is None else self.nearest.moved, self.unsettled)
+        misfit = None if self.nearest is None else self.nearest.moved
+        too_large = "" if self.as_drawn.small else f"more than {ALL_BRANCHES} creases"
+        return doubt_of_rigid(self.precision, misfit, self.unsettled, too_large)
 
     def placed(self, angles: Floats) -> Placed:
         """Return where vertices are at fold angles float[F, J], radians."""

@@ -33,11 +33,14 @@ def size_of(precision: Precision) -> str:
     return str(precision)
 
 
-def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool = False) -> str:
+def doubt_of_rigid(
+    precision: Precision, misfit: float | None, unsettled: bool = False, too_large: str = ""
+) -> str:
     """Return how near what does not move is to what does, after "rigid"; empty where that is all.
 
     The misfit is the largest displacement of a vertex, in units of the extent, in the nearest pattern that moves,
-    or None if none was found; unsettled is what may move within the precision.
+    or None if none was found; unsettled is what may move within the precision. `too_large` says why none was
+    looked for.
 
     >>> doubt_of_rigid(Precision(0.0, "exact"), 2.03e-3)
     '; the nearest rigid-foldable pattern has vertices moved by up to 3e-03 of the extent'
@@ -46,7 +49,8 @@ def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool =
     within = "" if exact else f" within the drawing's precision, {size_of(precision)}"
     if misfit is None:
         nearly = "; some branches nearly exist, and whether any does there is unknown" if unsettled else ""
-        return within + nearly
+        unsought = f"; the nearest rigid-foldable pattern was not searched for: {too_large}" if too_large else ""
+        return within + (nearly or unsought)
     times = "" if exact else f", {misfit / precision.size:.0f} times the precision"
     moved = f"vertices moved by up to {at_most(misfit)} of the extent{times}"
     return f"{within}; the nearest rigid-foldable pattern has {moved}"
