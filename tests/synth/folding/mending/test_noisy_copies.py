@@ -19,12 +19,13 @@ from noisy_copies import (
     wrongly_proved,
 )
 
-from graphs.mechanism.precision import extent_of
+from graphs.mechanism.precision import BY_DIGITS, Precision, extent_of
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.mending.nearest import nearby
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
+from synth.motion.misfit import doubt_of_rigid
 from synth.motion.path import PathOptions, driven_path
 from synth.patterns.creases.twists import polygon_twist
 from synth.verdict.of_motion import verdict_of_motion
@@ -158,6 +159,22 @@ def test_the_nearest_mechanism_beyond_the_precision_is_told():
     assert 4e-5 < verdict.within_precision.misfit <= apart / extent_of(np.array(off.coordinates))
     assert "; the nearest rigid-foldable pattern has vertices moved by up to " in verdict.text
     assert verdict.text.endswith(" times the precision.")
+
+
+def test_digits_alone_prove_no_rigidity_beside_a_mechanism():
+    """Errors larger than the digits show: what is rigid as written lies near to the pattern that was meant."""
+    sheet, _ = copy_of("huffman 3 x 3", 8e-4, 2)
+    at = configuration_of_sheet(sheet)
+    verdict = verdict_of_motion(at)
+    assert at.precision.evidence == BY_DIGITS
+    assert (verdict.freedoms, verdict.certainty, verdict.as_written.certainty) == (0, "numerical", "proved")
+    assert verdict.within_precision.misfit < 8e-4
+
+
+def test_what_was_not_searched_for_is_said():
+    assert doubt_of_rigid(Precision(0.0, "exact"), None, too_large="more than 120 creases").endswith(
+        "; the nearest rigid-foldable pattern was not searched for: more than 120 creases"
+    )
 
 
 def test_nothing_is_done_to_exact_coordinates():
