@@ -120,7 +120,7 @@ def kinds(verdict):
 
 def sentence(verdict):
     """What the first sentence says: it moves, is rigid, or neither is known."""
-    first = verdict.text.split()[0].rstrip(":")
+    first = verdict.text.split()[0].rstrip(":;.")
     return {"Rigid-foldable": "moves", "Mobile": "moves", "Rigid": "rigid"}.get(first, "unknown")
 
 
