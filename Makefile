@@ -90,6 +90,11 @@ test-web: $(STAMP) page browser
 	else echo "The registry of npm is out of reach: the page's own tests are left out, and others that need its packages skip" >&2; fi
 	NODE_PATH="$(CURDIR)/$(VENV)/npm/node_modules" $(BIN)/python -m pytest -m "web and not slow"
 
+# Operators and guards of FILE (those changed since SINCE without one) that no test of its room holds.
+.PHONY: mutants
+mutants: $(STAMP)
+	$(BIN)/python -m tests.mutants $(FILE) --since $(or $(SINCE),HEAD)
+
 # What some tests compare with; they skip with a message where it is missing.
 .PHONY: peers
 peers:
