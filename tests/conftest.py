@@ -16,6 +16,7 @@ os.environ["SYNTHEDRA_DEBUG"] = "1"
 
 import numpy as np
 import pytest
+from golden_numbers import golden_numbers
 from hypothesis import HealthCheck, settings
 from real_patterns import folder_of_patterns
 
@@ -61,9 +62,9 @@ def mechanisms(data: Path) -> list[Path]:
 
 
 @pytest.fixture(scope="session")
-def golden(data: Path) -> dict:
+def golden() -> dict:
     """The checked numbers of the source papers."""
-    return json.loads((data / "golden.json").read_text(encoding="utf-8"))
+    return golden_numbers()
 
 
 @pytest.fixture(scope="session")

@@ -400,7 +400,7 @@ class _Looking:
         if self._stresses != 1 or len(self._quadrics) != 1:
             return False
         forms = local_forms(self._tangent, self._quadrics)
-        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear)).signs != 0).sum())
+        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear), scale=1.0).signs != 0).sum())
         return bool(rank == self._tangent.shape[1] - free)
 
     def method(self, spaces: list[RateSpace]) -> Method:
@@ -469,7 +469,7 @@ class _Looking:
         for row, quadric in zip(slopes, self._quadrics, strict=True):
             joints = list(quadric.joints)
             row[:] = rates[joints] @ quadric.form @ self._tangent[joints] / np.abs(quadric.form).max()
-        independent = rank_of(slopes, DOUBLE.clear) == self._stresses
+        independent = rank_of(slopes, DOUBLE.clear, scale=1.0) == self._stresses
         return int(slopes.shape[1] - self._stresses) if independent else None
 
     def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:

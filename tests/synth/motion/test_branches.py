@@ -145,3 +145,9 @@ def test_a_search_takes_so_many_steps_and_no_more(data, monkeypatch):
     assert 16 <= sum(taken) <= 400 + 20 * len(branches.branches)
     assert not all(taken)
     assert min(branch.followed for branch in branches.branches) < radians(9)
+
+
+def test_an_equation_that_is_nothing_but_rounding_proves_nothing(data):
+    """Two pairs of panels on each other, each turning about its own line: no cone, and two degrees of freedom."""
+    (branch,) = branches(read(data / "linkages" / "wampler-fig1-folded.fold")).branches
+    assert (branch.freedoms, branch.certainty) == (2, "numerical")
