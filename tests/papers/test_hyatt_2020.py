@@ -216,7 +216,12 @@ def test_equations_21_and_23_agree_as_put_right_only(rng):
         np.testing.assert_allclose(lengths[good], np.broadcast_to(links, lengths[good].shape), atol=1e-6)
         o = joint_axes([0.0], tilt)[0]
         far.append(np.abs(rotated(o, [0, 1.0, 0], one[3]) - joint_axes(azimuths(one), tilt)[3]).max())
-    assert np.median(far) > 0.5  # C = R_y(gamma_0) O, as printed
+    sampled = PAPER["pos_monte_carlo"]["computed"]
+    assert sampled["corrected"]["max"] < 1e-9
+    as_printed = sampled["eq22_23_as_printed"]
+    assert min(np.median(far), as_printed["median"]) > 0.5  # C = R_y(gamma_0) O, as printed
+    assert max(far) <= 2.0
+    assert as_printed["max"] <= 2.0  # axes are unit vectors
 
 
 def test_counts_of_cones(golden, rng):

@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphs.answer.mechanisms import mobility
 from graphs.count.equations import spherical_system, traditional_cgk, wampler_points, wampler_rods
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.mechanism.polyhedron import PolyhedronModel
+from synth.verdict.judged import mobility as judged
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "wampler"
 
@@ -131,7 +133,22 @@ def test_scissors(golden):
     before = values["printed"]["before"]
     assert wampler_rods(before["V"], before["E"]) == before["M"]
     element = PolyhedronModel(4, scissors=[(0, 1, 2, 3)])
-    assert mobility_report(element).mobility == 7 - 6
+    assert mobility_report(element).mobility + 6 == golden["004"]["scissors_element"]["printed"]["true_dof"]
+    generic = mobility(model("spherical-scissors")).exact.mobility
+    assert generic == golden["004"]["scissors_planar"]["computed"]["numeric"]
+
+
+def test_a_stretched_four_bar_is_rigid_and_shaky(golden):
+    """The text before Eq. 3: an isolated real point with two freedoms to first order."""
+    lengths = golden["004"]["degenerate_fourbar"]["inputs"]["lengths"]
+    assert 2 * max(lengths) == pytest.approx(sum(lengths))
+    linkage = read(DATA.parent / "joints" / "stretched-four-bar.json")
+    places = np.array([point for point, _ in linkage.axes.values()])
+    apart = np.linalg.norm(places - np.roll(places, -1, axis=0), axis=1)
+    assert sorted(apart) == pytest.approx(sorted(lengths))
+    assert mobility(linkage).pose.dof == golden["004"]["degenerate_fourbar"]["computed"]["infinitesimal_dof"]
+    verdict = judged(linkage).verdict
+    assert (verdict.freedoms, verdict.certainty) == (0, "proved")
 
 
 def test_crs_platform_leaves_ground_out(golden):
