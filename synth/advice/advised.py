@@ -31,7 +31,7 @@ from synth.advice.search import Bounds, Candidates, freedoms_when_left_out, smal
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.moving.made import Movable, configuration_of
 
 __all__ = ["advise"]

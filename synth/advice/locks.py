@@ -16,7 +16,7 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 
 __all__ = ["Cost", "cheapest_sets", "held"]
 

@@ -19,7 +19,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
 from synth.advice.diagonals import Diagonal
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 
 __all__ = ["Bounds", "Candidates", "Found", "freedoms_when_creased", "freedoms_when_left_out", "smallest_sets"]
 

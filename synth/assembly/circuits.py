@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
-from synth.motion.walk.circuits import circuit_through
+from synth.motion.path import circuit_through
 from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk

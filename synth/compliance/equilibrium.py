@@ -15,7 +15,7 @@ from graphs.errors import NumericalError
 from graphs.rank.spaces import null_space
 from graphs.tolerances import DOUBLE
 from synth.compliance.springs import Bent, ElasticLinkage
-from synth.motion.newton import corrected, exactly_held
+from synth.motion.closure import corrected, exactly_held
 from synth.motion.path import driven_path
 
 __all__ = ["Equilibrium", "LoadPath", "equilibrium", "load_path"]

@@ -24,8 +24,7 @@ from graphs.rank.spaces import inertia
 from graphs.tolerances import DOUBLE
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.springs import ElasticLinkage
-from synth.motion.linkage import PosedLinkage
-from synth.motion.placement import joints_outwards, link_motions
+from synth.motion.linkage import PosedLinkage, joints_outwards, link_motions
 
 __all__ = ["Mass", "Masses", "SmallMotion", "mass_matrix", "sheet_masses", "small_motions"]
 

@@ -22,8 +22,7 @@ from synth.compliance.members import Members
 from synth.compliance.small_motions import Masses, small_motions
 from synth.compliance.springs import ElasticLinkage, Springs
 from synth.motion.driving import goals_of
-from synth.motion.linkage import PosedLinkage
-from synth.motion.placement import moved
+from synth.motion.linkage import PosedLinkage, moved
 from synth.moving.made import Movable, configuration_of
 
 __all__ = ["Drive", "states"]

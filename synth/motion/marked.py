@@ -17,8 +17,8 @@ from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
-from synth.motion.second_order import RateSpace, rates_at
 from synth.motion.singular.sampling import rates_towards, same_part
+from synth.motion.singular.second_order import RateSpace, rates_at
 
 __all__ = [
     "Disagreement",
@@ -106,7 +106,7 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Flo
 
 
 def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
-    """Return rates near to what is marked, on the part of the space that the branch is."""
+    """Return rates near to the marks, on the part of the space that the branch is."""
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphs.mechanism.sheet import Sheet
-from synth.folding.alike.reaching import fold_to
+from synth.folding.alike import fold_to
 
 __all__ = ["folded"]
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.improving import improved
 from synth.realisation.measures import opened_angles

@@ -18,7 +18,7 @@ from graphs.geometry import unit
 from graphs.mechanism.sheet import sides_of_face
 from graphs.rank.spaces import split
 from graphs.tolerances import DOUBLE
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern

@@ -28,7 +28,7 @@ from graphs.rank.pose import pose_mobility
 from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.branches import first_branch, search_for
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.figures import ShapeFigures, figures_of
 from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips

@@ -19,7 +19,7 @@ from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
 from synth.folding.configuration import SheetConfiguration
-from synth.folding.vertices import largest_panel
+from synth.folding.derivatives import largest_panel
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import configuration_of

@@ -21,8 +21,7 @@ from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.tolerances import EPSILON, Tolerances
 from synth.motion.closure import frames_of
-from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.motion.placement import joints_outwards
+from synth.motion.linkage import PosedLinkage, PosedLoop, joints_outwards
 
 __all__ = ["factor_order", "solver_data"]
 

@@ -13,13 +13,13 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
 from graphs.tolerances import DOUBLE
-from synth.motion.beginning import Wanted, beginning
 from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
+from synth.motion.driving import BranchChoice, beginning
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import walked
-from synth.motion.walk.freedoms import free_rates, independent_joints
+from synth.motion.walk.events import free_rates, independent_joints
 
 __all__ = ["Ways", "ways_of"]
 
@@ -84,7 +84,7 @@ def ways_of(configuration: Configuration) -> Ways:
     (['way 0: 1 freedom, proved', 'way 1: 1 freedom, proved'], True)
     """
     linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
-    number, rates = beginning(configuration, Wanted())
+    number, rates = beginning(configuration, BranchChoice())
     rates = rates / np.abs(rates).max()
     if found is None:
         return Ways((_nearest(linkage, closure, rates),), singular=True, taken=0)

@@ -12,7 +12,7 @@ import numpy as np
 from graphs.errors import SynthedraError
 from graphs.files.ids import mechanism_of_id
 from graphs.files.patterns.fold import fold_text
-from synth.motion.driving import Asked
+from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
 from synth.realisation.realised import Kind, Realised, realise
 
@@ -55,7 +55,7 @@ def _made(code: str) -> Realised | None:
 def _folded(made: Realised) -> dict[str, Any]:
     """Return how far the crease that turns most goes, degrees, and what is in the way."""
     try:
-        motion = motion_of(made.configuration, Asked(frames=_FRAMES), collisions=True)
+        motion = motion_of(made.configuration, MotionOptions(frames=_FRAMES), collisions=True)
     except SynthedraError as error:
         return {"fold_deg": None, "fold_end": str(error)}
     reached = float(np.degrees(np.abs(motion.path.angles).max(initial=0.0)))

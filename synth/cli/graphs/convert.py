@@ -137,7 +137,7 @@ def convert(
 
 def _write_table(mechanism: Mechanism, target: str, table: str, *, force: bool) -> tuple[str, ...]:
     from graphs.files.atomic import write_text
-    from synth.moving.tables import table_text
+    from synth.moving.motion import table_text
 
     text, lost = table_text(mechanism, table)
     write_text(Path(target), text, force=force)

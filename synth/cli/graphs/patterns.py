@@ -28,7 +28,7 @@ def pattern_edits(
     from graphs.mechanism.sheet import with_all_edges
 
     if branch is not None:
-        from synth.folding.assigned import assign_branch
+        from synth.folding.motion import assign_branch
 
         edit = assign_branch(sheet, branch)
         sheet = edit.sheet

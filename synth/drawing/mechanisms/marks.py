@@ -12,7 +12,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.creases import DrawnPattern, Overlay, width_of_lines
 from synth.drawing.scene.shapes import Line, Shape
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.beginning import Wanted, beginning
+from synth.motion.driving import BranchChoice, beginning
 from synth.motion.marked import disagreement_with
 from synth.moving.made import configuration_of
 
@@ -31,7 +31,7 @@ def overlay_of_marks(sheet: Sheet | SheetConfiguration, branch: int | str | None
     at = configuration_of(sheet)
     if not at.flat or not isinstance(at, SheetConfiguration) or not _is_assigned(at):
         raise UnsolvableError("marks are those of a flat crease pattern, mountains and valleys, and it has none")
-    number, _ = beginning(at, Wanted(branch))
+    number, _ = beginning(at, BranchChoice(branch))
     taken = at.branch(number or 0)
     near = at.disagreement
     if taken is None or near is None:

@@ -13,9 +13,9 @@ from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.beginning import Wanted, beginning
+from synth.motion.driving import BranchChoice, beginning
 from synth.moving.made import configuration_of
-from synth.verdict.of_motion import verdict_of_motion
+from synth.verdict.judged import verdict_of_motion
 
 __all__ = ["Doing", "Motions", "motions_by_verdict", "motions_on_branch"]
 
@@ -89,7 +89,7 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
     pattern = configuration_of(sheet)
     linkage, found = pattern.linkage, pattern.branches
     joints = list(linkage.graph.joints)
-    number, rates = beginning(pattern, Wanted(branch))
+    number, rates = beginning(pattern, BranchChoice(branch))
     taken = found.branches[number or 0] if found is not None else None
     for_good = set(taken.still) if taken is not None else set()
     of: dict[JointId, Doing] = {}

@@ -16,8 +16,7 @@ from graphs.geometry import frame_about, principal_axes
 from graphs.ids import LinkId
 from graphs.tolerances import DOUBLE
 from synth.drawing.space.panels import HINGE, Panels
-from synth.motion.linkage import PosedLinkage
-from synth.motion.placement import link_motions
+from synth.motion.linkage import PosedLinkage, link_motions
 
 __all__ = ["bodies_of", "hinge_ends", "places_of_hinges"]
 

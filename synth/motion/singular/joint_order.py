@@ -33,30 +33,10 @@ _SHARES = (1.0, 0.731, 0.519, 0.347)
 
 
 def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
-    """Return the places of the joints of a linkage in an order that renaming, moving and mirroring leave as it is.
+    """Return the places of the joints, int[J], in an order that renaming, moving and mirroring leave as it is.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    marks : float[J], optional
-        1, -1 or 0 of each joint, by which joints that are alike are told apart; up to the sign of all.
-
-    Returns
-    -------
-    int[J]
-
-    Examples
-    --------
-    The sectors of a vertex are told apart by their angles, wherever its list of creases begins:
-
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, .2), (-.5, -.7))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> ways = (faces, faces[2:] + faces[:2])
-    >>> here, there = (linkage_of_sheet(Sheet(5, (), "", way, corners)) for way in ways)
-    >>> bool(np.allclose(here.points[joint_order(here)], there.points[joint_order(there)]))
-    True
+    Marks, float[J], are 1, -1 or 0 for each joint; joints that are alike are distinguished by them, up to the sign
+    of all.
     """
     joints = len(linkage.angles)
     if joints < 2:
@@ -124,17 +104,12 @@ def _is_about(loop: PosedLoop) -> bool:
 
 
 def in_order(linkage: PosedLinkage, order: Ints) -> PosedLinkage:
-    """Return a linkage with its joints in an order, and its loops by these, beginning at their first joint.
-
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> axes = {joint: ((joint, 0.0, 0.0), (0.0, 0.0, 1.0)) for joint in range(2)}
-    >>> chain = linkage_of_axes(SCGraph(3, [(0, 1), (1, 2)]), axes)
-    >>> list(in_order(chain, np.array([1, 0])).graph.joints)
-    [1, 0]
-    """
+    """Return a linkage with its joints in an order, and its loops by these, beginning at their first joint."""
     graph, names = linkage.graph, list(linkage.graph.joints)
     place = np.argsort(order)
-    loops = sorted((_begun_at_first(loop, place) for loop in linkage.loops), key=_loop_rank)
+    loops = [_begun_at_first(loop, place) for loop in linkage.loops]
+    # those about a point first, in the order of their last joints
+    loops.sort(key=lambda loop: (loop.centre is not Centre.FINITE, sorted(loop.joints, reverse=True)))
     joints = {names[old]: graph.joints[names[old]] for old in order.tolist()}
     return replace(
         linkage,
@@ -157,11 +132,6 @@ def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:
     return PosedLoop(tuple(joints), tuple(signs), loop.centre)
 
 
-def _loop_rank(loop: PosedLoop) -> tuple[bool, list[int]]:
-    """Return what loops are sorted by: those about a point first, in the order of their last joints."""
-    return loop.centre is not Centre.FINITE, sorted(loop.joints, reverse=True)
-
-
 def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
     """Return the sign of marks that the first class whose marks are not in balance makes positive, or both."""
     sums = np.bincount(colours[: len(marks)], weights=marks)
@@ -171,14 +141,10 @@ def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Relations:
-    """What joints and centres are to each other: the mean of it over a class tells its members apart.
+    """Invariant relations of joints and centres to each other: the mean over a class distinguishes its members.
 
-    Attributes
-    ----------
-    pairs : float[n, n]
-        Symmetric; the joints first, then the centres of loops about a point. A sum of invariants, each with a
-        share of its own.
-    joints, centres : int
+    `pairs`, float[n, n], is symmetric, the joints first, then the centres of loops about a point: a sum of
+    invariants, each with a share of its own.
     """
 
     pairs: Floats
@@ -187,7 +153,7 @@ class _Relations:
 
     @classmethod
     def of(cls, linkage: PosedLinkage) -> _Relations:
-        """Return what the joints of a linkage and the centres of its loops are to each other."""
+        """Return the relations of the joints of a linkage and the centres of its loops."""
         joints = len(linkage.angles)
         about = [loop for loop in linkage.loops if _is_about(loop)]
         centres = np.array([_centre(linkage, loop) for loop in about]).reshape(-1, 3)

@@ -1,8 +1,8 @@
-"""Branches followed from a singular pose: rates to begin with, a pose some way along, the freedoms there.
+"""Branches followed from a singular configuration: initial rates, a configuration along it, the freedoms there.
 
-On many branches joints are still: three creases of a vertex that lies flat while a line through it folds. Their
+On many branches joints are immobile: three creases of a vertex that lies flat while a line through it folds. Their
 closure equations are squares there, which Newton's method approaches slowly, so these joints are locked; where
-nothing is found so, they are freed. Theory: docs/theory/folding.md.
+no motion is found so, they are freed. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -16,20 +16,23 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import leading, signed, trailing
-from graphs.rank.spaces import inertia, singular_values
+from graphs.rank.spaces import Split, inertia, singular_values, split
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
+from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.path import PathOptions, driven_path
-from synth.motion.placement import moved
-from synth.motion.second_order import RateSpace, largest_only, rates_at, spaces_within
-from synth.motion.singular.located import located
-from synth.motion.singular.quadrics import all_quadrics, local_forms
-from synth.motion.walk.allowance import Allowance
+from synth.motion.singular.second_order import (
+    RateSpace,
+    all_quadrics,
+    largest_only,
+    local_forms,
+    rates_at,
+    spaces_within,
+)
+from synth.motion.walk.step import Allowance
 
 __all__ = [
-    "FOLLOWED",
-    "Followed",
+    "TracedBranch",
     "followed",
     "freedoms_at",
     "general_rates",
@@ -38,6 +41,62 @@ __all__ = [
     "same_part",
     "walked",
 ]
+
+_STEPS = 6
+_NUDGE = 1e-4
+"""Radians, of the differences by which derivatives change along a flex."""
+
+
+def located(closure: ClosureEquations, angles: Floats) -> Floats:
+    """Return the closed configuration beside another at which singular values that are nearly zero are zero.
+
+    Along a flex that does not close to second order, loops closed to 1e-12 leave open the root of that: Newton's
+    method ends anywhere within 1e-6 of the branch, and singular values that are zero on it are as large there. So
+    the end of a path is taken across its flexes to where these are zero, before its rank is. Singular values up to
+    `Tolerances.singular` are examined; the configuration is returned as it is where there are none but zeros, or
+    they do not vanish near it.
+    """
+    matrix = closure.at(angles)[1].toarray()
+    if not _nearly(singular_values(matrix)):
+        return angles
+    here, parts = angles, split(matrix, DOUBLE.singular)
+    size = parts.right.shape[0] - parts.rank
+    for _ in range(_STEPS):
+        here = corrected(closure, here + _across(closure, here, parts)).angles
+        if np.abs(here - angles).max() > DOUBLE.moved:
+            return angles
+        parts = split(closure.at(here)[1].toarray(), DOUBLE.singular)
+        if parts.right.shape[0] - parts.rank != size:
+            return angles
+        if not _nearly(parts.values):
+            return here if closure.error(here) <= DOUBLE.closed else angles
+    return angles
+
+
+def _nearly(values: Floats) -> int:
+    """Return how many singular values are small, and not zero."""
+    largest = values.max(initial=0.0)
+    return int(((values > DOUBLE.zero * largest) & (values <= DOUBLE.singular * largest)).sum())
+
+
+def _across(closure: ClosureEquations, angles: Floats, parts: Split) -> Floats:
+    """Return the least change along flexes at which none of them parts loops to first order: float[J].
+
+    Between flexes and self-stresses the derivatives J are a small matrix, S' J F; along each flex it changes at a
+    rate, and the changes that make it zero are a system of linear equations.
+    """
+    flexes, stresses = parts.right[parts.rank :], parts.left[:, parts.rank :]
+
+    def between(at: Floats) -> Floats:
+        return np.asarray(stresses.T @ (closure.at(at)[1] @ flexes.T))
+
+    slopes = [
+        ((between(angles + _NUDGE * flex) - between(angles - _NUDGE * flex)) / (2.0 * _NUDGE)).ravel()
+        for flex in flexes
+    ]
+    shares = np.linalg.lstsq(np.array(slopes).T, -between(angles).ravel(), rcond=DOUBLE.zero**0.5)[0]
+    return np.asarray(shares @ flexes)
+
 
 FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
@@ -53,7 +112,7 @@ _SPACES = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Followed:
+class TracedBranch:
     """How far one branch was followed: joint angles at the end, radians, and the loop-closure residual there.
 
     Freedoms there are to second order; None where no motion was found or second order does not decide. `far` says
@@ -72,7 +131,7 @@ def followed(
     rates: Floats,
     still: tuple[int, ...] = (),
     allowance: Allowance | None = None,
-) -> Followed:
+) -> TracedBranch:
     """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
 
     The linkage is closed at its pose; initial rates agree to second order, and joints at the places `still` do not
@@ -85,9 +144,9 @@ def followed(
         if far > DOUBLE.moved:
             break
     else:
-        return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
+        return TracedBranch(None, linkage.angles, closure.error(linkage.angles), 0.0)
     # what came here moves: where second order leaves nothing, it does not tell
-    return Followed(freedoms_at(linkage, closure, end) or None, end, error, far)
+    return TracedBranch(freedoms_at(linkage, closure, end) or None, end, error, far)
 
 
 def walked(
@@ -104,10 +163,10 @@ def walked(
     return path.angles[-1], float(path.errors[-1])
 
 
-def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> Followed:
+def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> TracedBranch:
     """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
     end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
-    return Followed(space.basis.shape[1], end, closure.error(end), FOLLOWED)
+    return TracedBranch(space.basis.shape[1], end, closure.error(end), FOLLOWED)
 
 
 def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:

@@ -19,7 +19,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.special.conditions import (
     AxisCondition,
     AxisGroup,

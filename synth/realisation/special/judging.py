@@ -17,7 +17,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, first_branch, search_for
 from synth.motion.configuration import Configuration
-from synth.motion.placement import moved
+from synth.motion.linkage import moved
 from synth.moving.made import configuration_of
 from synth.overconstraint.explained import explain
 

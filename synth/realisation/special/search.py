@@ -22,7 +22,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from graphs.rank.generic import exact_mobility
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.pattern import Pattern, pattern_of
 from synth.realisation.refusing import check_holes
 from synth.realisation.special.answer import FamilyTrial, SpecialMember, SpecialSearch

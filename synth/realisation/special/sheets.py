@@ -15,7 +15,7 @@ import numpy as np
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.drawing import drawings
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.conditions import Condition

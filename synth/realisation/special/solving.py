@@ -22,7 +22,7 @@ from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import dependence_on_axes
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.special.conditions import AxisCondition, derivatives
 
 __all__ = ["axes_along_a_motion", "axes_meeting", "linkage_at"]

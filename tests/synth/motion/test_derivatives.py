@@ -13,7 +13,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.folding.derivatives import SheetDerivatives, dependence_on_vertices
 from synth.folding.motion import fold
-from synth.motion import newton
+from synth.motion import closure
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import (
     Sensitivity,
@@ -318,8 +318,8 @@ def test_vertices_of_no_panel_stay_where_their_coordinates_are():
 def test_a_gradient_takes_one_factorisation(monkeypatch):
     shape, angles, place = folded_sheet(miura(6, 6, 1.0), 0.8, STRAIGHT)
     counted = []
-    solver = newton._solver
-    monkeypatch.setattr(newton, "_solver", lambda *given: counted.append(given) or solver(*given))
+    solver = closure._solver
+    monkeypatch.setattr(closure, "_solver", lambda *given: counted.append(given) or solver(*given))
     shape.at(angles[-1], [place]).adjoint(by_places=np.ones((49, 3)))
     assert len(counted) == 1
 

@@ -10,10 +10,9 @@ from graphs.tolerances import Tolerances
 from synth.motion import configuration as configurations
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.second_order import largest_only, rates_at, rates_near, spaces_within
 from synth.motion.singular import nearest
 from synth.motion.singular.nearest import begun_near, spaces_near
-from synth.motion.singular.quadrics import quadrics_of
+from synth.motion.singular.second_order import largest_only, quadrics_of, rates_at, rates_near, spaces_within
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import map_sheet, miura
 from synth.verdict.judged import mobility
