@@ -207,14 +207,14 @@ class AlikeClosure(ClosureEquations):
 
 
 _WEIGHTS = (1.01, 0.8, 2.0, 0.5, 4.0, 0.25)
-"""Of valleys against mountains in the rates from which those of a motion are looked for: where both weigh alike,
+"""Weights of valleys against mountains in the rates from which a motion is looked for: where both weigh alike,
 two motions of a symmetric vertex are as near, and rounding would choose."""
 _DEAD_ENDS = 4
 """Spaces of rates that are tried for each of these."""
 _DRIVERS = 3
 """Creases that are driven in turn, of different classes, where the one that moves most turns back."""
 _STEPS = 1000
-"""Of one path: 170 degrees take 20 to 100."""
+"""Steps of one path: 170 degrees take 20 to 100."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,35 +98,20 @@ def _edges(
         edges.append(first)
         more += [(other, number) for other in others]
     angles = sheet.fold_angles
-    return (
-        (*edges, *(edge for edge, _ in more)),
-        sheet.assignments + "".join(sheet.assignments[number] for _, number in more),
-        None if angles is None else (*angles, *(angles[number] for _, number in more)),
-    )
+    letters = sheet.assignments + "".join(sheet.assignments[number] for _, number in more)
+    every = None if angles is None else (*angles, *(angles[number] for _, number in more))
+    return (*edges, *(edge for edge, _ in more)), letters, every
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SheetConfiguration(Configuration):
     """A crease pattern at a configuration.
 
-    Attributes
-    ----------
-    drawn : Sheet
-        As it was read.
-    dual : SheetMechanism
-        Of that sheet, in its plane if it is meant to lie in one.
-    sheet : Sheet
-        With separate vertices where cuts part it, and vertices where they were moved to.
-    mechanism : SheetMechanism
-        Of this sheet.
-    repairs : tuple of Mended
-        What was done to the coordinates.
-    near : Nearby
-        The mechanisms within the precision, or the nearest one beyond.
-    written : SheetConfiguration or None
-        As the coordinates are written, where vertices were moved.
-    alternatives : tuple of SheetConfiguration
-        Other mechanisms within the precision, which have branches that this one has not.
+    `drawn` is the sheet as it was read, `dual` its mechanism, in its plane if it is meant to lie in one. `sheet`
+    has separate vertices where cuts part it, and vertices where they were moved to; `mechanism` is that of this
+    sheet, `repairs` what was done to the coordinates. `near` has the mechanisms within the precision, or the
+    nearest one beyond, `written` is the configuration as the coordinates are written, where vertices were moved,
+    and `alternatives` are other mechanisms within the precision, which have branches that this one has not.
     """
 
     drawn: Sheet = field(kw_only=True)
@@ -155,7 +140,7 @@ class SheetConfiguration(Configuration):
 
     @property
     def mended(self) -> tuple[str, ...]:
-        """What was done to rounded coordinates."""
+        """The repairs of rounded coordinates."""
         return tuple(map(str, self.repairs))
 
     @property
@@ -264,32 +249,8 @@ def configuration_of_sheet(
 ) -> SheetConfiguration:
     """Return a crease pattern at the configuration of its coordinates, opened along cuts and mended.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates.
-    frame : int, optional
-        For a sheet that has several; by default as it was read, or if that has no coordinates the first that has.
-    hinge_flat : bool, optional
-        Make hinges of flat (F) edges too.
-    mend : bool, optional
-        Move vertices within the precision of their coordinates if the sheet has more motion branches so.
-    precision : float, optional
-        The error that a coordinate may have, in their unit; by default as the sheet has it.
-
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, or panels do not fit.
-    InvariantError
-        If a crease has no length, or there is no such frame.
-
-    Examples
-    --------
-    >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1))
-    >>> at = configuration_of_sheet(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), corners))
-    >>> at, at.branches.regular
-    (<SheetConfiguration: <PosedLinkage: 2 links, 1 joints, 0 loops>>, True)
+    The options are those of `synth.moving.made.configuration_of`. Raises `UnsolvableError` if the sheet has no
+    coordinates, or panels do not fit, `InvariantError` if a crease has no length, or there is no such frame.
     """
     sheet = stated(lying(sheet, frame), precision)
     if sheet.coordinates is None:

@@ -146,7 +146,7 @@ _START = 2e5
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
 _MORE = 100
-"""So much more is looked for on request."""
+"""Factor on the limits of a search with --more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -504,12 +504,8 @@ class _Looking:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
         found = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
         ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in found])
-        # those without a motion late, those that were not followed last
-        return tuple(
-            sorted(
-                (found[place] for place in ranks), key=lambda one: (not one.begun, one.certainty == "not known")
-            )
-        )
+        ranked = [found[place] for place in ranks]
+        return tuple(sorted(ranked, key=lambda branch: (not branch.begun, branch.certainty == "not known")))
 
     def _branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""

@@ -278,7 +278,7 @@ _REGULAR = 1e-9
 """Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding
 along freedoms is multiplied by its inverse."""
 _DENSE = 40
-"""Up to this many joints matrices are full; larger full ones would wait for threads of BLAS."""
+"""Matrices of up to this many joints are full; larger full ones would wait for threads of BLAS."""
 _STEPS = 12
 _HOLDS = 2
 """Corrections after held joints were put back."""
@@ -435,9 +435,8 @@ def _refined(more: Callable[[Floats], Floats], found: Floats, given: Floats) -> 
             return found
         last = largest
     if last > _UNSETTLED * whole:
-        raise NumericalError(
-            "the configuration is nearly singular: the rank of the closure equations is not clear"
-        )
+        unclear = "the rank of the closure equations is not clear"
+        raise NumericalError(f"the configuration is nearly singular: {unclear}")
     return found
 
 
@@ -463,7 +462,7 @@ def _solver(
 
 @dataclass(frozen=True)
 class Corrected:
-    """Where Newton's method came to: angles in radians, the loop-closure residual, and the derivatives there."""
+    """The result of Newton's method: angles in radians, the loop-closure residual, and the derivatives there."""
 
     angles: Floats
     error: float

@@ -72,9 +72,9 @@ def at_most(number: float) -> str:
 _NAMED = 12
 """At most so many joints are named in a line."""
 _MOST_FLEXES = 100
-"""Where closure equations depend on each other at a configuration of more flexes, one way to move is enough."""
+"""With more flexes and dependent closure equations one motion is enough."""
 _ONE_WAY, _HALVES = 100, 8
-"""Of flat sheets of more creases one way that begins as assigned is enough if the equations of more vertices are
+"""For flat sheets of more creases one motion as assigned is enough if the equations of more vertices are
 no products: each may part the rates into two halves."""
 _WHOLE = radians(179.0)
 """How far a joint is driven that ends at 180 degrees, where panels lie on each other."""
@@ -151,7 +151,7 @@ class Configuration:
 
     @property
     def doubt(self) -> str:
-        """What rounded coordinates leave open where nothing moves; empty if they are exact."""
+        """The caution on rounded coordinates where nothing moves; empty if they are exact."""
         return ""
 
     @property
@@ -191,12 +191,12 @@ class Configuration:
 
     @property
     def mended(self) -> tuple[str, ...]:
-        """What was done to rounded coordinates."""
+        """The repairs of rounded coordinates."""
         return ()
 
     @property
     def reading(self) -> Reading | None:
-        """What was done to the drawing it was read from; None if it was not traced."""
+        """The report on the drawing it was read from; None if it was not traced."""
         return self.given.reading if isinstance(self.given, Sheet) else None
 
     @property
@@ -211,7 +211,7 @@ class Configuration:
 
     @cached_property
     def tolerances(self) -> Tolerances:
-        """What is zero at its coordinates."""
+        """The tolerances of its coordinates."""
         return Tolerances.of(0.0 if self.exact else self.precision.size, len(self.linkage.angles))
 
     @cached_property

@@ -275,7 +275,7 @@ def _path(
 def _along(configuration: Configuration, options: MotionOptions) -> BranchChoice:
     """Return the wanted beginning for initial rates of some joints: the least ones of others."""
     if options.drive:
-        raise InvariantError("along", "initial rates and driven joints exclude each other", "rates or angles")
+        raise InvariantError("along", "both initial rates and driven joints", "rates or angles, not both")
     joints = configuration.joints
     places, rates = _places(joints, options.along), np.array(list(options.along.values()), dtype=float)
     if not (in_reach(rates) and np.abs(rates).max(initial=0.0) >= LEAST):

@@ -126,9 +126,7 @@ def linkage_of_axes(
         if joint not in axes:
             raise InvariantError("axis", f"joint {joint!r} has no axis", "one for each joint")
         if not np.any(axes[joint][1]):
-            raise InvariantError(
-                "axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero"
-            )
+            raise InvariantError("axis", f"the axis of joint {joint!r} has no direction", "a nonzero vector")
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
     places = tuple(place for place, joint in enumerate(graph.joints) if joint in slides)
@@ -171,9 +169,9 @@ def linkage_of_sheet(
     """
     if sheet.coordinates is None:
         raise UnsolvableError("folding needs coordinates, and the sheet has none")
-    found = mechanism or mechanism_of_sheet(sheet)
+    dual = mechanism or mechanism_of_sheet(sheet)
     corners = in_space(sheet.coordinates)
-    creases = creases_of(sheet, found)
+    creases = creases_of(sheet, dual)
     edges = creases.ends
     directions = creases.directions(corners)
     areas = creases.area_vectors(corners)
@@ -188,7 +186,7 @@ def linkage_of_sheet(
         marks = _marks(sheet)
         marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])
         angles = np.where(on_each_other & (marked != 0.0), np.copysign(np.pi, marked), angles)
-    return _posed(found.sc, corners[edges].mean(axis=1), directions, angles, corners)
+    return _posed(dual.sc, corners[edges].mean(axis=1), directions, angles, corners)
 
 
 def axis_lengths(linkage: PosedLinkage) -> Floats:
@@ -212,9 +210,8 @@ def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, a
     loops = []
     for loop in independent_cycles(graph):
         signed = list(signed_cycle(loop.joints, graph.joints))
-        loops.append(
-            PosedLoop(tuple(column[j] for j, _ in signed), tuple(sign for _, sign in signed), loop.centre)
-        )
+        joints, signs = tuple(column[joint] for joint, _ in signed), tuple(sign for _, sign in signed)
+        loops.append(PosedLoop(joints, signs, loop.centre))
     middle = all_points.mean(axis=0) if len(all_points) else np.zeros(3)
     extent = extent_of(all_points) or 1.0
     return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
@@ -244,9 +241,8 @@ class Creases:
         lengths = np.linalg.norm(along, axis=1)
         for place in np.flatnonzero(lengths == 0.0):
             (first, second), part = self.ends[place].tolist(), ("edges", self.joints[place])
-            raise InvariantError(
-                "hinge", f"the crease between vertices {first} and {second} has no length", part=part
-            )
+            no_length = f"the crease between vertices {first} and {second} has no length"
+            raise InvariantError("hinge", no_length, part=part)
         return np.asarray(along / lengths[:, None] * self.ways[:, None])
 
     def area_vectors(self, corners: Floats) -> Floats:

@@ -87,15 +87,12 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Flo
     in_order = signed(marks[order])
     turn, place = float(np.sign(in_order @ marks[order])), np.argsort(order)
     begin = None if first is None else turn * first[order]
-    begun = {
-        number: [turn * rates[place] for rates in marked_rates(space.in_order(order), in_order, starts, begin)]
-        for number, space in spaces.items()
-    }
-    agree = {
-        number: rates
-        for number, branch in enumerate(found.branches)
-        if (rates := _on_part(branch, begun[id(branch.space)])) is not None
-    }
+    begun = {}
+    for number, space in spaces.items():
+        ordered = marked_rates(space.in_order(order), in_order, starts, begin)
+        begun[number] = [turn * rates[place] for rates in ordered]
+    parts = [_on_part(branch, begun[id(branch.space)]) for branch in found.branches]
+    agree = {number: rates for number, rates in enumerate(parts) if rates is not None}
     if agree:
         freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
         return MarkedWay(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
@@ -184,12 +181,8 @@ def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
     if not len(left) or not len(agree):
         return one
     free, room = space.basis.shape[1], len(left)
-    rows = np.block(
-        [
-            [-kept[agree, None] * space.basis[agree], np.zeros((len(agree), room))],
-            [marks[left, None] * space.basis[left], np.eye(room)],
-        ]
-    )
+    keep, turn = -kept[agree, None] * space.basis[agree], marks[left, None] * space.basis[left]
+    rows = np.block([[keep, np.zeros((len(agree), room))], [turn, np.eye(room)]])
     most = np.repeat([-1.0, 0.0], [len(agree), room])
     bounds = [(None, None)] * free + [(0.0, 1.0)] * room
     found = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")

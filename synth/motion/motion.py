@@ -56,7 +56,7 @@ class Motion(Printed):
     places : float[F, n, 3]
         Of the vertices of a sheet in each frame, else of a point on each axis, in the unit of the coordinates.
     apart : float
-        By how much panels disagree on the place of a vertex, at most, in units of the extent.
+        Largest distance between the places of a vertex by two panels, in units of the extent.
     crossing : tuple of int
         Numbers of the frames in which panels pass through each other.
 
@@ -98,12 +98,12 @@ class Motion(Printed):
 
     @property
     def freedoms(self) -> int | None:
-        """Of the branch that was taken."""
+        """Degrees of freedom of the branch that was taken."""
         return None if self.taken is None else self.taken.freedoms
 
     @property
     def closure(self) -> float:
-        """By how much loops do not close, at most, over all frames."""
+        """The largest loop-closure residual of all frames."""
         return float(self.path.errors.max(initial=0.0))
 
     def frames(self) -> list[Any]:
@@ -149,6 +149,7 @@ class Motion(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         found, taken, reading = self.branches, self.taken, self.configuration.reading
+        columns = zip(self.joints, np.degrees(self.path.angles.T).tolist(), strict=True)
         return {
             "configuration": self.configuration.to_json(taken),
             "freedoms": self.freedoms,
@@ -161,10 +162,7 @@ class Motion(Printed):
             "frames": len(self.path.angles),
             "closure": self.closure,
             "panels_apart": self.apart,
-            "joint_angles_deg": {
-                str(joint): np.degrees(column).tolist()
-                for joint, column in zip(self.joints, self.path.angles.T, strict=True)
-            },
+            "joint_angles_deg": {str(joint): column for joint, column in columns},
             "stopped": self.path.stopped or None,
             "mended": list(self.configuration.mended),
             "assignment": self.configuration.nearest_to_json(),
@@ -202,13 +200,11 @@ class Motion(Printed):
     def _answer(self) -> str:
         """Return the first line: what was driven, and how far the motion came."""
         to = "towards" if self.path.stopped else "to"
-        driven = ", ".join(
-            f"joint {shown(joint)} {to} {degrees(angle):g}°" for joint, angle in self.driven.items()
-        )
+        goals = [f"joint {shown(joint)} {to} {degrees(angle):g}°" for joint, angle in self.driven.items()]
         largest = np.degrees(np.abs(self.path.angles[-1]).max(initial=0.0))
         angle = "fold angle" if self.configuration.limited else "joint angle"
         frames = numbered(len(self.path.angles), "frame")
-        return f"drove {driven}: {frames}, largest final {angle} {largest:.4g}°"
+        return f"drove {', '.join(goals)}: {frames}, largest final {angle} {largest:.4g}°"
 
     def _of_assignment(self) -> dict[str, Any] | None:
         """Return how the frames keep the mountains and valleys, as plain data; None where nothing is assigned."""

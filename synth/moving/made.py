@@ -286,9 +286,8 @@ def configuration_of(
         linkage, written = _made(mechanism, orientations)
     if precision is not None:
         written = Precision(WrittenPrecision(precision, "stated").length / linkage.extent, "stated")
-    return Configuration(
-        linkage, written, written.size <= EXACT, mechanism if isinstance(mechanism, Mechanism) else None
-    )
+    given = mechanism if isinstance(mechanism, Mechanism) else None
+    return Configuration(linkage, written, written.size <= EXACT, given)
 
 
 def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedLinkage, Precision]:
@@ -430,6 +429,5 @@ def _off_plane(axes: Floats, slides: Sequence[bool]) -> float:
     if sliding.all():
         return 0.0
     normal = axes[~sliding][0]
-    return float(
-        max(np.abs(np.cross(axes[~sliding], normal)).max(), np.abs(axes[sliding] @ normal).max(initial=0))
-    )
+    turning_off = np.abs(np.cross(axes[~sliding], normal)).max()
+    return float(max(turning_off, np.abs(axes[sliding] @ normal).max(initial=0)))

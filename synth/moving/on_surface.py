@@ -109,10 +109,8 @@ class SurfaceLinks:
     def motions(self, angles: Floats) -> dict[LinkId, tuple[Floats, Floats]]:
         """Return how links have moved from the surface: rotations float[F, 3, 3], shifts float[F, 3]."""
         extent, middle = self.linkage.extent, self.linkage.middle
-        return {
-            link: (turn, extent * shift + middle - turn @ middle)
-            for link, (turn, shift) in link_motions(self.linkage, angles, self.names[0]).items()
-        }
+        moved = link_motions(self.linkage, angles, self.names[0])
+        return {link: (turn, extent * shift + middle - turn @ middle) for link, (turn, shift) in moved.items()}
 
     def spans(self, angles: Floats) -> Floats:
         """Return how far links lie outside the surface, at least and at most, less rounding: float[F, N, 2].
@@ -650,9 +648,8 @@ def _circuit(motion: SurfaceMotion) -> str:
     if not motion.closed:
         return f"circuit not traced to its end: {motion.path.stopped}"
     turning = [f"joint {plain(joint)} {turns:+d}" for joint, turns in motion.turns.items() if turns]
-    line = (
-        f"circuit closed, loop-closure residual {motion.closure:.1e}; whole turns: {', '.join(turning) or 'none'}"
-    )
+    turns = ", ".join(turning) or "none"
+    line = f"circuit closed, loop-closure residual {motion.closure:.1e}; whole turns: {turns}"
     if motion.meets:
         line += "; another circuit meets it at " + ", ".join(f"{degrees(turn):.6g}°" for turn in motion.meets)
     return line

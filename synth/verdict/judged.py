@@ -334,7 +334,7 @@ class JudgedMobility(MobilityAnswer):
 
     @property
     def mended(self) -> tuple[str, ...]:
-        """What was done to rounded coordinates before anything was moved."""
+        """The repairs of rounded coordinates before the motion was computed."""
         return () if self.configuration is None else self.configuration.mended
 
     def blocks(self, *, verbose: bool = False) -> list[Block]:

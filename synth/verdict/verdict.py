@@ -172,6 +172,7 @@ class Verdict:
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on (docs/command-json.md)."""
+        places = [{"joint": joint, "ends": list(map(list, ends))} for joint, ends in self.places.items()]
         return {
             "freedoms": self.freedoms,
             "basis": self.basis,
@@ -180,9 +181,7 @@ class Verdict:
             "exhaustive": self.exhaustive,
             "not_followed": self.further,
             "stiff_joints": list(self.stiff_joints),
-            "stiff_places": [
-                {"joint": joint, "ends": [list(end) for end in ends]} for joint, ends in self.places.items()
-            ],
+            "stiff_places": places,
             "clusters": [list(cluster) for cluster in self.clusters],
             "as_written": None if self.as_written is None else self.as_written.to_json(),
             "within_precision": None if self.within_precision is None else self.within_precision.to_json(),
@@ -318,11 +317,9 @@ def _branches(findings: MotionFindings) -> list[str]:
     count = ("" if findings.complete else "At least ") + numbered(len(ways), kind, f"{kind}es")
     if len(kinds) == 1:
         return [f"{count}."]
-    each = ", ".join(
-        f"{number} with {'unknown' if freedoms is None else freedoms} DOF"
-        for freedoms, number in sorted(kinds.items(), key=lambda item: -(item[0] or 0))
-    )
-    return [f"{count}: {each}."]
+    most_first = sorted(kinds.items(), key=lambda item: -(item[0] or 0))
+    each = [f"{number} with {'unknown' if freedoms is None else freedoms} DOF" for freedoms, number in most_first]
+    return [f"{count}: {', '.join(each)}."]
 
 
 def _immobile(joints: Sequence[JointId]) -> str:

@@ -144,7 +144,7 @@ _ROUNDING = 3.0
 
 @dataclass(frozen=True, slots=True)
 class _Sum:
-    """What headings of creases, some of them reversed, add up to, modulo 180 degrees."""
+    """The sum of some headings of creases, some of them reversed, modulo 180 degrees."""
 
     joints: tuple[int, ...]
     signs: tuple[int, ...]
@@ -296,15 +296,15 @@ def least_step(
 
 
 _TURNS = tuple(radians(turn) for turn in (12.0, 30.0, 55.0, 90.0))
-"""Of the joint that moves most, at the configurations that have to close along the first motion."""
+"""Turns of the joint that moves most, at the configurations that have to close along the first motion."""
 _BESIDE = tuple(radians(turn) for turn in (15.0, 50.0))
 """The same along further motions of a branch with several freedoms."""
 _FOLLOWED = tuple(radians(turn) for turn in (5.0, 20.0, 40.0, 70.0, 100.0))
-"""Where motions are looked at when all configurations close."""
+"""Turns at which motions are examined when all configurations close."""
 _ADDED = 6
-"""So many configurations are added, at most, where a motion stays open."""
+"""At most so many configurations are added where a motion stays open."""
 _BEYOND = 30.0
-"""What stays open by more than this times what vertices were moved by is out of reach, where panels meet."""
+"""A residual of more than this times the displacement of vertices is out of reach, where panels meet."""
 FARTHEST_PATTERN = 0.01
 """Vertices are displaced by this part of the extent at most: what is nearest farther off is another pattern."""
 _STEP = radians(3.0)
@@ -322,7 +322,7 @@ _LEAST_VALUE = 1e-9
 _LEAST, _MOST, _SHARE = 1e-14, 1e-6, 0.1
 """Regularisation: a share of the error, between bounds. Equations may become dependent as they come to hold."""
 _DENSE = 400
-"""Up to so many equations of a configuration, or between vertices, matrices are full."""
+"""Matrices with up to so many equations of a configuration, or between vertices, are full."""
 
 
 @dataclass(frozen=True)
@@ -512,7 +512,7 @@ class _Pose(NamedTuple):
 
 
 class _Equations(NamedTuple):
-    """What does not hold between vertices alone, its derivatives, and the equations of all configurations."""
+    """Residuals and derivatives of equations between vertices alone, and the equations of all configurations."""
 
     fixed: Floats
     by_vertices: scipy.sparse.csr_matrix
@@ -520,16 +520,17 @@ class _Equations(NamedTuple):
 
     @property
     def error(self) -> float:
-        """By how much equations do not hold, at most, as they are divided."""
+        """The largest residual, as divided."""
         return _largest([self.fixed, *(pose.residual / pose.size for pose in self.poses)])
 
     def solved(self, state: _State) -> _State:
         """Return the state after the least step that takes all away."""
         if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
             return self._solved_sparse(state)
-        blocks = [
-            EquationBlock(p.residual / p.size, p.by_vertices.toarray(), p.by_angles.toarray()) for p in self.poses
-        ]
+        blocks = []
+        for pose in self.poses:
+            by_vertices, by_angles = pose.by_vertices.toarray(), pose.by_angles.toarray()
+            blocks.append(EquationBlock(pose.residual / pose.size, by_vertices, by_angles))
         least = max(_LEAST_VALUE, _SHARE * self.error)
         change, turns = least_step(self.fixed, self.by_vertices.toarray(), blocks, least)
         return state.onwards(np.concatenate([change, *turns]))

@@ -99,14 +99,14 @@ def with_vertices(sheet: Sheet, corners: Floats) -> Sheet:
 
 
 _SHORT = 10.0
-"""Of the lengths of the creases, in per cent: so many are shorter than what directions are judged by."""
+"""Percentile of the lengths of the creases by which errors of directions are judged."""
 _LIKE = 0.15
 """Rates of two spaces are those of one branch, one of them of coordinates with errors, up to this part of the
 largest."""
 _WIDER = (1.0, 10.0, 0.15)
-"""What nearly agrees is looked for at errors so many times those of one direction."""
+"""Nearly agreeing rates are looked for at errors so many times those of one direction."""
 _WORK_NEAR = 3e8
-"""Of one search for spaces of rates, in products of numbers: about a second."""
+"""Work of one search for spaces of rates, in products of numbers: about a second."""
 _HARDLY, _ERRORS = 0.02, 30.0
 """A rate may be an error that is no larger than the first, of the largest, and than this times what is zero."""
 _SLOW = 0.1
@@ -209,18 +209,18 @@ def _motions(space: RateSpace, wanted: Floats) -> tuple[Floats, ...]:
 
 
 ALL_BRANCHES = 120
-"""Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
+"""For larger linkages one motion is enough: each two panels more may double the number of branches."""
 _WORK = 3e4
 """Unknowns of all rounds of all fittings together: a few seconds."""
 _SEPARATE = 4
 """After so many branches for which nothing was found no others are tried."""
 _ALONG = "loops close along a motion"
 _ALL_BUT = 0.1
-"""What is open by less than this part of the precision, by the square of the turn, may be near to a mechanism."""
+"""A residual below this part of the precision, by the square of the turn, may be near to a mechanism."""
 _AROUND = 2.0
 """An attempt with a vertex farther off than this times the reach says nothing of what is within."""
 _FOLLOW = 5e2
-"""What following a branch takes of the work."""
+"""Work of following a branch."""
 _FARTHER = (1e-4, 1e-3)
 """Errors of a coordinate, of the extent, at which the nearest mechanism of a rigid pattern is looked for."""
 _TIGHTER = (1.0, 0.25)

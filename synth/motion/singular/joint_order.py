@@ -1,11 +1,11 @@
 """An order of the joints that depends on the mechanism alone, not on how a file numbers them.
 
 A search that is cut off, or that begins at random numbers, depends on the order of joints and of equations; so
-does a choice among equals. Branches are looked for in this order, and told in that of the file. Joints are told
-apart by what a motion, a mirror and another unit of length leave: the links they share, the angles and moments
-between their axes, their distances from the centres of loops. Classes are refined until nothing new is told (by
-colour refinement); of joints that are still alike, as those are that a symmetry takes to each other, one is taken
-out and refinement goes on. Theory: docs/theory/rounding.md.
+does a choice among equals. Branches are looked for in this order, and reported in that of the file. Joints are
+told apart by what a motion, a mirror and another unit of length leave: the links they share, the angles and
+moments between their axes, their distances from the centres of loops. Classes are refined until nothing changes
+(by colour refinement); of joints that are still alike, as those are that a symmetry takes to each other, one is
+taken out and refinement goes on. Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _BENT = 0.37
 """Invariants x count as 1 / (x + this): sums of squares are alike where their terms are not."""
 
 _SHARES = (1.0, 0.731, 0.519, 0.347)
-"""Of several invariants that are added to one."""
+"""Weights of the invariants that are added to one."""
 
 
 def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
@@ -53,10 +53,8 @@ def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
         return relations.order(colours)
     sides = [np.concatenate([sign * marks, np.zeros(relations.centres)]) for sign in _signs(colours, marks)]
     orders = [relations.order(relations.refined(_classes(colours, side))) for side in sides]
-    seen = [
-        np.concatenate([side[order], relations.pairs[np.ix_(order, order)].ravel()])
-        for order, side in zip(orders, sides, strict=True)
-    ]
+    both, pairs = zip(orders, sides, strict=True), relations.pairs
+    seen = [np.concatenate([side[order], pairs[np.ix_(order, order)].ravel()]) for order, side in both]
     return orders[canonical_order(seen, DOUBLE.zero)[0]]
 
 
@@ -111,14 +109,9 @@ def in_order(linkage: PosedLinkage, order: Ints) -> PosedLinkage:
     # those about a point first, in the order of their last joints
     loops.sort(key=lambda loop: (loop.centre is not Centre.FINITE, sorted(loop.joints, reverse=True)))
     joints = {names[old]: graph.joints[names[old]] for old in order.tolist()}
-    return replace(
-        linkage,
-        graph=SCGraph(graph.nodes, joints, graph.loops, closing=graph.closing, ground=graph.ground),
-        points=linkage.points[order],
-        directions=linkage.directions[order],
-        angles=linkage.angles[order],
-        loops=tuple(loops),
-    )
+    ordered = SCGraph(graph.nodes, joints, graph.loops, closing=graph.closing, ground=graph.ground)
+    points, directions, angles = linkage.points[order], linkage.directions[order], linkage.angles[order]
+    return replace(linkage, graph=ordered, points=points, directions=directions, angles=angles, loops=tuple(loops))
 
 
 def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:

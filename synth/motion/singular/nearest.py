@@ -32,7 +32,7 @@ _SCALES, _WEIGHTS = (0.4, 0.2, 0.6), (1.0, 0.7, 1.4)
 """Fold angles of valleys at the starts, radians, and those of mountains as multiples of these: where both are
 alike, a symmetric start may lead back to the flat state."""
 _FEW = 600
-"""Of more joints all start alike."""
+"""With more joints mountains and valleys start alike."""
 _FINITE = 0.05
 """Configurations with smaller angles only, radians, are the flat state but for what Newton's method left."""
 _STEPS, _PATIENCE = 30, 4
@@ -68,13 +68,13 @@ def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | Non
     goal = int(np.count_nonzero(wanted))
     for start in _starts(wanted):
         angles = _closed(closure, start)
-        if angles is None or (best is not None and _agree(angles, wanted) <= best.agree):
+        if angles is None or (best is not None and _agreement(angles, wanted) <= best.agree):
             continue
         back = _followed_back(closure, angles)
         if back is None:
             continue
         small, largest = back, float(np.abs(back).max())
-        found = FoldedStart(small / largest, _agree(small, wanted), float(np.abs(angles).max()), largest)
+        found = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
         if best is None or found.agree > best.agree:
             best = found
         if best.agree == goal:
@@ -88,11 +88,6 @@ def _starts(wanted: Floats) -> Iterator[Floats]:
     for weight in _WEIGHTS if len(wanted) <= _FEW and (signs > 0).any() and (signs < 0).any() else _WEIGHTS[:1]:
         for scale in _SCALES:
             yield scale * np.where(signs < 0.0, weight, 1.0) * signs
-
-
-def _agree(angles: Floats, wanted: Floats) -> int:
-    """Return how many joints are turned as is wanted."""
-    return int((angles * wanted > DOUBLE.zero_rate * np.abs(angles).max(initial=0.0)).sum())
 
 
 def _closed(closure: ClosureEquations, start: Floats) -> Floats | None:
@@ -137,7 +132,7 @@ def _followed_back(closure: ClosureEquations, angles: Floats) -> Floats | None:
 
 
 MOST_RATES = 1500
-"""Of more joints the rates that close to first order are not all looked for: their matrix is dense."""
+"""With more joints the rates that close to first order are not all computed: their matrix is dense."""
 _DEAD_ENDS = 200
 """After so many choices that leave nothing the search ends."""
 
@@ -203,8 +198,8 @@ def _from_folded(
 
 
 def _agreement(rates: Floats | None, wanted: Floats) -> int:
-    """Return how many joints turn as is wanted."""
-    return 0 if rates is None else int((rates * wanted > DOUBLE.zero_rate * np.abs(rates).max()).sum())
+    """Return how many joints turn as is wanted: at rates or angles, float[J]."""
+    return 0 if rates is None else int((rates * wanted > DOUBLE.zero_rate * np.abs(rates).max(initial=0.0)).sum())
 
 
 def spaces_near(
@@ -294,10 +289,8 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tu
     factors /= np.linalg.norm(factors, axis=2, keepdims=True)
     off = np.abs(factors @ wanted)
     least, most = off.min(axis=1), off.max(axis=1)
-    told = most > DOUBLE.zero_rate * np.linalg.norm(wanted)  # others are on both factors, but for rounding
-    best = trailing(np.where(told, least / np.where(told, most, 1.0), 1.0), scale=1.0)
-    first, second = (
-        factors[best][place] for place in canonical_order([signed(basis @ one) for one in factors[best]])
-    )
+    clear = most > DOUBLE.zero_rate * np.linalg.norm(wanted)  # others are on both factors, but for rounding
+    best = factors[trailing(np.where(clear, least / np.where(clear, most, 1.0), 1.0), scale=1.0)]
+    first, second = (best[place] for place in canonical_order([signed(basis @ normal) for normal in best]))
     swapped = abs(float(second @ wanted)) < abs(float(first @ wanted)) - MARGIN * float(np.linalg.norm(wanted))
     return (second, first) if swapped else (first, second)

@@ -90,10 +90,8 @@ def _across(closure: ClosureEquations, angles: Floats, parts: Split) -> Floats:
     def between(at: Floats) -> Floats:
         return np.asarray(stresses.T @ (closure.at(at)[1] @ flexes.T))
 
-    slopes = [
-        ((between(angles + _NUDGE * flex) - between(angles - _NUDGE * flex)) / (2.0 * _NUDGE)).ravel()
-        for flex in flexes
-    ]
+    nudged = [(between(angles + _NUDGE * flex), between(angles - _NUDGE * flex)) for flex in flexes]
+    slopes = [((ahead - back) / (2.0 * _NUDGE)).ravel() for ahead, back in nudged]
     shares = np.linalg.lstsq(np.array(slopes).T, -between(angles).ravel(), rcond=DOUBLE.zero**0.5)[0]
     return np.asarray(shares @ flexes)
 
@@ -104,7 +102,7 @@ _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
 _NEWTON, _ROUNDED = 30, 1e-14
 _BESIDE, _ASIDE = 8, 0.3
-"""So many starts beside wanted rates, so far from them as part of their size."""
+"""Number of starts beside wanted rates, and their distance as part of the size of these."""
 _SHORT_OF = 0.7
 """This part of a path that ended early is taken again."""
 _SPACES = 64
@@ -201,13 +199,11 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     forms = local_forms(space.basis, space.left)
     x = _on_equations(forms, start)
     if x is not None and (rank := _slopes(forms, x)) < len(forms):
-        beside = [
-            np.random.default_rng((*space.basis.shape, number)).normal(size=len(start))
-            for number in range(_BESIDE)
-        ]
-        found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
-        general = [one for one in found if one is not None and _slopes(forms, one) > rank]
-        x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
+        chances = (np.random.default_rng((*space.basis.shape, number)) for number in range(_BESIDE))
+        beside = [chance.normal(size=len(start)) for chance in chances]
+        ends = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(aside) * aside) for aside in beside]
+        general = [end for end in ends if end is not None and _slopes(forms, end) > rank]
+        x = general[trailing(np.array([-(end @ start) / size for end in general]), scale=1.0)] if general else x
     return np.zeros_like(wanted) if x is None else turn * _scaled(space.basis @ x)
 
 

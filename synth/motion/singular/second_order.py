@@ -105,10 +105,8 @@ def shared_quadrics(
         return []
     forms = (seen @ stresses).reshape(size * size, -1).T
     known = local_forms(tangent, alone).reshape(-1, size * size)
-    return [
-        Quadric(tuple(range(len(tangent))), tangent @ form.reshape(size, size) @ tangent.T)
-        for form in _beyond(forms, known, zero)
-    ]
+    places, beyond = tuple(range(len(tangent))), _beyond(forms, known, zero).reshape(-1, size, size)
+    return [Quadric(places, tangent @ form @ tangent.T) for form in beyond]
 
 
 def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
@@ -205,7 +203,7 @@ def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None
 def _shares(points: Floats) -> Floats | None:
     """Return the shares of points in the point of their convex hull that is nearest to zero: float[points].
 
-    None where it is so near to zero that they cannot be told.
+    None where it is so near to zero that they are not clear.
     """
     with_sum = np.concatenate([points, np.ones((len(points), 1))], axis=1)
     try:

@@ -1,4 +1,4 @@
-"""What a walk is made of: its steps, the work it may do, the record of what it meets, and the watch over the rank.
+"""Parts of a walk: its steps, the work it may do, the record of its events, and the watch over the rank.
 
 A cubic through both ends of a step with the rates of both keeps to the curve to the fourth power of the step, so
 that Newton's method does not stray to another branch that passes there.

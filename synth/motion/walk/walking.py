@@ -121,7 +121,7 @@ class Goal(Event):
 
     @property
     def driver(self) -> str:
-        """What messages call the joint that leads."""
+        """The name of the leading joint in messages."""
         return f"the driven joint {shown(self.names[self.joint])}"
 
     def angle(self, place: Corrected, decimals: int = 6) -> str:
@@ -251,9 +251,8 @@ class Walk(Iterator[Step]):
         if self.ended:
             raise StopIteration
         rates = self._onwards()
-        self.ended = self._exhausted() or next(
-            filter(None, (each.before(self, rates) for each in self.events)), ""
-        )
+        reasons = filter(None, (event.before(self, rates) for event in self.events))
+        self.ended = self._exhausted() or next(reasons, "")
         step = None if self.ended else self._stepped(rates)
         if step is None:
             nowhere = "no single branch leads on" if self.goal is None else self.goal.lost(self.here)
@@ -376,7 +375,7 @@ def _alike(one: Floats, other: Floats) -> bool:
 _KEPT, _FLOOR = 0.5, 1e-3
 """A step leaves at least this part of a fold angle, and none is unfolded below the second, radians."""
 _SHORTEST = 0.01
-"""Where no rates keep all signs for longer, radians of the joint that moves most, a crease turns over."""
+"""A crease turns over where no rates keep all signs for a longer step, radians of the joint that moves most."""
 _ROUNDS = 40
 
 

@@ -186,7 +186,7 @@ def test_two_drivers_of_one_freedom_cannot_be_held():
 
 def test_loops_have_to_be_closed():
     _, closure = four_bar([(0, 0), (1, 0.2), (3, 0), (2.5, 2)])
-    with pytest.raises(UnsolvableError, match="miss closing"):
+    with pytest.raises(UnsolvableError, match="loop-closure residual is"):
         Sensitivity(closure, np.array([0.1, 0.0, 0.0, 0.0]), [0])
 
 
