@@ -22,8 +22,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 
 from synth.folding.configuration import configuration_of_sheet
+from synth.folding.derivatives import largest_panel
 from synth.folding.motion import fold
-from synth.folding.vertices import largest_panel
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.bodies import bodies_of_sheet
 from synth.viewer.solver_data import solver_data

@@ -32,7 +32,7 @@ from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.motion import Motion
-from synth.motion.walk.circuits import circuit_through
+from synth.motion.path import circuit_through
 from synth.moving.made import configuration_of
 
 __all__ = ["DRAWINGS"]

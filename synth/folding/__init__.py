@@ -1,10 +1,9 @@
 """Crease patterns folded: what only sheets have, panels above all.
 
-`fold` takes a crease pattern along one of its branches. `configuration` makes coordinates ready: opened along
-cuts (`opened`), mended where rounding stopped them (`mending`). `vertices` says where vertices are, `collisions`
-which panels pass through each other, `alike` keeps a symmetry, `derivatives` says how a folded sheet changes with
-its vertices, `assigned` gives a pattern the assignment of a branch. How anything moves is in `synth.motion`.
-Theory: docs/theory/folding.md.
+`motion` folds a crease pattern along one of its branches, or gives it the assignment of one. `configuration` makes
+coordinates ready: opened along cuts, mended where rounding stopped them (`mending`). `derivatives` says where
+vertices are and how a folded sheet changes with its vertices, `collisions` which panels pass through each other,
+`alike` keeps a symmetry. How anything moves is in `synth.motion`. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations

@@ -18,12 +18,11 @@ from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import area_vector, frame_about, unit
 from graphs.mechanism.precision import extent_of
 from graphs.tolerances import DOUBLE, Tolerances
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import corrected
+from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 
-__all__ = ["Collision", "Crossed", "Panels"]
+__all__ = ["Collision", "Panels"]
 
 _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
@@ -47,14 +46,12 @@ class Panels:
         flat: Floats,
         tolerances: Tolerances = DOUBLE,
     ) -> None:
-        pieces = [
-            (piece, panel) for face, panel in zip(faces, panel_of, strict=True) for piece in _convex(face, flat)
-        ]
-        most = max((len(piece) for piece, _ in pieces), default=3)
-        self._corners = np.array(
-            [[*piece, *[piece[-1]] * (most - len(piece))] for piece, _ in pieces], dtype=np.int64
-        )
-        self._panel = np.array([panel for _, panel in pieces], dtype=np.int64)
+        pieces = [_convex(face, flat) for face in faces]
+        corners = [piece for pieces_of_face in pieces for piece in pieces_of_face]
+        most = max(map(len, corners), default=3)
+        filled = [[*piece, *[piece[-1]] * (most - len(piece))] for piece in corners]
+        self._corners = np.array(filled, dtype=np.int64)
+        self._panel = np.repeat(np.array(panel_of, dtype=np.int64), list(map(len, pieces)))
         self._touching = tolerances.same_point * (extent_of(flat) or 1.0)
 
     def crossing(self, places: Floats) -> tuple[int, int] | None:
@@ -64,10 +61,11 @@ class Panels:
         corners = places[self._corners]
         normals = unit(area_vector(corners))
         for first, second in self._near(corners):
-            found = np.flatnonzero(self._cross(corners, normals, first, second))
-            if len(found):
-                one, other = (int(self._panel[pieces[found[0]]]) for pieces in (first, second))
-                return min(one, other), max(one, other)
+            pairs = np.flatnonzero(self._cross(corners, normals, first, second))
+            if len(pairs):
+                panels = (int(self._panel[pieces[pairs[0]]]) for pieces in (first, second))
+                low, high = sorted(panels)
+                return low, high
         return None
 
     def _near(self, corners: Floats) -> Iterator[tuple[Ints, Ints]]:
@@ -113,19 +111,12 @@ class Panels:
 
 
 @dataclass(frozen=True, slots=True)
-class Crossed:
+class PanelCrossing:
     """Where panels pass through each other in the frames of a path.
 
-    Attributes
-    ----------
-    frame : int
-        The last one before they do, or the first of all.
-    angles : float[J]
-        Joint angles where they begin to, radians, to a thousandth of what they change between two frames.
-    panels : tuple of int
-        The two.
-    frames : tuple of int
-        Numbers of the frames in which any do.
+    `frame` is the last one before they do, or the first of all; the angles, float[J], are those at which the two
+    panels begin to, radians, to a thousandth of what they change between two frames; `frames` are the numbers of
+    those in which any do.
     """
 
     frame: int
@@ -151,7 +142,7 @@ class Collision(Event):
         start = walk.here.angles
         if walk.here is not walk.frames[0] or self._crossing(start) is None:
             return ""
-        return f"panels pass through each other where it begins: {self._record(walk, start)}"
+        return f"panels pass through each other at the start: {self._record(walk, start)}"
 
     def within(self, walk: Walk, step: Step) -> tuple[Step, str] | None:
         """End at the last place of a step at which no panels cross."""
@@ -159,10 +150,8 @@ class Collision(Event):
         count = max(ceil(float(np.abs(step.chord).max(initial=0.0)) / _APART), 1)
         ends = [(part, step.at(part)) for part in (number / count for number in range(1, count + 1))]
         ends = [(part, place) for part, place in ends if place.closed]
-        free = 0.0
-        for (part, _), places in zip(
-            ends, self._places(np.array([place.angles for _, place in ends])), strict=True
-        ):
+        free, every = 0.0, self._places(np.array([place.angles for _, place in ends]))
+        for (part, _), places in zip(ends, every, strict=True):
             if self._panels.crossing(places) is not None:
                 kept, beyond = step.piece(free, part).last(lambda angles: self._crossing(angles) is None)
                 self._met = beyond.angles
@@ -175,24 +164,15 @@ class Collision(Event):
         if self._met is not None:
             walk.ended = self._record(walk, self._met)
 
-    def among(self, closure: ClosureEquations, angles: Floats, places: Floats) -> Crossed | None:
-        """Return where panels pass through each other in the frames of a path; None where they do in none.
-
-        Parameters
-        ----------
-        closure : ClosureEquations
-        angles : float[F, J]
-            Joint angles of the frames, radians.
-        places : float[F, vertices, 3]
-            The vertices there.
-        """
-        crossing = [self._panels.crossing(one) for one in places]
+    def among(self, closure: ClosureEquations, angles: Floats, places: Floats) -> PanelCrossing | None:
+        """Return where panels cross in frames float[F, J] of a path with vertices float[F, V, 3]; else None."""
+        crossing = [self._panels.crossing(vertices) for vertices in places]
         frames = [frame for frame, pair in enumerate(crossing) if pair is not None]
         if not frames:
             return None
         first = frames[0]
         panels, at = self._begun(closure, angles[max(first - 1, 0)], angles[first])
-        return Crossed(max(first - 1, 0), at, panels, tuple(frames))
+        return PanelCrossing(max(first - 1, 0), at, panels, tuple(frames))
 
     def _begun(self, closure: ClosureEquations, free: Floats, crossed: Floats) -> tuple[tuple[int, ...], Floats]:
         """Return which panels first pass through each other between two frames, and joint angles there.

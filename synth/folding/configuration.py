@@ -1,15 +1,18 @@
 """A crease pattern at a configuration: opened along its cuts, in its plane, mended where rounding stopped it.
 
-Theory: docs/theory/folding.md, docs/theory/mending.md.
+A drawing gives the two sides of a slit one edge, or two that share their ends; so may parts that meet in a corner:
+what comes apart on folding gets vertices of its own. Theory: docs/theory/folding.md, docs/theory/mending.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from math import degrees
 
+import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import lying
@@ -18,47 +21,97 @@ from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
 from graphs.ids import JointId
 from graphs.mechanism.precision import keeping, precision_of_sheet, stated
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face, with_all_edges
 from graphs.tolerances import DOUBLE
 from synth.folding.collisions import Collision, Panels
-from synth.folding.mending.near import covers
-from synth.folding.mending.nearest import ALL_BRANCHES, Nearby, Written, beyond_precision, nearby
-from synth.folding.mending.repair import Mended, flattened
-from synth.folding.opened import opened
-from synth.folding.vertices import vertex_places
+from synth.folding.derivatives import vertex_places
+from synth.folding.mending.nearest import (
+    Mended,
+    Nearby,
+    WrittenPattern,
+    beyond_precision,
+    covers,
+    flattened,
+    nearby,
+)
 from synth.motion.closure import ClosureEquations
-from synth.motion.configuration import Configuration, Placed
+from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
-from synth.motion.misfit import EXACT, doubt_of, doubt_of_rigid
 from synth.motion.path import Path
-from synth.motion.walk.event import PathEvent
+from synth.motion.walk.step import PathEvent
 
-__all__ = ["SheetConfiguration", "configuration_of_sheet"]
+__all__ = ["SheetConfiguration", "configuration_of_sheet", "opened"]
+
+
+def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
+    """Return a sheet in which panels share a vertex only if hinges round it join them, or they are one.
+
+    Places in the list of edges stay as they are, and so do ids of joints; further edges come last.
+    """
+    beside: dict[frozenset[int], list[int]] = {}
+    for face, around in enumerate(sheet.faces):
+        for side in sides_of_face(around):
+            beside.setdefault(frozenset(side), []).append(face)
+    corners = _corners(sheet, mechanism, beside)
+    place: dict[tuple[int, int], int] = {}
+    of: list[int] = list(range(sheet.vertices))  # the vertex that each was
+    seen: set[int] = set()
+    for together in nx.connected_components(corners):
+        first = min(together, key=lambda corner: corner[1])
+        vertex = first[0]
+        if vertex in seen:
+            of.append(vertex)
+        here = len(of) - 1 if vertex in seen else vertex
+        seen.add(vertex)
+        place |= dict.fromkeys(together, here)
+    if len(of) == sheet.vertices:
+        return sheet
+    faces = tuple(tuple(place[vertex, face] for vertex in sheet.faces[face]) for face in range(len(sheet.faces)))
+    edges, letters, angles = _edges(sheet, place, beside)
+    coordinates = None if sheet.coordinates is None else tuple(sheet.coordinates[vertex] for vertex in of)
+    parted = replace(sheet, vertices=len(of), edges=edges, assignments=letters, faces=faces)
+    return replace(parted, coordinates=coordinates, fold_angles=angles)
+
+
+def _corners(sheet: Sheet, mechanism: SheetMechanism, beside: Mapping[frozenset[int], Sequence[int]]) -> nx.Graph:
+    """Return the corners (vertex, face), joined where hinges or panels join the faces."""
+    link_of = {face: link for link, faces in enumerate(mechanism.panels) for face in faces}
+    hinges = {frozenset(edge) for pieces in mechanism.pieces.values() for edge in pieces}
+    corners = nx.Graph()
+    corners.add_nodes_from((vertex, face) for face, around in enumerate(sheet.faces) for vertex in around)
+    for edge, faces in beside.items():
+        for face, other in pairwise(faces):
+            if edge in hinges or link_of[face] == link_of[other]:
+                corners.add_edges_from(((vertex, face), (vertex, other)) for vertex in edge)
+    return corners
+
+
+def _edges(
+    sheet: Sheet, place: Mapping[tuple[int, int], int], beside: Mapping[frozenset[int], Sequence[int]]
+) -> tuple[tuple[Edge, ...], str, tuple[float | None, ...] | None]:
+    """Return the edges with their new ends; those that two sides of a cut shared once more, at the end."""
+    edges, more = [], []
+    for number, (a, b) in enumerate(sheet.edges):
+        ends = dict.fromkeys((place[a, face], place[b, face]) for face in beside.get(frozenset((a, b)), ()))
+        first, *others = ends or [(a, b)]
+        edges.append(first)
+        more += [(other, number) for other in others]
+    angles = sheet.fold_angles
+    letters = sheet.assignments + "".join(sheet.assignments[number] for _, number in more)
+    every = None if angles is None else (*angles, *(angles[number] for _, number in more))
+    return (*edges, *(edge for edge, _ in more)), letters, every
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SheetConfiguration(Configuration):
     """A crease pattern at a configuration.
 
-    Attributes
-    ----------
-    drawn : Sheet
-        As it was given.
-    dual : SheetMechanism
-        Of that sheet, in its plane if it is meant to lie in one.
-    sheet : Sheet
-        With vertices of their own for what cuts part, and vertices where they were moved to.
-    mechanism : SheetMechanism
-        Of this sheet.
-    repairs : tuple of Mended
-        What was done to the coordinates.
-    near : Nearby
-        What mending found: the mechanisms within the precision, or the nearest one beyond.
-    written : SheetConfiguration or None
-        As the coordinates are written, where vertices were moved.
-    alternatives : tuple of SheetConfiguration
-        Other mechanisms within the precision, which have branches that this one has not.
+    `drawn` is the sheet as it was read, `dual` its mechanism, in its plane if it is meant to lie in one. `sheet`
+    has separate vertices where cuts part it, and vertices where they were moved to; `mechanism` is that of this
+    sheet, `repairs` what was done to the coordinates. `near` has the mechanisms within the precision, or the
+    nearest one beyond, `written` is the configuration as the coordinates are written, where vertices were moved,
+    and `alternatives` are other mechanisms within the precision, which have branches that this one has not.
     """
 
     drawn: Sheet = field(kw_only=True)
@@ -87,7 +140,7 @@ class SheetConfiguration(Configuration):
 
     @property
     def mended(self) -> tuple[str, ...]:
-        """What was done to rounded coordinates."""
+        """The repairs of rounded coordinates."""
         return tuple(map(str, self.repairs))
 
     @property
@@ -96,9 +149,9 @@ class SheetConfiguration(Configuration):
         return sum((repair.moved for repair in self.repairs), 0.0)
 
     @property
-    def as_drawn(self) -> Written:
-        """What mending begins with."""
-        return Written(self.sheet, self.mechanism, self.linkage, self.precision, self.wanted)
+    def as_drawn(self) -> WrittenPattern:
+        """The pattern before mending."""
+        return WrittenPattern(self.sheet, self.mechanism, self.linkage, self.precision, self.wanted)
 
     @property
     def nearly(self) -> bool:
@@ -112,7 +165,7 @@ class SheetConfiguration(Configuration):
 
     @cached_property
     def nearest(self) -> Mended | None:
-        """The nearest mechanism that was found, of what does not move: beyond the precision; None if none was."""
+        """The nearest mechanism, beyond the precision, to one that does not move; None if none was found."""
         if self.near.within or self.near.beyond or self.near.unsettled:
             return self.near.beyond
         return beyond_precision(self.as_drawn)
@@ -121,27 +174,25 @@ class SheetConfiguration(Configuration):
     def elsewhere(self) -> tuple[tuple[Configuration, int], ...]:
         """Branches that exist within the precision, but on another mechanism than this: that, and their number."""
         known = [] if self.branches is None else [branch.space for branch in self.branches.branches]
-        found: list[tuple[Configuration, int]] = []
+        numbered: list[tuple[Configuration, int]] = []
         for other in self.alternatives:
             branches = () if other.branches is None else other.branches.branches
             for number, branch in enumerate(branches):
                 if branch.freedoms and not any(covers(space, branch.space) for space in known):
-                    found.append((other, number))
+                    numbered.append((other, number))
                     known.append(branch.space)
-        return tuple(found)
+        return tuple(numbered)
 
     @property
     def doubt(self) -> str:
-        """What is to be said of the coordinates where nothing moves or a motion ends; empty if nothing is."""
+        """The caution on the coordinates where nothing moves or a motion ends; empty without any."""
         if self.branches is None or self.branches.branches:
             return doubt_of(self.precision)
-        misfit = None if self.nearest is None else self.nearest.moved
-        too_large = "" if self.as_drawn.small else f"more than {ALL_BRANCHES} creases"
-        return doubt_of_rigid(self.precision, misfit, self.unsettled, too_large)
+        return doubt_of_rigid(self.precision, None if self.nearest is None else self.nearest.moved, self.unsettled)
 
-    def placed(self, angles: Floats) -> Placed:
+    def placed(self, angles: Floats) -> PointPlaces:
         """Return where vertices are at fold angles float[F, J], radians."""
-        return Placed(*vertex_places(self.sheet, self.mechanism, self.linkage, angles))
+        return PointPlaces(*vertex_places(self.sheet, self.mechanism, self.linkage, angles))
 
     def ends_of(self, joints: Sequence[JointId]) -> dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]]:
         """Return the two ends of creases, in the unit of the coordinates."""
@@ -151,20 +202,11 @@ class SheetConfiguration(Configuration):
         return {joint: (tuple(corners[a]), tuple(corners[b])) for joint, (a, b) in ends.items()}
 
     def at(self, angles: Floats, points: Floats | None = None) -> Sheet:
-        """Return the sheet at fold angles float[J], radians.
-
-        Parameters
-        ----------
-        angles : float[J]
-        points : float[vertices, 3], optional
-            Where its vertices are then, if that is known.
-        """
+        """Return the sheet at fold angles float[J], radians; its vertices there, float[V, 3], may be handed in."""
         there = self.placed(angles[None]).points[0] if points is None else points
         column = {joint: place for place, joint in enumerate(self.joints)}
-        turned = tuple(
-            degrees(float(angles[column[edge]])) if edge in column else None
-            for edge in range(len(self.sheet.edges))
-        )
+        edges = range(len(self.sheet.edges))
+        turned = tuple(degrees(float(angles[column[edge]])) if edge in column else None for edge in edges)
         return replace(self.sheet, coordinates=tuple(map(tuple, there.tolist())), fold_angles=turned, frames=None)
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
@@ -173,7 +215,7 @@ class SheetConfiguration(Configuration):
         if crossed is None:
             return path, ()
         event = PathEvent("collision", crossed.frame, driver, (driver,), crossed.angles, panels=crossed.panels)
-        events = sorted((*path.events, event), key=lambda one: one.frame)
+        events = sorted((*path.events, event), key=lambda event: event.frame)
         return replace(path, events=tuple(events)), crossed.frames
 
     def collision(self) -> Collision:
@@ -207,65 +249,34 @@ def configuration_of_sheet(
 ) -> SheetConfiguration:
     """Return a crease pattern at the configuration of its coordinates, opened along cuts and mended.
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With coordinates.
-    frame : int, optional
-        Of a sheet that has several; by default as it was read, or if that has no coordinates the first that has.
-    hinge_flat : bool, optional
-        Make hinges of flat (F) edges too.
-    mend : bool, optional
-        Move vertices within the precision of their coordinates if the sheet moves in more ways so.
-    precision : float, optional
-        The error that a coordinate may have, in their unit; by default as the sheet has it.
-
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, or panels do not fit.
-    InvariantError
-        If a crease has no length, or there is no such frame.
-
-    Examples
-    --------
-    >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1))
-    >>> at = configuration_of_sheet(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), corners))
-    >>> at, at.branches.regular
-    (<SheetConfiguration: <PosedLinkage: 2 links, 1 joints, 0 loops>>, True)
+    The options are those of `synth.moving.made.configuration_of`. Raises `UnsolvableError` if the sheet has no
+    coordinates, or panels do not fit, `InvariantError` if a crease has no length, or there is no such frame.
     """
     sheet = stated(lying(sheet, frame), precision)
     if sheet.coordinates is None:
-        raise UnsolvableError(f"to move needs coordinates, and {sheet!r} has none")
-    found = precision_of_sheet(sheet)
-    whole = keeping(with_all_edges(sheet), found)
-    flat = flattened(whole, found) if mend else None
-    whole = whole if flat is None else keeping(flat.sheet, found)
+        raise UnsolvableError(f"motion needs coordinates, and {sheet!r} has none")
+    read = precision_of_sheet(sheet)
+    whole = keeping(with_all_edges(sheet), read)
+    flat = flattened(whole, read) if mend else None
+    whole = whole if flat is None else keeping(flat.sheet, read)
     dual = mechanism_of_sheet(whole, hinge_flat=hinge_flat)
     apart = opened(whole, dual)
     if apart is not whole:
-        apart = keeping(apart, found)
+        apart = keeping(apart, read)
     mechanism = dual if apart is whole else mechanism_of_sheet(apart, hinge_flat=hinge_flat)
     linkage = linkage_of_sheet(apart, mechanism)
     check_closed(ClosureEquations(linkage), linkage)
     at = SheetConfiguration(
-        linkage,
-        found,
-        found.size <= EXACT,
-        sheet,
-        drawn=sheet,
-        dual=dual,
-        sheet=apart,
-        mechanism=mechanism,
-        repairs=() if flat is None else (flat,),
+        linkage, read, read.size <= EXACT, sheet, drawn=sheet, dual=dual, sheet=apart, mechanism=mechanism
     )
+    at = at if flat is None else replace(at, repairs=(flat,))
     return _mended(at) if mend else at
 
 
 def _mended(written: SheetConfiguration) -> SheetConfiguration:
     """Return the configuration on the nearest mechanism with the assignment or the most branches."""
     near = nearby(written.as_drawn)
-    others = [_on(written, one) for one in near.within]
+    others = [_on(written, mended) for mended in near.within]
     if not others or near.written_first:
         return replace(written, near=near, alternatives=tuple(others))
     kept = [written] if near.written_too else []

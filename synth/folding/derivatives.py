@@ -1,12 +1,13 @@
-"""Derivatives of a folded sheet by the coordinates of its vertices, creases that are driven held at their angles.
+"""Where vertices are at fold angles, and derivatives of a folded sheet by the coordinates of its vertices.
 
-Theory: docs/theory/derivatives.md.
+Creases that are driven are held at their angles. Theory: docs/theory/folding.md, docs/theory/derivatives.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse
@@ -18,23 +19,49 @@ from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet
-from synth.folding.vertices import largest_panel
-from synth.motion.bodies import BodyPoses, BodyTree
 from synth.motion.closure import ClosureEquations
-from synth.motion.derivatives import AxisDependence, Sensitivity, spatial
-from synth.motion.linkage import Creases, PosedLinkage, creases_of
+from synth.motion.derivatives import AxisDependence, BodyPoses, BodyTree, Sensitivity, spatial
+from synth.motion.linkage import Creases, PosedLinkage, creases_of, link_motions
 
-__all__ = ["SheetChange", "SheetDerivatives", "SheetSensitivity", "axis_motions", "dependence_on_vertices"]
+__all__ = ["SheetDerivatives", "axis_motions", "dependence_on_vertices", "largest_panel", "vertex_places"]
+
+
+def vertex_places(
+    sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage, angles: Floats
+) -> tuple[Floats, Floats]:
+    """Return where the vertices of a crease pattern are, and how far panels disagree on that.
+
+    At fold angles float[F, J], radians: places float[F, vertices, 3] in the unit of the coordinates, where
+    vertices of no face stay, and the largest distance between two places of one vertex by different panels,
+    float[F], in units of the extent.
+    """
+    assert sheet.coordinates is not None
+    local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
+    motions = link_motions(linkage, angles, largest_panel(mechanism.panels))
+    places = np.broadcast_to(local, (len(angles), *local.shape)).copy()
+    placed = np.zeros(sheet.vertices, dtype=bool)
+    apart = np.zeros(len(angles))
+    for link, faces in enumerate(mechanism.panels):
+        here = sorted({vertex for face in faces for vertex in sheet.faces[face]})
+        rotation, shift = motions[link]
+        moved = np.einsum("fij,vj->fvi", rotation, local[here]) + shift[:, None]
+        known = placed[here]
+        again = moved[:, known] - places[:, np.array(here)[known]]
+        apart = np.maximum(apart, np.linalg.norm(again, axis=-1).max(axis=1, initial=0.0))
+        places[:, np.array(here)[~known]] = moved[:, ~known]
+        placed[here] = True
+    return places * linkage.extent + linkage.middle, apart
+
+
+def largest_panel(panels: Sequence[Sequence[Any]]) -> int:
+    """Return the link with most faces: the fixed one of a sheet."""
+    return max(range(len(panels)), key=lambda link: len(panels[link]))
 
 
 def axis_motions(ends: Ints, corners: Floats) -> scipy.sparse.csr_matrix:
     """Return how axes through two vertices each (ends: int[J, 2]) rotate and translate with all vertices.
 
     Sparse, float[6 J, 3 V]: rotation about the origin and translation of each axis.
-
-    >>> corners = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
-    >>> (axis_motions(np.array([[0, 1]]), corners) @ [0, 0, 0, 0, 1.0, 0]).tolist()
-    [0.0, 0.0, 0.5, 0.0, 0.0, 0.0]
     """
     near, far = corners[ends[:, 0]], corners[ends[:, 1]]
     along = far - near
@@ -133,7 +160,7 @@ class SheetDerivatives:
     Attributes
     ----------
     dependence : AxisDependence
-        How the axes of creases and the fold angles given depend on the coordinates.
+        How the axes of creases and the fold angles of the file depend on the coordinates.
     closure : ClosureEquations
         With six equations for loops of parallel creases, which a change may turn.
     tree : BodyTree
@@ -141,8 +168,7 @@ class SheetDerivatives:
 
     Examples
     --------
-    A flat Miura sheet folded by one crease. The gradient of the height of a vertex by all coordinates, and along
-    the family of Miura sheets of other sectors, which fold too:
+    A flat Miura sheet folded by one crease, in the family of Miura sheets of other sectors, which fold too:
 
     >>> from graphs.convert.duality import mechanism_of_sheet
     >>> from synth.folding.motion import fold
@@ -153,14 +179,8 @@ class SheetDerivatives:
     >>> mechanism = mechanism_of_sheet(sheet)
     >>> shape = SheetDerivatives(sheet, mechanism, linkage_of_sheet(sheet, mechanism))
     >>> at = shape.at(fold(sheet, frames=4).path.angles[-1], [0])
-    >>> height = np.zeros((16, 3))
-    >>> height[15, 2] = 1.0
-    >>> gradient = at.adjoint(by_places=height)
     >>> sectors = derivatives_by_parameters(lambda p: np.array(miura(3, 3, p[0]).coordinates), np.array([1.0]))
-    >>> along = sectors.matrix[:, 0].reshape(16, 2)
-    >>> change = at.forward(along)
-    >>> bool(abs((gradient * along).sum() - change.places[15, 2]) < 1e-12)
-    True
+    >>> change = at.forward(sectors.matrix[:, 0].reshape(16, 2))
     >>> bool(np.abs(change.residual).max() < 1e-12), bool(change.rank_residual < 1e-6)
     (True, True)
     """
@@ -183,10 +203,7 @@ class SheetDerivatives:
     def at(self, angles: Floats, driven: Sequence[int] = ()) -> SheetSensitivity:
         """Return the derivatives at a closed configuration float[J], driven creases (places of joints) held.
 
-        Raises
-        ------
-        UnsolvableError
-            If loops are not closed, or the driven creases cannot be held.
+        Raises `UnsolvableError` if loops are not closed, or the driven creases cannot be held.
         """
         return SheetSensitivity(self, Sensitivity(self.closure, angles, driven))
 
@@ -244,16 +261,10 @@ class SheetSensitivity:
         by_links = by_places[vertices] * shape.linkage.extent
         wrenches, own = self.poses.places_adjoint(links, shape.local[vertices], by_links)
         turned, direct = self.poses.adjoint(wrenches)
-        gradient = shape.dependence.adjoint(self.sensitivity.adjoint(angles + turned) + direct).reshape(
-            -1, shape.numbers
-        )
-        gradient += _where_unplaced(by_places, vertices)[:, : shape.numbers]
+        axes = self.sensitivity.adjoint(angles + turned) + direct
+        gradient = shape.dependence.adjoint(axes).reshape(-1, shape.numbers)
+        unplaced = by_places.copy()  # vertices that no panel places stay where they are
+        unplaced[vertices] = 0.0
+        gradient += unplaced[:, : shape.numbers]
         gradient[vertices] += own[:, : shape.numbers] / shape.linkage.extent
         return gradient
-
-
-def _where_unplaced(by_places: Floats, placed: Ints) -> Floats:
-    """Return gradients of vertices that no panel places, which stay where they are; zeros for the others."""
-    kept = by_places.copy()
-    kept[placed] = 0.0
-    return kept

@@ -1,11 +1,11 @@
 """How a mechanism moves from a configuration: links rigid, all loops closed.
 
-`linkage` holds links and axes, `closure` the equations and their derivatives, `newton` corrects,
-`walk` takes steps along a path and says what it meets, `path` drives joints, `second_order` and `branches` find
-the ways to move from a singular configuration such as a flat sheet, `singular` what these rest on and proofs that
-nothing moves, `beginning` which way is taken, `placement` where links are; `derivatives` and `bodies` say how a
-configuration changes with what the mechanism is made of. Theory: docs/theory/folding.md,
-docs/theory/derivatives.md.
+`linkage` holds links and axes and places them, `closure` the equations, their derivatives and Newton's method,
+`walk` takes steps along a curve and records events, `path` drives joints, `branches` finds the motion branches
+from a singular configuration such as a flat sheet, `singular` what these rest on and proofs of rigidity, `marked`
+which of them agrees with a mountain-valley assignment, `driving` which is taken, `motion` is the answer;
+`derivatives` says how a configuration changes with the dimensions of the mechanism. Theory:
+docs/theory/folding.md, docs/theory/derivatives.md.
 """
 
 from __future__ import annotations

@@ -1,4 +1,3 @@
-from synth.motion.bodies import BodyTree as BodyTree
 from synth.motion.branches import (
     Branch as Branch,
     Branches as Branches,
@@ -10,6 +9,7 @@ from synth.motion.closure import ClosureEquations as ClosureEquations
 from synth.motion.derivatives import (
     AxisChange as AxisChange,
     AxisDependence as AxisDependence,
+    BodyTree as BodyTree,
     Sensitivity as Sensitivity,
     dependence_on_axes as dependence_on_axes,
     derivatives_by_parameters as derivatives_by_parameters,
@@ -18,9 +18,9 @@ from synth.motion.derivatives import (
 )
 from synth.motion.linkage import (
     PosedLinkage as PosedLinkage,
+    link_motions as link_motions,
     linkage_of_axes as linkage_of_axes,
     linkage_of_sheet as linkage_of_sheet,
 )
 from synth.motion.path import Path as Path, PathOptions as PathOptions, driven_path as driven_path
-from synth.motion.placement import link_motions as link_motions
-from synth.motion.singular.rigidity import Rigidity as Rigidity, rigidity_of as rigidity_of
+from synth.motion.singular.second_order import Rigidity as Rigidity, rigidity_of as rigidity_of

@@ -1,9 +1,10 @@
-"""Branches: the ways in which a linkage can move from a pose.
+"""Motion branches of a linkage from a configuration.
 
-At a regular pose there is one. At a singular one, such as a flat sheet, the rates that agree to second order fall
-into spaces (`synth.motion.second_order`), and what equations are left on one may part it into two halves that
-only the pose joins. Each is followed to a fold of ten degrees; the freedoms there are those of the branch. Up to
-the sign of all rates together; farther off, two branches may be one curve. Theory: docs/theory/folding.md.
+At a regular configuration there is one. At a singular one, such as a flat sheet, the rates that agree to second
+order fall into spaces (`synth.motion.singular.second_order`), and what equations are left on one may part it into
+two halves that only the configuration joins. Each is followed to a fold of ten degrees; its degrees of freedom are
+those there. Branches are listed up to the sign of all rates together; farther off, two of them may be one curve.
+Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -11,34 +12,44 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from math import degrees, inf
+from math import degrees, inf, pi
 from typing import Any, Literal
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis, canonical_order, signed
+from graphs.arrays import Floats
+from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed
+from graphs.geometry import lines_meet, sectors, unit
 from graphs.ids import JointId
+from graphs.loops.loop import Centre
 from graphs.rank.singular_values import spectrum
 from graphs.rank.spaces import inertia, rank_of
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.motion.second_order import RateSpace, largest_only, rates_at, rates_near, spaces_within
-from synth.motion.singular.flat_vertices import FlatVertices
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.nearest import spaces_near
-from synth.motion.singular.quadrics import Quadric, all_quadrics, local_forms
-from synth.motion.singular.rigidity import Rigidity, rigidity_of
 from synth.motion.singular.sampling import (
-    Followed,
+    TracedBranch,
     followed,
     general_rates,
     in_half_tangents,
     rates_towards,
     same_part,
 )
-from synth.motion.walk.allowance import Allowance
+from synth.motion.singular.second_order import (
+    Quadric,
+    RateSpace,
+    Rigidity,
+    all_quadrics,
+    largest_only,
+    local_forms,
+    rates_at,
+    rates_near,
+    rigidity_of,
+    spaces_within,
+)
+from synth.motion.walk.step import Allowance
 
 __all__ = [
     "MOST_BRANCHES",
@@ -46,6 +57,7 @@ __all__ = [
     "Branch",
     "Branches",
     "Certainty",
+    "FlatVertices",
     "Search",
     "branches_of",
     "first_branch",
@@ -53,11 +65,71 @@ __all__ = [
     "signs_of",
 ]
 
+
+class FlatVertices:
+    """The loops of a linkage that are flat vertices of four creases.
+
+    In any mode of such a vertex one pair of opposite creases folds the same way and the other does not: three
+    mountains and a valley, or the other way round, or a single straight line. Which pair it is distinguishes the
+    two modes. Where opposite sectors make 180 degrees, tan(fold / 2) of the four are in proportion in each.
+    `linear` says whether every loop is one of these, and all creases are flat.
+    """
+
+    def __init__(self, linkage: PosedLinkage) -> None:
+        self._loops = linkage.loops
+        self._ways: list[Floats | None] = []
+        flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
+        for loop in linkage.loops:
+            outward = _outward(linkage, loop)
+            # opposite sectors make 180 degrees
+            flat.append(outward is not None and abs(sectors(outward)[::2].sum() - pi) <= DOUBLE.parallel)
+            self._ways.append(None if outward is None else _ways(linkage, loop, outward))
+        self.linear = bool(all(flat))
+
+    def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
+        """Return in which mode each vertex begins to fold.
+
+        A mode is the places of the opposite creases that fold the same way. Rates are general ones of a branch,
+        the largest 1 or -1. None for a vertex that does not move, for loops that are no flat vertices, and for
+        those with other than four creases.
+        """
+        return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
+
+
+def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
+    if ways is None:
+        return None
+    folds = rates[list(loop.joints)] * ways
+    alike = folds[:2] * folds[2:]
+    same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
+    first, second = sorted(loop.joints[same::2])
+    return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
+
+
+def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
+    """Return 1 for creases that fold one way at a positive angle, -1 for others: float[4]."""
+    along = (outward * linkage.directions[list(loop.joints)]).sum(axis=1)
+    return np.asarray(np.sign(along) * loop.signs)
+
+
+def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
+    """Return the directions of four creases away from a flat vertex: float[4, 3]; None of other loops."""
+    joints = list(loop.joints)
+    if loop.centre is not Centre.FINITE or len(joints) != 4:
+        return None
+    points = linkage.points[joints]
+    away = points - lines_meet(points, linkage.directions[joints]).point
+    if np.linalg.norm(away, axis=1).min() <= DOUBLE.same_point:  # no crease, but an axis through that point
+        return None
+    outward = unit(away)
+    return outward if abs(sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None
+
+
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
 MOST_JOINTS = 600
-"""Of larger linkages the branches are not looked for: matrices are dense."""
+"""Larger linkages get no search for all branches: matrices are dense."""
 
 MOST_BRANCHES, MOST_WORK = 128, 1e10
 """So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
@@ -74,7 +146,7 @@ _START = 2e5
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
 _MORE = 100
-"""So much more is looked for on request."""
+"""Factor on the limits of a search with --more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,15 +156,15 @@ class Search:
     Attributes
     ----------
     most : int
-        After so many spaces of rates the search ends.
+        The search ends after so many spaces of rates.
     work : float
-        After so much work, in products of numbers, it ends too, and what was found by then is reported.
+        It ends after so much work too, in products of numbers, and reports what it has.
     zero : float
-        Singular values and eigenvalues below this part of the largest are zero: what coordinates can tell apart.
+        Singular values and eigenvalues below this part of the largest are zero: the resolution of the coordinates.
     follow : int, optional
-        So many branches are followed; of others it is told that they may begin.
+        So many branches are followed; others are only listed as possible beginnings.
     towards : float[J], optional
-        Signs of rates: if the search ends before it is through, the branch near to these is among the listed.
+        Signs of rates: if the search ends early, the branch near to these is among the listed.
     steps : int, optional
         All branches together may be followed so many steps, and each twenty.
     """
@@ -114,43 +186,41 @@ def search_for(joints: int, towards: Floats | None, *, more: bool = False) -> Se
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """One way to move from a pose.
+    """One motion branch from a configuration.
 
     Attributes
     ----------
     freedoms : int or None
-        At a general pose of the branch, to second order. None where no motion was found, or second order does not
-        tell.
+        At a general configuration of the branch, to second order. None where no motion was found, or second order
+        does not decide.
     certainty : {"proved", "numerical", "not known"}
-        Proved: the pose is regular, the branch is linear in tan(fold / 2), or all that second order adds is one
-        equation that is not degenerate. Numerical: followed with closed loops. Not known: rates agree to second
-        order, and no motion was found.
+        Proved: the configuration is regular, the branch is linear in tan(fold / 2), or all that second order adds
+        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: rates agree to
+        second order, and no motion was found.
     space : RateSpace
         The rates at which it can begin.
     rates : float[J]
-        Of one motion along the branch, at the pose; the largest is 1 or -1.
+        Initial rates of one motion along the branch; the largest is 1 or -1.
     still : tuple of int
-        Places of the joints that do not move on it.
+        Places of the joints that are immobile on it.
     modes : tuple of (int, int) or None
-        Of each loop that is a flat vertex of four creases: the places of the opposite ones that fold the same way.
-        None of other loops, and of vertices that are still.
+        For each loop that is a flat vertex of four creases the places of the opposite ones that fold the same way;
+        None for other loops, and for vertices that are immobile.
     sample : float[J]
-        Joint angles of a pose on it, radians.
+        Joint angles of a configuration on it, radians.
     error : float
-        By how much loops do not close there.
+        Loop-closure residual there.
     followed : float
         How far the joint that moves most has moved there, radians.
     begun : bool
-        Whether it was followed, or proved; False of those that the search had nothing left for.
+        Whether it was followed, or proved; False if the search had nothing left for it.
 
     Examples
     --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.configuration import configuration_of_sheet
-    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> branches = configuration_of_sheet(Sheet(5, (), "", faces, corners)).branches.branches
-    >>> [(one.freedoms, one.certainty) for one in branches]
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> branches = configuration_of(generate("miura", rows=2, columns=2).mechanism).branches.branches
+    >>> [(branch.freedoms, branch.certainty) for branch in branches]
     [(1, 'proved'), (1, 'proved')]
     """
 
@@ -170,6 +240,10 @@ class Branch:
         """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
         return signs_of(self.rates)
 
+    def has_signs(self, signs: str) -> bool:
+        """Tell whether it has these signs, or all of them turned."""
+        return self.signs in (signs, signs.translate(str.maketrans("+-", "-+")))
+
     def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
         """Return plain data, joints by their ids: those of the linkage, in order."""
         return {
@@ -185,7 +259,7 @@ class Branch:
 
 @dataclass(frozen=True, slots=True)
 class Branches:
-    """All branches that were found at a pose.
+    """All branches that were found from a configuration.
 
     Attributes
     ----------
@@ -194,18 +268,18 @@ class Branches:
         the joints.
     exhaustive : bool
         Whether there are no others: every choice of modes was tried, and rates that agree to second order are
-        all there are; the pose is regular, and the one branch has as many freedoms as there are rates; all that
-        second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
+        all there are; the configuration is regular, and the one branch has as many freedoms as there are rates;
+        all that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
     regular : bool
-        Whether the pose is a general one, with one branch.
+        Whether the configuration is regular, with one branch.
     complete : bool
         Whether the search came to its end.
     method : {"regular pose", "all modes", "second order", "random starts"}
         How they were found. All modes: of vertices that are linear in tan(fold / 2), every combination. Second
-        order: the rates that agree to it, all of them, each continued. Random starts: rates were looked for so
-        where several equations are left that are no products.
+        order: the rates that agree to it, all of them, each continued. Random starts: used for the rates where
+        several equations are left that are no products.
     rigidity : Rigidity or None
-        Where there are no branches: whether it is proved that nothing moves.
+        Without branches: whether it is proved that nothing moves.
     order : tuple of int
         Places of the joints in an order that does not depend on the file.
     """
@@ -225,93 +299,98 @@ class Branches:
             return None
         return "not known" if self.rigidity is None else self.rigidity.certainty
 
+    def number_of(self, signs: str) -> int | None:
+        """Return the number of the first branch with these signs, or all of them turned; None without one."""
+        return next((number for number, branch in enumerate(self.branches) if branch.has_signs(signs)), None)
+
 
 def branches_of(
     linkage: PosedLinkage, closure: ClosureEquations | None = None, search: Search | None = None
 ) -> Branches:
-    """Return the ways in which a linkage can move from its pose.
+    """Return the motion branches of a linkage from its configuration.
 
     Parameters
     ----------
     linkage : PosedLinkage
-        Closed at its pose.
+        With closed loops.
     closure : ClosureEquations, optional
-        Of this linkage, where they are at hand.
+        Of this linkage, if already computed.
     search : Search, optional
         Where it ends.
 
+    Returns
+    -------
+    Branches
+
     Examples
     --------
-    Four creases that meet in a point, flat: two ways to fold.
-
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, 0), (-.5, -.7))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> found = branches_of(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
-    >>> [(branch.freedoms, branch.certainty) for branch in found.branches], found.exhaustive
-    ([(1, 'proved'), (1, 'proved')], True)
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> branches = branches_of(configuration_of(generate("miura", rows=2, columns=2).mechanism).linkage)
+    >>> len(branches.branches), branches.exhaustive
+    (2, True)
     """
     looking = _Looking(linkage, closure, search or Search())
-    spaces = looking.spaces()
+    spaces, order = looking.spaces(), looking.order
     if not spaces and looking.complete:
         rigidity = rigidity_of(linkage, closure, looking.search.zero)
-        return Branches(
-            (), rigidity.certainty == "proved", False, True, looking.method(spaces), rigidity, looking.order
-        )
+        proved = rigidity.certainty == "proved"
+        return Branches((), proved, False, True, looking.method(spaces), rigidity, order)
     regular = looking.is_regular(spaces)
     cone = looking.is_cone()
     branches = looking.branches(spaces, proved=cone or (regular and looking.full_row_rank()))
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
-    all_told = agrees or cone or (looking.vertices.linear and not any(space.left for space in spaces))
+    exhaustive = agrees or cone or (looking.vertices.linear and not any(space.left for space in spaces))
     method: Method = "regular pose" if regular else looking.method(spaces)
-    return Branches(
-        branches, all_told and looking.complete, regular, looking.complete, method, order=looking.order
-    )
+    return Branches(branches, exhaustive and looking.complete, regular, looking.complete, method, order=order)
 
 
 def first_branch(
     linkage: PosedLinkage, admitted: Callable[[Floats], bool], search: Search | None = None
 ) -> Branch | None:
-    """Return the first branch in which a linkage can move from its pose that begins at rates that will do.
+    """Return the first motion branch of a linkage that begins at admitted rates; None where there is none.
 
     Only such branches are followed, until one moves: a flat sheet may have a hundred others.
 
     Parameters
     ----------
     linkage : PosedLinkage
-        Closed at its pose.
+        With closed loops.
     admitted : callable
-        Takes rates, float[J], the largest 1 or -1, zero where a joint does not begin to move; tells whether they
-        will do.
+        Takes rates, float[J], the largest 1 or -1, zero where a joint does not begin to move; returns whether they
+        are admitted.
     search : Search, optional
         Where it ends.
 
+    Returns
+    -------
+    Branch or None
+
     Examples
     --------
-    Four creases that meet in a point, flat; the first two are to fold alike:
+    A vertex of four creases, of which the first is to fold as a valley and the second as a mountain:
 
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, 0), (-.5, -.7))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> linkage = linkage_of_sheet(Sheet(5, (), "", faces, corners))
-    >>> first_branch(linkage, lambda rates: rates[0] * rates[1] > 0.0).signs
-    '++-+'
-    >>> first_branch(linkage, lambda rates: abs(rates).min() > 1.0)
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> linkage = configuration_of(generate("miura", rows=2, columns=2).mechanism).linkage
+    >>> first_branch(linkage, lambda rates: rates[0] * rates[1] < 0.0).signs
+    '+---'
     """
     looking = _Looking(linkage, None, search or Search())
-    parts = [(space, looking.ahead(rates)) for space, rates in looking.parts(looking.spaces())]
-    parts = [(space, rates) for space, rates in parts if admitted(looking.as_filed(rates))]
-    ways = (looking.branch(space, rates, proved=False, late=False) for space, rates in parts)
-    return next((looking.branch_as_filed(way) for way in ways if way.certainty != "not known"), None)
+    for space, found in looking.parts(looking.spaces()):
+        rates = looking.ahead(found)
+        if admitted(looking.as_filed(rates)):
+            branch = looking.branch(space, rates, proved=False, late=False)
+            if branch.certainty != "not known":
+                return looking.branch_as_filed(branch)
+    return None
 
 
 class _Looking:
-    """A search for branches: what it needs to know, and whether it came to its end.
+    """A search for branches.
 
     All arrays are in an order of the joints that does not depend on the file (`joint_order`), until branches are
-    told.
+    returned.
     """
 
     def __init__(self, linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> None:
@@ -323,7 +402,9 @@ class _Looking:
         self.search = replace(search, towards=towards)
         self.complete = True
         self.vertices = FlatVertices(self.linkage)
-        self._places_of_loops = _places_of(self.linkage.loops, linkage.loops, self._order)
+        joints_of = [frozenset(self._order[list(loop.joints)].tolist()) for loop in self.linkage.loops]
+        place_of_loop = {joints: place for place, joints in enumerate(joints_of)}
+        self._places_of_loops = [place_of_loop[frozenset(loop.joints)] for loop in linkage.loops]
         self._work = Allowance(search.work)
         self._allowance = Allowance(search.steps)
         tangent = rates_at(closure or ClosureEquations(linkage), linkage.angles, search.zero)
@@ -344,13 +425,13 @@ class _Looking:
         """Return a branch by the joints and loops in the order of the file."""
         order = self._order
         modes = [branch.modes[place] for place in self._places_of_loops]
-        pairs = [None if one is None else sorted(order[list(one)].tolist()) for one in modes]
+        pairs = [None if pair is None else sorted(order[list(pair)].tolist()) for pair in modes]
         return replace(
             branch,
             space=branch.space.in_order(self._place),
             rates=self.as_filed(branch.rates),
             still=tuple(sorted(order[list(branch.still)].tolist())),
-            modes=tuple(None if one is None else (one[0], one[1]) for one in pairs),
+            modes=tuple(None if pair is None else (pair[0], pair[1]) for pair in pairs),
             sample=self.as_filed(branch.sample),
         )
 
@@ -383,12 +464,8 @@ class _Looking:
 
     def is_regular(self, spaces: list[RateSpace]) -> bool:
         """Tell whether all rates that agree to first order agree to second."""
-        return (
-            self.complete
-            and len(spaces) == 1
-            and not spaces[0].left
-            and spaces[0].basis.shape[1] == self._tangent.shape[1]
-        )
+        alone = self.complete and len(spaces) == 1 and not spaces[0].left
+        return alone and spaces[0].basis.shape[1] == self._tangent.shape[1]
 
     def is_cone(self) -> bool:
         """Tell whether one equation is all that second order adds, and its form is not degenerate.
@@ -400,7 +477,7 @@ class _Looking:
         if self._stresses != 1 or len(self._quadrics) != 1:
             return False
         forms = local_forms(self._tangent, self._quadrics)
-        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear), scale=1.0).signs != 0).sum())
+        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear)).signs != 0).sum())
         return bool(rank == self._tangent.shape[1] - free)
 
     def method(self, spaces: list[RateSpace]) -> Method:
@@ -425,9 +502,10 @@ class _Looking:
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
-        found = [self.branch_as_filed(one) for one in self._branches(spaces, proved=proved)]
-        ranks = canonical_order([_rank_of(one.space, one.rates) for one in found])
-        return tuple(sorted((found[place] for place in ranks), key=_listed_last))
+        found = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
+        ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in found])
+        ranked = [found[place] for place in ranks]
+        return tuple(sorted(ranked, key=lambda branch: (not branch.begun, branch.certainty == "not known")))
 
     def _branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
@@ -469,7 +547,7 @@ class _Looking:
         for row, quadric in zip(slopes, self._quadrics, strict=True):
             joints = list(quadric.joints)
             row[:] = rates[joints] @ quadric.form @ self._tangent[joints] / np.abs(quadric.form).max()
-        independent = rank_of(slopes, DOUBLE.clear, scale=1.0) == self._stresses
+        independent = rank_of(slopes, DOUBLE.clear) == self._stresses
         return int(slopes.shape[1] - self._stresses) if independent else None
 
     def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
@@ -477,40 +555,23 @@ class _Looking:
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
         if linear:
-            came = in_half_tangents(self.closure, space, rates)
+            end = in_half_tangents(self.closure, space, rates)
         elif late:
-            came = Followed(None, self.linkage.angles, self.closure.error(self.linkage.angles), 0.0)
+            end = TracedBranch(None, self.linkage.angles, self.closure.error(self.linkage.angles), 0.0)
         else:
             self._allowance.left = max(self._allowance.left, _AT_LEAST)
-            came = followed(self.linkage, self.closure, rates, still, self._allowance)
-        certainty: Certainty = "numerical" if came.far else "not known"
-        freedoms = self._freedoms_beside(rates) or came.freedoms if came.far else None
+            end = followed(self.linkage, self.closure, rates, still, self._allowance)
+        certainty: Certainty = "numerical" if end.far else "not known"
+        freedoms = self._freedoms_beside(rates) or end.freedoms if end.far else None
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
-        modes = self.vertices.modes(rates)
-        return Branch(
-            freedoms, certainty, space, rates, still, modes, came.sample, came.error, came.far, not late or linear
-        )
-
-
-def _places_of(loops: Sequence[PosedLoop], filed: Sequence[PosedLoop], order: Ints) -> list[int]:
-    """Return the place of each loop of a file among the same loops by joints in another order."""
-    place = {frozenset(order[list(loop.joints)].tolist()): number for number, loop in enumerate(loops)}
-    return [place[frozenset(loop.joints)] for loop in filed]
+        modes, begun = self.vertices.modes(rates), not late or linear
+        return Branch(freedoms, certainty, space, rates, still, modes, end.sample, end.error, end.far, begun)
 
 
 def signs_of(rates: Floats) -> str:
-    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all.
-
-    >>> signs_of(np.array([1.0, -0.5, 1e-12]))
-    '+-0'
-    """
+    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
     return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
-
-
-def _listed_last(branch: Branch) -> tuple[bool, bool]:
-    """Return a key that lists branches without a motion late, and those that were not followed last."""
-    return not branch.begun, branch.certainty == "not known"
 
 
 def _rank_of(space: RateSpace, rates: Floats) -> Floats:

@@ -1,8 +1,8 @@
 """A mechanism at a configuration: what every question about motion is asked of.
 
-It is made once, by `synth.moving.made.configuration_of`, from anything that has coordinates, and handed to
-whatever asks: closure equations, tolerances and branches are found when they are first needed, and kept. Theory:
-docs/theory/folding.md.
+It is made once, by `synth.moving.made.configuration_of`, from anything that has coordinates, and handed on:
+closure equations, tolerances and branches are computed when they are first needed, and kept. Theory:
+docs/theory/folding.md, docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import pi, radians, tau
+from math import ceil, floor, log10, pi, radians, tau
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,39 +23,68 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.precision import Precision
 from graphs.mechanism.reading import Reading
 from graphs.mechanism.sheet import Sheet
-from graphs.tolerances import Tolerances
+from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
+from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.marked import Disagreement, MarkedWay, agreeing_best, marked_way, nearest_way
 from synth.motion.path import Path
-from synth.motion.placement import moved
-from synth.motion.second_order import rates_at
-from synth.motion.singular.nearest import Begun, begun_near
+from synth.motion.singular.nearest import InitialMotion, begun_near
+from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.walking import Event
 
-__all__ = ["Configuration", "Placed"]
+__all__ = ["EXACT", "Configuration", "PointPlaces", "at_most", "doubt_of", "doubt_of_rigid", "listed"]
+
+EXACT = DOUBLE.closed
+"""Coordinates that are precise to this part of the extent are taken at their word: loops of them close."""
+
+
+def doubt_of(precision: Precision) -> str:
+    """Return what rounded coordinates leave open where a motion is not found or ends; empty if they are exact."""
+    if precision.size <= EXACT:
+        return ""
+    precise = f"they are precise to {precision}"
+    return f", with the coordinates as written; {precise}, and exact coordinates may allow motion"
+
+
+def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool = False) -> str:
+    """Return how near a rigid pattern is to one that moves, after "rigid"; empty where there is nothing to add.
+
+    The misfit is the largest displacement of a vertex, in units of the extent, in the nearest pattern that moves,
+    or None if none was found; `unsettled` says that motion within the precision is neither found nor excluded.
+    """
+    exact = precision.size <= EXACT
+    within = "" if exact else f" within the drawing's precision, {precision}"
+    if misfit is None:
+        nearly = "; some branches nearly exist, and whether any does there is unknown" if unsettled else ""
+        return within + nearly
+    times = "" if exact else f", {misfit / precision.size:.0f} times the precision"
+    moved = f"vertices moved by up to {at_most(misfit)} of the extent{times}"
+    return f"{within}; the nearest rigid-foldable pattern has {moved}"
+
+
+def at_most(number: float) -> str:
+    """Return a positive number to one digit, rounded up: "3e-03" for 2.03e-3."""
+    unit = 10.0 ** floor(log10(number))
+    return f"{ceil(number / unit * (1.0 - 4.0 * EPSILON)) * unit:.0e}"
+
 
 _NAMED = 12
-"""So many joints are named in a line."""
+"""At most so many joints are named in a line."""
 _MOST_FLEXES = 100
-"""Where closure equations depend on each other at a configuration of more flexes, one way to move is enough."""
+"""With more flexes and dependent closure equations one motion is enough."""
 _ONE_WAY, _HALVES = 100, 8
-"""Of flat sheets of more creases one way that begins as assigned is enough if the equations of more vertices are
+"""For flat sheets of more creases one motion as assigned is enough if the equations of more vertices are
 no products: each may part the rates into two halves."""
 _WHOLE = radians(179.0)
 """How far a joint is driven that ends at 180 degrees, where panels lie on each other."""
 
 
-class Placed(NamedTuple):
+class PointPlaces(NamedTuple):
     """Where the points of a mechanism are at joint angles.
 
-    Attributes
-    ----------
-    points : float[F, n, 3]
-        Vertices of a sheet, else a point on each axis, in the unit of the coordinates.
-    apart : float[F]
-        By how much bodies disagree on a point that they share, in units of the extent.
+    `points`, float[F, n, 3], are vertices of a sheet, else a point on each axis, in the unit of the coordinates;
+    `apart`, float[F], is by how much bodies disagree on a point that they share, in units of the extent.
     """
 
     points: Floats
@@ -71,11 +100,11 @@ class Configuration:
     linkage : PosedLinkage
         Links, axes and joint angles.
     precision : Precision
-        Of the coordinates that were given.
+        Of the coordinates as read.
     exact : bool, optional
         Whether the axes are exact but for the rounding of double precision: the coordinates were, or were mended.
     given : Sheet, HingedSolids, PolyhedronModel, ..., optional
-        What it was made from.
+        The mechanism that was read.
     more : bool, optional
         Whether its branches are looked for with a hundred times the usual allowance.
 
@@ -116,28 +145,28 @@ class Configuration:
 
     @property
     def wanted(self) -> Floats:
-        """Which way joints are to go, 1 or -1: as they are assigned, or all alike where nothing is."""
+        """The sense in which joints are to go, 1 or -1: as they are assigned, else all alike."""
         marks = self.marks
         return marks if marks.any() else np.ones(len(marks))
 
     @property
     def doubt(self) -> str:
-        """What rounded coordinates leave open where nothing moves; empty if they are exact."""
+        """The caution on rounded coordinates where nothing moves; empty if they are exact."""
         return ""
 
     @property
     def misfit(self) -> float | None:
-        """Largest displacement of a vertex that was mended, of the extent; None of what has no vertices."""
+        """Largest displacement of a vertex that was mended, in units of the extent; None without vertices."""
         return None
 
     @property
     def nearly(self) -> bool:
-        """Whether rates nearly agree that do not agree exactly, by what the coordinates tell apart."""
+        """Whether rates nearly agree that do not agree exactly, at the resolution of the coordinates."""
         return False
 
     @property
     def unsettled(self) -> bool:
-        """Whether it may move within the precision of its coordinates in ways for which no mechanism was found."""
+        """Whether motion within the precision of its coordinates is neither found nor excluded."""
         return False
 
     @property
@@ -148,28 +177,26 @@ class Configuration:
     def of_branch(self, branch: int | str | None) -> tuple[Configuration, int | str | None]:
         """Return the configuration that has a branch, by its number or signs, and its number or signs there.
 
-        The branches here come first, then those elsewhere; what is not found is left to this configuration.
+        The branches here come first, then those elsewhere; an unknown branch is left to this configuration.
         """
         own = 0 if self.branches is None else len(self.branches.branches)
         if isinstance(branch, int) and own <= branch < own + len(self.elsewhere):
             return self.elsewhere[branch - own]
-        if isinstance(branch, str) and self.branches is not None:
-            mirrored = branch.translate(str.maketrans("+-", "-+"))
-            if not any(one.signs in (branch, mirrored) for one in self.branches.branches):
-                for other, number in self.elsewhere:
-                    there = other.branch(number)
-                    if there is not None and there.signs in (branch, mirrored):
-                        return other, number
+        if isinstance(branch, str) and self.branches is not None and self.branches.number_of(branch) is None:
+            for other, number in self.elsewhere:
+                there = other.branch(number)
+                if there is not None and there.has_signs(branch):
+                    return other, number
         return self, branch
 
     @property
     def mended(self) -> tuple[str, ...]:
-        """What was done to rounded coordinates."""
+        """The repairs of rounded coordinates."""
         return ()
 
     @property
     def reading(self) -> Reading | None:
-        """What was done to the drawing it was read from; None of what was not traced."""
+        """The report on the drawing it was read from; None if it was not traced."""
         return self.given.reading if isinstance(self.given, Sheet) else None
 
     @property
@@ -179,12 +206,12 @@ class Configuration:
 
     @property
     def whole(self) -> float:
-        """How far a joint is driven where nothing else is asked for, radians."""
+        """How far a joint is driven by default, radians."""
         return _WHOLE if self.limited else tau
 
     @cached_property
     def tolerances(self) -> Tolerances:
-        """What is zero at its coordinates."""
+        """The tolerances of its coordinates."""
         return Tolerances.of(0.0 if self.exact else self.precision.size, len(self.linkage.angles))
 
     @cached_property
@@ -194,15 +221,15 @@ class Configuration:
 
     @cached_property
     def branches(self) -> Branches | None:
-        """The ways to move from here; None for a linkage that is too large to look for all."""
+        """The motion branches from here; None for a linkage that is too large to look for all."""
         joints = len(self.linkage.angles)
         if joints > MOST_JOINTS or (joints > _MOST_FLEXES and self._many_flexes()) or self._one_way_enough():
             return None
         return branches_of(self.linkage, self.closure, search_for(joints, self.wanted, more=self.more))
 
     @cached_property
-    def begun(self) -> Begun:
-        """One way to move from here, near to the assignment, looked for without all others."""
+    def begun(self) -> InitialMotion:
+        """One motion from here, near to the assignment, looked for without all others."""
         return begun_near(self.closure, self.linkage, self.wanted)
 
     @cached_property
@@ -218,10 +245,10 @@ class Configuration:
 
     @cached_property
     def chosen(self) -> int | None:
-        """Number of the branch that is taken where none is asked for; None where there is none.
+        """Number of the branch that is taken by default; None where there is none.
 
-        That which begins as assigned, or else that with which the fewest assigned joints disagree; where nothing
-        is assigned, that on which most joints go alike.
+        That which begins as assigned, or else that with which the fewest assigned joints disagree; without an
+        assignment, that on which most joints go alike.
         """
         if self.branches is None or not self.branches.branches:
             return None
@@ -232,7 +259,7 @@ class Configuration:
 
     @cached_property
     def disagreement(self) -> Disagreement | None:
-        """How the assignment of a flat sheet differs from the nearest branch; None where nothing is assigned."""
+        """How the assignment of a flat sheet differs from the nearest branch; None without an assignment."""
         if self.marked.marked is None or self.branches is None:
             return None
         number, _, rates = self.marked
@@ -257,12 +284,12 @@ class Configuration:
 
     @property
     def disagreeing(self) -> str:
-        """The creases whose assignment the nearest branch does not begin with, in a line; empty without any."""
+        """A line with the creases whose assignment disagrees with the nearest branch; empty without any."""
         near = self.disagreement
         if near is None or not near.size:
             return ""
         parts = [
-            f"{_row(self.joints, places)} {verb if len(places) == 1 else verbs}"
+            f"{listed([self.joints[place] for place in places])} {verb if len(places) == 1 else verbs}"
             for places, verb, verbs in (
                 (near.opposite, "folds the other way", "fold the other way"),
                 (near.immobile, "is immobile", "are immobile"),
@@ -270,7 +297,7 @@ class Configuration:
             if places
         ]
         count, every = near.size, int(np.count_nonzero(self.marks))
-        differing = f"{count} of {numbered(every, 'assigned crease')} disagree{'s' * (count == 1)}"
+        differing = f"{count} of {numbered(every, 'assigned crease')} {'disagrees' if count == 1 else 'disagree'}"
         seen = "see synth draw --as marks, synth edit --assign-branch"
         return f"{differing} with the nearest branch, {near.number}: {'; '.join(parts)} ({seen})"
 
@@ -295,25 +322,25 @@ class Configuration:
         return not known and self.flat and self.begun.folded is not None
 
     def _one_way_enough(self) -> bool:
-        """Tell whether the ways are too many to list, and a folded state leads to one that is as assigned."""
+        """Tell whether the branches are too many to list, and a folded state leads to one with the assignment."""
         loops = sum(loop.centre is Centre.FINITE and len(loop.joints) > 4 for loop in self.linkage.loops)
         if not (self.flat and len(self.joints) > _ONE_WAY and loops > _HALVES and self.marks.any()):
             return False
         folded = self.begun.folded
         return folded is not None and folded.agree == np.count_nonzero(self.marks)
 
-    def placed(self, angles: Floats) -> Placed:
+    def placed(self, angles: Floats) -> PointPlaces:
         """Return where its points are at joint angles float[F, J], radians."""
         linkage = self.linkage
         points = np.array([moved(linkage, one).points for one in angles]).reshape(len(angles), -1, 3)
-        return Placed(points * linkage.extent + linkage.middle, np.zeros(len(angles)))
+        return PointPlaces(points * linkage.extent + linkage.middle, np.zeros(len(angles)))
 
     def ends_of(self, joints: Sequence[JointId]) -> dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]]:
         """Return the two ends of joints that are creases, in the unit of the coordinates; of others nothing."""
         return {}
 
     def at(self, angles: Floats, points: Floats | None = None) -> Any:
-        """Return the mechanism at joint angles float[J], radians: a linkage, or where it is one a sheet."""
+        """Return the mechanism at joint angles float[J], radians: a linkage, or for a sheet the sheet."""
         return moved(self.linkage, angles)
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
@@ -324,24 +351,16 @@ class Configuration:
         return path, ()
 
     def collision(self) -> Event:
-        """Return what ends a walk before panels pass through each other.
+        """Return the event that ends a walk before panels pass through each other.
 
-        Raises
-        ------
-        UnsolvableError
-            If there are no panels.
+        Raises `UnsolvableError` if there are no panels.
         """
-        raise UnsolvableError("collisions are looked for between the panels of a sheet, and there are none")
+        raise UnsolvableError("collisions require the panels of a sheet, and this mechanism has none")
 
     def to_json(self, branch: Branch | None = None, other_question: str | None = None) -> dict[str, Any]:
         """Return the key ``configuration`` of an answer (docs/command-json.md).
 
-        Parameters
-        ----------
-        branch : Branch, optional
-            The one that the answer is about.
-        other_question : str, optional
-            Why the answer is not about a branch.
+        It has the branch that the answer is about, or why it is about none, `other_question`.
         """
         found = None if other_question else self.branches
         freedoms, still = (None, None) if branch is None else (branch.freedoms, branch.still)
@@ -364,7 +383,7 @@ class Configuration:
         return f"<{type(self).__name__}: {self.linkage!r}>"
 
 
-def _row(joints: Sequence[JointId], places: Sequence[int]) -> str:
-    """Return the ids of joints in a row, not too many."""
-    more = f" and {len(places) - _NAMED} more" if len(places) > _NAMED else ""
-    return ", ".join(shown(joints[place]) for place in places[:_NAMED]) + more
+def listed(joints: Sequence[JointId]) -> str:
+    """Return the ids of joints in a row, at most 12 of them."""
+    more = f" and {len(joints) - _NAMED} more" if len(joints) > _NAMED else ""
+    return ", ".join(map(shown, joints[:_NAMED])) + more

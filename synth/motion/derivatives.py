@@ -1,8 +1,8 @@
-"""Derivatives of a closed configuration by what the mechanism is made of, driven joints held.
+"""Derivatives of a closed configuration by the dimensions of the mechanism, driven joints held.
 
-`Sensitivity` knows how joint angles follow where axes are moved, forward and adjoint; `AxisDependence` says how
-axes move with lines, coordinates or parameters. Bodies: `synth.motion.bodies`; vertices of sheets:
-`synth.folding.derivatives`. Theory: docs/theory/derivatives.md.
+`Sensitivity` says how joint angles follow where axes are moved, forward and adjoint; `AxisDependence` how axes
+move with lines, coordinates or parameters; `BodyTree` where a tree of joints puts each link, and how that changes.
+Vertices of sheets: `synth.folding.derivatives`. Theory: docs/theory/derivatives.md.
 """
 
 from __future__ import annotations
@@ -15,20 +15,21 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
+from graphs import geometry
+from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
 from graphs.geometry import crossing
+from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
-from synth.motion.newton import TangentSpace
+from synth.motion.closure import ClosureEquations, TangentSpace, carried
+from synth.motion.linkage import PosedLinkage, joints_outwards
 
 __all__ = [
     "AxisChange",
     "AxisDependence",
-    "ConfigurationChange",
-    "ParameterDerivatives",
+    "BodyPoses",
+    "BodyTree",
     "Sensitivity",
     "dependence_on_axes",
     "derivatives_by_parameters",
@@ -84,13 +85,13 @@ class ConfigurationChange:
 class Sensitivity:
     """The derivative of a closed configuration by the axes of its joints, driven joints held at their angles.
 
-    Where redundant equations stay consistent this is the derivative of the configuration; what they do not allow
-    is returned as a residual. Freedoms beyond the driven joints take the least change of all joint angles.
+    Where redundant equations stay consistent this is the derivative of the configuration; the inconsistent part is
+    returned as a residual. Freedoms beyond the driven joints take the least change of all joint angles.
 
     Parameters
     ----------
     closure : ClosureEquations
-        Without locked joints: what is held is driven.
+        Without locked joints: the held joints are driven.
     angles : float[J]
         A closed configuration, radians.
     driven : sequence of int, optional
@@ -104,7 +105,7 @@ class Sensitivity:
 
     Examples
     --------
-    A square four-bar in the plane; its second joint moved along x, the first held:
+    A square four-bar in the plane, the first joint held, the second moved along x; the change of the last angle:
 
     >>> from graphs.loops.loop import Loop
     >>> from graphs.mechanism.sc import SCGraph
@@ -113,17 +114,10 @@ class Sensitivity:
     >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     >>> linkage = linkage_of_axes(square, {j: (corners[j], (0, 0, 1)) for j in range(4)})
     >>> at = Sensitivity(ClosureEquations(linkage), np.array([0.5, -0.5, 0.5, -0.5]), [0])
-    >>> dependence = dependence_on_axes(linkage)
-    >>> along_x = np.eye(24)[6]
-    >>> change = at.forward(dependence.forward(along_x))
-    >>> bool(np.abs(change.residual).max() < 1e-15), bool(abs(change.angles[0]) < 1e-15)
+    >>> dependence, along_x = dependence_on_axes(linkage), np.eye(24)[6]
+    >>> change, gradient = at.forward(dependence.forward(along_x)), dependence.adjoint(at.adjoint(np.eye(4)[3]))
+    >>> bool(np.abs(change.residual).max() < 1e-15), bool(abs(gradient @ along_x - change.angles[3]) < 1e-14)
     (True, True)
-
-    The gradient of the angle of the last joint by all points and directions:
-
-    >>> gradient = dependence.adjoint(at.adjoint(np.eye(4)[3]))
-    >>> bool(abs(gradient @ along_x - change.angles[3]) < 1e-14)
-    True
     """
 
     def __init__(self, closure: ClosureEquations, angles: Floats, driven: Sequence[int] = ()) -> None:
@@ -133,8 +127,8 @@ class Sensitivity:
         off, self._jacobian = closure.at(angles)
         error = float(np.abs(off).max(initial=0.0))
         if error > DOUBLE.closed:
-            most = f"expected {DOUBLE.closed:.0e}"
-            raise UnsolvableError(f"loops miss closing by {error:.1e} at the configuration, {most}")
+            most = f"expected at most {DOUBLE.closed:.0e}"
+            raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
         self._space = TangentSpace(self._jacobian)
         units = np.eye(closure.joints)[self.driven]
         self._moves = np.array([self._space.free(unit) for unit in units]).reshape(units.shape).T
@@ -143,10 +137,8 @@ class Sensitivity:
     @staticmethod
     def _inverted(products: Floats) -> Floats:
         if len(products) and float(np.linalg.eigvalsh(products)[0]) < DOUBLE.zero:
-            raise UnsolvableError(
-                "the driven joints cannot be held here: one is immobile or at a turning point, or they depend on "
-                "each other"
-            )
+            reasons = "one is immobile or at a turning point, or they depend on each other"
+            raise UnsolvableError(f"the driven joints cannot be held at this configuration: {reasons}")
         return np.asarray(np.linalg.inv(products))
 
     @cached_property
@@ -188,10 +180,8 @@ class Sensitivity:
 
     def _regular(self) -> None:
         if self.degenerate:
-            raise UnsolvableError(
-                "the configuration is singular and has no derivative: the rank of its closure equations is below "
-                "that of its neighbours"
-            )
+            reason = "the rank of its closure equations is below that of its neighbours"
+            raise UnsolvableError(f"the configuration is singular and has no derivative: {reason}")
 
     def forward(self, axes: AxisChange) -> ConfigurationChange:
         """Return how the configuration follows a change of the axes.
@@ -230,10 +220,10 @@ class Sensitivity:
             If it is nearly so.
         """
         self._regular()
-        asked = by_angles.copy()
-        asked[self.driven] = 0.0
-        asked[self.driven] -= self._shares @ (self._moves.T @ asked)
-        forces = self._space.forces(asked)
+        loads = by_angles.copy()
+        loads[self.driven] = 0.0
+        loads[self.driven] -= self._shares @ (self._moves.T @ loads)
+        forces = self._space.forces(loads)
         return AxisChange(-(self._by_twists.T @ forces), self._jacobian.T @ forces)
 
     def rank_residual(self, axes: AxisChange, change: ConfigurationChange) -> float:
@@ -274,11 +264,12 @@ def sensitivities(closure: ClosureEquations, frames: Floats, driven: Sequence[in
 
     Examples
     --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
-    >>> [one.degenerate for one in sensitivities(ClosureEquations(hinge), np.array([[0.0], [0.1]]), [0])]
-    [False, False]
+    >>> from synth.moving.motion import move
+    >>> from synth.patterns import generate
+    >>> motion = move(generate("bennett").mechanism, frames=2)
+    >>> closure = motion.configuration.closure
+    >>> [at.degenerate for at in sensitivities(closure, motion.path.angles[1:2], [0])]
+    [False]
     """
     return (Sensitivity(closure, angles, driven) for angles in frames)
 
@@ -366,13 +357,15 @@ def spatial(linkage: PosedLinkage) -> PosedLinkage:
     ----------
     linkage : PosedLinkage
 
+    Returns
+    -------
+    PosedLinkage
+
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> ring = SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))])
-    >>> linkage = linkage_of_axes(ring, {joint: ((0, 0, 0), np.eye(3)[joint]) for joint in range(3)})
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> linkage = configuration_of(generate("miura", rows=2, columns=2).mechanism).linkage
     >>> ClosureEquations(linkage).rows, ClosureEquations(spatial(linkage)).rows
     (3, 6)
     """
@@ -448,3 +441,134 @@ def _by_complex_steps(function: Callable[[Floats], Floats], parameters: Floats) 
             return None
         columns.append(values.imag / _COMPLEX)
     return np.array(columns).T.reshape(-1, len(parameters))
+
+
+class BodyTree:
+    """A tree of joints that carry links, from one that stays.
+
+    Links are handled level by level, those that as many joints carry from the ground together.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    ground : link, optional
+        The fixed link; by default the first. Of a linkage in several parts, each has one.
+
+    Attributes
+    ----------
+    row : dict of link to int
+        The place of each link in arrays of links.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> bodies = BodyTree(hinge).at(np.array([np.pi / 2]))
+    >>> bodies.places(np.array([1]), np.array([[1.0, 0.0, 0.0]])).round(12).tolist()
+    [[0.0, 1.0, 0.0]]
+    """
+
+    def __init__(self, linkage: PosedLinkage, ground: LinkId | None = None) -> None:
+        self.linkage = linkage
+        self.row = {link: row for row, link in enumerate(linkage.graph.nodes)}
+        level = dict.fromkeys(linkage.graph.nodes, 0)
+        edges = []
+        for near, far, place, sign in joints_outwards(linkage, ground):
+            level[far] = level[near] + 1
+            edges.append((level[far], self.row[near], self.row[far], place, int(sign)))
+        edges.sort(key=lambda edge: edge[0])
+        table = np.array(edges, dtype=np.int64).reshape(-1, 5)
+        starts = np.flatnonzero(np.diff(table[:, 0], prepend=0))
+        self.near, self.far, self.joints, self.signs = table[:, 1:].T
+        self.levels = [slice(a, b) for a, b in zip(starts, [*starts[1:], len(table)], strict=True)]
+
+    def at(self, angles: Floats) -> BodyPoses:
+        """Return where the links are at joint angles float[J], radians."""
+        linkage, joints = self.linkage, self.joints
+        turned = self.signs * (angles - linkage.angles)[joints]
+        steps = geometry.rotations(linkage.directions[joints], turned)
+        points = linkage.points[joints]
+        offsets = points - np.einsum("eij,ej->ei", steps, points)
+        rotations = np.tile(np.eye(3), (len(self.row), 1, 1))
+        shifts = np.zeros((len(self.row), 3))
+        for level in self.levels:
+            near, far = self.near[level], self.far[level]
+            rotations[far] = rotations[near] @ steps[level]
+            shifts[far] = shifts[near] + np.einsum("eij,ej->ei", rotations[near], offsets[level])
+        return BodyPoses(self, rotations, shifts)
+
+
+@dataclass(frozen=True, slots=True)
+class BodyPoses:
+    """Links at a configuration, as rigid motions from the pose of the linkage.
+
+    Twists of links are (w, v), rotation about the origin and shift, where the links now are; places are in units
+    of the extent, about the middle. A point x of a link comes to R x + t, with R of `rotations` and t of `shifts`.
+    """
+
+    tree: BodyTree
+    rotations: Floats
+    shifts: Floats
+
+    def _screws(self) -> Floats:
+        """Return the axis of each joint of the tree where it now is, turned outwards: float[e, 6]."""
+        tree = self.tree
+        rotations = self.rotations[tree.near]
+        axes = np.einsum("eij,ej->ei", rotations, tree.linkage.directions[tree.joints]) * tree.signs[:, None]
+        points = np.einsum("eij,ej->ei", rotations, tree.linkage.points[tree.joints]) + self.shifts[tree.near]
+        return np.concatenate([axes, np.cross(points, axes)], axis=1)
+
+    def _by_axes(self) -> Floats:
+        """Return the twists of far links by small motions of the axes of their joints: float[e, 6, 6]."""
+        moved = carried(self.rotations, self.shifts)
+        return np.asarray(moved[self.tree.near] - moved[self.tree.far])
+
+    def forward(self, angles: Floats, axes: AxisChange) -> Floats:
+        """Return the twists of links with changes of joint angles and axes, the ground held: float[L, 6].
+
+        Changes of angles are in radians.
+        """
+        tree = self.tree
+        turned = (angles - axes.zeros)[tree.joints, None] * self._screws()
+        steps = turned + np.einsum("eij,ej->ei", self._by_axes(), axes.twists.reshape(-1, 6)[tree.joints])
+        twists = np.zeros((len(self.shifts), 6))
+        for level in tree.levels:
+            twists[tree.far[level]] = twists[tree.near[level]] + steps[level]
+        return twists
+
+    def adjoint(self, wrenches: Floats) -> tuple[Floats, AxisChange]:
+        """Return the gradients by joint angles and by axes of a number that depends on the poses of links.
+
+        Its gradient by the twists of links is float[L, 6]; that by axes is for joint angles held.
+        """
+        tree = self.tree
+        borne = wrenches.copy()
+        for level in reversed(tree.levels):  # a joint bears what all links beyond it bear
+            np.add.at(borne, tree.near[level], borne[tree.far[level]])
+        beyond = borne[tree.far]
+        angles = np.zeros(len(tree.linkage.angles))
+        angles[tree.joints] = (self._screws() * beyond).sum(axis=1)
+        twists = np.zeros((len(angles), 6))
+        twists[tree.joints] = np.einsum("eij,ei->ej", self._by_axes(), beyond)
+        return angles, AxisChange(twists.ravel(), -angles)
+
+    def places(self, links: Ints, points: Floats) -> Floats:
+        """Return where points float[N, 3] of links int[N] (rows) are: float[N, 3]."""
+        return np.asarray(np.einsum("nij,nj->ni", self.rotations[links], points) + self.shifts[links])
+
+    def places_forward(self, links: Ints, points: Floats, twists: Floats, changes: Floats) -> Floats:
+        """Return how places change with twists of links, and of the points themselves: float[N, 3].
+
+        The points, float[N, 3], and their changes are at the pose of the linkage.
+        """
+        there, twist = self.places(links, points), twists[links]
+        own = np.einsum("nij,nj->ni", self.rotations[links], changes)
+        return np.asarray(np.cross(twist[:, :3], there) + twist[:, 3:] + own)
+
+    def places_adjoint(self, links: Ints, points: Floats, by_places: Floats) -> tuple[Floats, Floats]:
+        """Return the gradients by twists of links, float[L, 6], and by the points at the pose, float[N, 3]."""
+        there = self.places(links, points)
+        wrenches = np.zeros((len(self.shifts), 6))
+        np.add.at(wrenches, links, np.concatenate([np.cross(there, by_places), by_places], axis=1))
+        return wrenches, np.einsum("nij,ni->nj", self.rotations[links], by_places)

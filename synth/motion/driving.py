@@ -1,4 +1,4 @@
-"""What folding a crease pattern and moving any other linkage have in common: joints driven from a pose.
+"""Joints driven from a configuration: which branch is taken, the initial rates on it, how far it goes.
 
 Theory: docs/theory/folding.md.
 """
@@ -12,28 +12,156 @@ from math import degrees, pi
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.canonical import MARGIN, leading
+from graphs.canonical import MARGIN, canonical_basis, leading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.extent import LEAST, MOST, in_reach
 from graphs.ids import JointId
+from graphs.rank.spaces import null_space
 from graphs.tolerances import DOUBLE
-from synth.motion.beginning import Wanted, beginning
+from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
+from synth.motion.marked import marked_rates, rates_as_marked
 from synth.motion.path import Path, PathOptions, driven_path
-from synth.motion.walk.allowance import Allowance
+from synth.motion.singular.nearest import begun_near
+from synth.motion.singular.sampling import rates_towards
+from synth.motion.singular.second_order import RateSpace
+from synth.motion.walk.step import Allowance
 from synth.motion.walk.walking import Event
 
-__all__ = ["Asked", "Driven", "check_closed", "driven_from", "goals_of"]
+__all__ = ["BranchChoice", "DrivenMotion", "MotionOptions", "beginning", "check_closed", "driven_from", "goals_of"]
+
+_LARGE = 10**9
+_STARTS = 8
+"""Starts of the search for rates with all marks at which several joints are driven."""
+_DIGITS = 6
+"""Decimals of a cosine: among branches that point along rates alike the first is taken."""
+
+
+@dataclass(frozen=True, slots=True)
+class BranchChoice:
+    """The options for the beginning of a motion.
+
+    The branch is given by its number or signs; by default the configuration chooses it. `turns` says how far each
+    driven joint (by its place) is to turn, radians; with `along` they are rates, and the branch that points along
+    them best is taken.
+    """
+
+    branch: int | str | None = None
+    driven: Sequence[int] = ()
+    turns: Floats = field(default_factory=lambda: np.zeros(0))
+    along: bool = False
+
+    def towards(self, configuration: Configuration) -> Floats:
+        """Return the wanted rates, float[J]: the initial rates of the options, or the signs of the assignment."""
+        if not self.along:
+            return configuration.wanted
+        rates = np.zeros(len(configuration.joints))
+        rates[list(self.driven)] = self.turns
+        return rates
+
+
+def beginning(configuration: Configuration, wanted: BranchChoice) -> tuple[int | None, Floats]:
+    """Return the branch to take, None where there is no choice, and initial rates on it, near to the assignment.
+
+    Raises `UnsolvableError` if no motion begins there, or none with the driven joints, `InvariantError` if there
+    is no such branch.
+    """
+    found, towards = configuration.branches, wanted.towards(configuration)
+    if found is None or (configuration.one_way and wanted.branch is None):
+        if wanted.branch is not None:
+            limits = f"more than {MOST_JOINTS} joints, or large and with many vertices of more than 4 creases"
+            raise UnsolvableError(f"no branches are listed for this mechanism: it has {limits}")
+        closure, linkage = configuration.closure, configuration.linkage
+        begun = begun_near(closure, linkage, towards) if wanted.along else configuration.begun
+        if begun.rates is None:
+            raise UnsolvableError(f"found no motion near the assignment{configuration.doubt}")
+        return None, begun.rates
+    if not found.branches:
+        written = "exactly as written, " if configuration.nearly else ""
+        raise UnsolvableError(f"{written}{_no_motion(found)}{configuration.doubt}")
+    number = _chosen(configuration, found, wanted)
+    marked = configuration.marked.rates
+    if marked is not None and wanted.branch is None and len(wanted.driven) < 2 and not wanted.along:
+        return None if found.regular else number, marked
+    rates = _rates(found.branches[number], wanted, towards, configuration.marks)
+    return None if found.regular else number, rates
+
+
+def _no_motion(found: Branches) -> str:
+    """Return that nothing moves from here, with the proof if there is one."""
+    proofs = {
+        "no rates": "no rates close the loops to first order",
+        "definite stress": "a self-stress is definite on all flexes",
+        "cases": "no rates agree to second order",
+    }
+    proof = found.rigidity.proof if found.rigidity is not None else None
+    if proof:
+        return f"no motion begins at this configuration (proved: {proofs[proof]})"
+    return "no motion was found at this configuration"
+
+
+def _chosen(configuration: Configuration, found: Branches, wanted: BranchChoice) -> int:
+    every, name = found.branches, wanted.branch
+    if isinstance(name, int):
+        if not 0 <= name < len(every):
+            label = str(name) if abs(name) < _LARGE else "of so large a number"
+            raise InvariantError("branch", f"there is no branch {label}", f"one from 0 to {len(every) - 1}")
+        return name
+    if isinstance(name, str):
+        number = found.number_of(name)
+        if number is None:
+            signs = known([branch.signs for branch in every], name)
+            raise InvariantError("branch", f"no branch has the signs {shown(name)}", signs)
+        return number
+    if not wanted.along:
+        return configuration.chosen or 0
+    towards = wanted.towards(configuration)
+    return max(range(len(every)), key=lambda number: (_cosine(every[number], wanted, towards), -number))
+
+
+def _cosine(branch: Branch, wanted: BranchChoice, towards: Floats) -> float:
+    """Return the cosine between wanted rates and the nearest ones of a branch, of the joints that have any."""
+    begun = rates_towards(branch.space, towards)[list(wanted.driven)]
+    sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
+    return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
+
+
+def _rates(branch: Branch, wanted: BranchChoice, towards: Floats, marks: Floats) -> Floats:
+    """Return rates of a branch at which several driven joints begin in the proportions they are to turn in.
+
+    With all marks, if there are such.
+    """
+    space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
+    if len(wanted.driven) < 2 and not wanted.along:
+        return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
+    assigned = marked_rates(space, marks, _STARTS) if marks.any() and not wanted.along else []
+    for begun in assigned:
+        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+            return np.asarray(begun / np.abs(begun).max())
+    for start in (towards, space.basis.sum(axis=1)):
+        begun = rates_towards(space, start)
+        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+            return begun
+    which = "joints" if wanted.along else "driven joints"
+    raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
+
+
+def _in_proportion(space: RateSpace, wanted: BranchChoice) -> RateSpace:
+    """Return the part of a space in which driven joints turn in proportion."""
+    across = null_space(wanted.turns[None])
+    normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
+    return replace(space, basis=canonical_basis(space.basis @ null_space(normals.T, scale=1.0)))
+
 
 _STEPS, _STEPS_OF_FRAME = 1_000, 20
 """Steps that a motion may take, and as many more for each of its frames: ten times what real patterns need."""
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class MotionOptions:
     """The options of a motion.
 
     `drive` gives the angles of driven joints, radians; without any, the joint that moves most goes as far as it
@@ -51,7 +179,7 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class Driven:
+class DrivenMotion:
     """A motion, with the branch taken (None where there was no choice).
 
     `places` are those of the driven joints, `goals` the final angles they were to reach, radians.
@@ -67,7 +195,8 @@ def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
     """Raise `UnsolvableError` if loops miss by more than 1e-12, in radians and units of the extent."""
     error = closure.error(linkage.angles)
     if error > DOUBLE.closed:
-        raise UnsolvableError(f"loops miss closing by {error:.1e} at the pose, expected {DOUBLE.closed:.0e}")
+        most = f"expected at most {DOUBLE.closed:.0e}"
+        raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
 
 
 def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:
@@ -79,12 +208,11 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
     for joint, angle in drive.items():
         if not abs(angle) <= most:
             limits = "between -180 and 180" if most == pi else "a finite angle"
-            told = f"joint {shown(joint)} is to turn by {degrees(angle):g} degrees"
-            raise InvariantError("joint angle", told, limits)
+            raise InvariantError("joint angle", f"joint {shown(joint)} is driven to {degrees(angle):g}°", limits)
     return places, np.array(list(drive.values()), dtype=float)
 
 
-def driven_from(configuration: Configuration, asked: Asked) -> Driven:
+def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenMotion:
     """Drive joints from a configuration, on the branch of the options.
 
     Raises `UnsolvableError` if nothing moves, or not with the driven joints, `InvariantError` if there is no such
@@ -92,39 +220,27 @@ def driven_from(configuration: Configuration, asked: Asked) -> Driven:
     """
     linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
     joints = configuration.joints
-    places, goals = goals_of(joints, asked.drive, configuration.most)
-    if asked.along:
-        wanted = _along(configuration, asked)
-    else:
-        turns = goals - linkage.angles[places]
-        wanted = Wanted(asked.branch, places, turns)
-    number, rates = beginning(configuration, wanted)
+    places, goals = goals_of(joints, options.drive, configuration.most)
+    wanted = BranchChoice(options.branch, places, goals - linkage.angles[places])
+    number, rates = beginning(configuration, _along(configuration, options) if options.along else wanted)
     if not places:
         places = [leading(rates)]
         goals = configuration.whole * np.sign(rates[places])
     start = linkage.angles[places]
     if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
         rates = -rates
-    steps = np.arange(1, asked.frames + 1)[:, None] / asked.frames
+    steps = np.arange(1, options.frames + 1)[:, None] / options.frames
     limited = np.full(len(joints), configuration.limited)
-    by_least_rates = found is not None and found.regular and len(asked.drive) == 1
+    by_least_rates = found is not None and found.regular and len(options.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
-    allowance = Allowance(_STEPS + _STEPS_OF_FRAME * asked.frames)
+    allowance = Allowance(_STEPS + _STEPS_OF_FRAME * options.frames)
     still = () if number is None or found is None else found.branches[number].still
-    options = PathOptions(
-        direction,
-        limited,
-        bool(asked.along),
-        asked.report,
-        joints,
-        allowance,
-        still,
-        asked.events,
-        _signs(configuration, rates, places) if configuration.limited else None,
-    )
-    path = _path(closure, linkage.angles, places, start + steps * (goals - start), options)
+    signs = _signs(configuration, rates, places) if configuration.limited else None
+    straight, report, events = bool(options.along), options.report, options.events
+    on_path = PathOptions(direction, limited, straight, report, joints, allowance, still, events, signs)
+    path = _path(closure, linkage.angles, places, start + steps * (goals - start), on_path)
     ends = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
-    return Driven(number, places, ends, path)
+    return DrivenMotion(number, places, ends, path)
 
 
 def _signs(configuration: Configuration, rates: Floats, driven: Sequence[int]) -> Floats:
@@ -152,20 +268,20 @@ def _path(
     if not path.stopped or (path.events and path.events[-1].kind == "collision"):
         return path
     free = driven_path(closure, start, places, values, options=replace(options, locked=()))
-    lead = [float(np.abs(one.angles[-1] - start)[places].sum()) for one in (path, free)]
+    lead = [float(np.abs(each.angles[-1] - start)[places].sum()) for each in (path, free)]
     return free if lead[1] > lead[0] + DOUBLE.moved or not free.stopped else path
 
 
-def _along(configuration: Configuration, asked: Asked) -> Wanted:
-    """Return what is wanted where rates are given: these of their joints, the least ones of others."""
-    if asked.drive:
-        raise InvariantError("along", "joints are driven too", "rates or angles, not both")
+def _along(configuration: Configuration, options: MotionOptions) -> BranchChoice:
+    """Return the wanted beginning for initial rates of some joints: the least ones of others."""
+    if options.drive:
+        raise InvariantError("along", "both initial rates and driven joints", "rates or angles, not both")
     joints = configuration.joints
-    places, rates = _places(joints, asked.along), np.array(list(asked.along.values()), dtype=float)
+    places, rates = _places(joints, options.along), np.array(list(options.along.values()), dtype=float)
     if not (in_reach(rates) and np.abs(rates).max(initial=0.0) >= LEAST):
-        given = f"rates are {', '.join(map(str, rates))}"
-        raise InvariantError("along", given, f"finite ones, not all zero, the largest from {LEAST:g} to {MOST:g}")
-    return Wanted(asked.branch, places, rates, along=True)
+        bounds = f"finite ones, not all zero, the largest from {LEAST:g} to {MOST:g}"
+        raise InvariantError("along", f"the rates are {', '.join(map(str, rates))}", bounds)
+    return BranchChoice(options.branch, places, rates, along=True)
 
 
 def _places(joints: tuple[JointId, ...], names: Iterable[JointId]) -> list[int]:

@@ -1,13 +1,13 @@
-"""A linkage at a pose: links, joint axes in space, and the loops that have to close.
+"""A linkage at a configuration: links, joint axes, loops that have to close, and links at other joint angles.
 
-The pose is that of the coordinates given. Joint angles count from a zero of their own: of a crease, from flat,
-with valley folds positive, as in FOLD files; of other joints, from the pose. Lengths are in units of the extent,
-about the middle of all points. Theory: docs/theory/folding.md.
+The configuration is that of the coordinates. Joint angles count from a zero of their own: of a crease, from flat,
+with valley folds positive, as in FOLD files; of other joints, from this configuration. Lengths are in units of the
+extent, about the middle of all points. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import radians
 
@@ -17,8 +17,8 @@ import numpy as np
 from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.geometry import lines_meet, unit
-from graphs.ids import JointId
+from graphs.geometry import lines_meet, rotations, unit
+from graphs.ids import JointId, LinkId
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import in_space
@@ -34,8 +34,11 @@ __all__ = [
     "PosedLoop",
     "axis_lengths",
     "creases_of",
+    "joints_outwards",
+    "link_motions",
     "linkage_of_axes",
     "linkage_of_sheet",
+    "moved",
 ]
 
 
@@ -95,7 +98,7 @@ def linkage_of_axes(
     axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
     slides: Collection[JointId] = (),
 ) -> PosedLinkage:
-    """Return a linkage whose joint axes are given.
+    """Return a linkage with joint axes in space.
 
     Loops that the graph gives a centre close about it; all others close with six equations.
 
@@ -123,9 +126,7 @@ def linkage_of_axes(
         if joint not in axes:
             raise InvariantError("axis", f"joint {joint!r} has no axis", "one for each joint")
         if not np.any(axes[joint][1]):
-            raise InvariantError(
-                "axis", f"the axis of joint {joint!r} has no direction", "a vector that is not zero"
-            )
+            raise InvariantError("axis", f"the axis of joint {joint!r} has no direction", "a nonzero vector")
     points = np.array([axes[joint][0] for joint in graph.joints], dtype=float).reshape(-1, 3)
     directions = np.array([axes[joint][1] for joint in graph.joints], dtype=float).reshape(-1, 3)
     places = tuple(place for place, joint in enumerate(graph.joints) if joint in slides)
@@ -135,7 +136,7 @@ def linkage_of_axes(
 def linkage_of_sheet(
     sheet: Sheet, mechanism: SheetMechanism | None = None, tolerances: Tolerances = DOUBLE
 ) -> PosedLinkage:
-    """Return the linkage that a crease pattern is as it lies: panels are links, creases are joints.
+    """Return the linkage of a crease pattern in its configuration: panels are links, creases are joints.
 
     Joint angles are fold angles. Where panels lie on each other, the fold angles of the file say to which side, or
     else the letters of its edges.
@@ -145,7 +146,7 @@ def linkage_of_sheet(
     sheet : Sheet
         With coordinates, flat or folded.
     mechanism : SheetMechanism, optional
-        Of this sheet, where it is at hand.
+        Of this sheet, if already computed.
     tolerances : Tolerances, optional
         Of its coordinates: panels whose fold is 180 degrees but for rounding lie on each other.
 
@@ -168,9 +169,9 @@ def linkage_of_sheet(
     """
     if sheet.coordinates is None:
         raise UnsolvableError("folding needs coordinates, and the sheet has none")
-    found = mechanism or mechanism_of_sheet(sheet)
+    dual = mechanism or mechanism_of_sheet(sheet)
     corners = in_space(sheet.coordinates)
-    creases = creases_of(sheet, found)
+    creases = creases_of(sheet, dual)
     edges = creases.ends
     directions = creases.directions(corners)
     areas = creases.area_vectors(corners)
@@ -185,7 +186,7 @@ def linkage_of_sheet(
         marks = _marks(sheet)
         marked = np.array([marks.get((min(a, b), max(a, b)), 0.0) for a, b in edges.tolist()])
         angles = np.where(on_each_other & (marked != 0.0), np.copysign(np.pi, marked), angles)
-    return _posed(found.sc, corners[edges].mean(axis=1), directions, angles, corners)
+    return _posed(dual.sc, corners[edges].mean(axis=1), directions, angles, corners)
 
 
 def axis_lengths(linkage: PosedLinkage) -> Floats:
@@ -209,9 +210,8 @@ def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, a
     loops = []
     for loop in independent_cycles(graph):
         signed = list(signed_cycle(loop.joints, graph.joints))
-        loops.append(
-            PosedLoop(tuple(column[j] for j, _ in signed), tuple(sign for _, sign in signed), loop.centre)
-        )
+        joints, signs = tuple(column[joint] for joint, _ in signed), tuple(sign for _, sign in signed)
+        loops.append(PosedLoop(joints, signs, loop.centre))
     middle = all_points.mean(axis=0) if len(all_points) else np.zeros(3)
     extent = extent_of(all_points) or 1.0
     return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
@@ -241,9 +241,8 @@ class Creases:
         lengths = np.linalg.norm(along, axis=1)
         for place in np.flatnonzero(lengths == 0.0):
             (first, second), part = self.ends[place].tolist(), ("edges", self.joints[place])
-            raise InvariantError(
-                "hinge", f"the crease between vertices {first} and {second} has no length", part=part
-            )
+            no_length = f"the crease between vertices {first} and {second} has no length"
+            raise InvariantError("hinge", no_length, part=part)
         return np.asarray(along / lengths[:, None] * self.ways[:, None])
 
     def area_vectors(self, corners: Floats) -> Floats:
@@ -260,12 +259,7 @@ class Creases:
 
 
 def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
-    """Return where the creases of a sheet are between its panels.
-
-    >>> book = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> creases_of(book, mechanism_of_sheet(book)).sides.tolist()
-    [[0, 1]]
-    """
+    """Return where the creases of a sheet are between its panels."""
     beside: dict[tuple[int, int], list[int]] = {}
     for number, face in enumerate(sheet.faces):
         for a, b in sides_of_face(face):
@@ -309,3 +303,80 @@ def _marks(sheet: Sheet) -> dict[tuple[int, int], float]:
         letter = {"V": 1.0, "M": -1.0}.get(sheet.assignments[number], 0.0)
         marks[min(a, b), max(a, b)] = radians(given) if given else letter
     return marks
+
+
+def link_motions(
+    linkage: PosedLinkage, angles: Floats, ground: LinkId | None = None
+) -> dict[LinkId, tuple[Floats, Floats]]:
+    """Return how each link has moved from the pose, along a tree of joints from a link that stays.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+    angles : float[F, J]
+        Joint angles of many poses, radians.
+    ground : link, optional
+        The link that stays; by default the first. Of a linkage in several parts, each has one.
+
+    Returns
+    -------
+    dict of link to (float[F, 3, 3], float[F, 3])
+        Rotation R and shift t: a point x of the link comes to R x + t, in units of the extent, about the middle.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> from synth.motion.linkage import linkage_of_axes
+    >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> rotation, _ = link_motions(hinge, np.array([[np.pi / 2]]))[1]
+    >>> (rotation[0] @ [1.0, 0.0, 0.0]).round(12).tolist()
+    [0.0, 1.0, 0.0]
+    """
+    still = (np.broadcast_to(np.eye(3), (len(angles), 3, 3)), np.zeros((len(angles), 3)))
+    motions: dict[LinkId, tuple[Floats, Floats]] = {}
+    for near, far, place, sign in joints_outwards(linkage, ground):
+        value = sign * (angles[:, place] - linkage.angles[place])
+        rotation, shift = motions.setdefault(near, still)
+        if place in linkage.slides:
+            motions[far] = rotation, shift + value[:, None] * (rotation @ linkage.directions[place])
+            continue
+        turn, point = rotations(linkage.directions[place], value), linkage.points[place]
+        motions[far] = rotation @ turn, shift + (rotation @ (point - turn @ point)[..., None])[..., 0]
+    return {link: motions.get(link, still) for link in linkage.graph.nodes}
+
+
+def joints_outwards(
+    linkage: PosedLinkage, ground: LinkId | None = None
+) -> Iterator[tuple[LinkId, LinkId, int, float]]:
+    """Yield joints that carry links, those nearer to the fixed links first.
+
+    Yields a link, the link that it carries, the place of the joint between them in the list of joints, and 1 or
+    -1: by which of its angle the far one is turned. The ground, by default the first link, is fixed; each part of
+    a linkage in several parts has one fixed link.
+    """
+    graph = linkage.graph
+    column = {joint: place for place, joint in enumerate(graph.joints)}
+    between = nx.Graph()
+    between.add_nodes_from(graph.nodes)
+    for joint, (first, second) in graph.joints.items():
+        between.add_edge(first, second, joint=joint)
+    carried: set[LinkId] = set()
+    for root in [*([] if ground is None else [ground]), *graph.nodes]:
+        if root in carried:
+            continue
+        carried.add(root)
+        for near, far in nx.bfs_edges(between, root):
+            carried.add(far)
+            joint = between[near][far]["joint"]
+            yield near, far, column[joint], 1.0 if graph.joints[joint][0] == near else -1.0
+
+
+def moved(linkage: PosedLinkage, angles: Floats) -> PosedLinkage:
+    """Return the linkage with its axes where they are at joint angles float[J], radians: its pose is that one."""
+    motions = link_motions(linkage, angles[None])
+    points, directions = np.empty_like(linkage.points), np.empty_like(linkage.directions)
+    for place, (first, _) in enumerate(linkage.graph.joints.values()):
+        rotation, shift = motions[first]
+        points[place] = rotation[0] @ linkage.points[place] + shift[0]
+        directions[place] = rotation[0] @ linkage.directions[place]
+    return replace(linkage, points=points, directions=directions, angles=angles)

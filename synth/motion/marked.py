@@ -17,8 +17,8 @@ from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
-from synth.motion.second_order import RateSpace, rates_at
 from synth.motion.singular.sampling import rates_towards, same_part
+from synth.motion.singular.second_order import RateSpace, rates_at
 
 __all__ = [
     "Disagreement",
@@ -87,15 +87,12 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Flo
     in_order = signed(marks[order])
     turn, place = float(np.sign(in_order @ marks[order])), np.argsort(order)
     begin = None if first is None else turn * first[order]
-    begun = {
-        number: [turn * rates[place] for rates in marked_rates(space.in_order(order), in_order, starts, begin)]
-        for number, space in spaces.items()
-    }
-    agree = {
-        number: rates
-        for number, branch in enumerate(found.branches)
-        if (rates := _on_part(branch, begun[id(branch.space)])) is not None
-    }
+    begun = {}
+    for number, space in spaces.items():
+        ordered = marked_rates(space.in_order(order), in_order, starts, begin)
+        begun[number] = [turn * rates[place] for rates in ordered]
+    parts = [_on_part(branch, begun[id(branch.space)]) for branch in found.branches]
+    agree = {number: rates for number, rates in enumerate(parts) if rates is not None}
     if agree:
         freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
         return MarkedWay(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
@@ -106,7 +103,7 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Flo
 
 
 def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
-    """Return rates near to what is marked, on the part of the space that the branch is."""
+    """Return rates near to the marks, on the part of the space that the branch is."""
     rates = rates_towards(branch.space, marks)
     if rates.any() and same_part(branch.space, rates, branch.rates):
         return rates
@@ -184,12 +181,8 @@ def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
     if not len(left) or not len(agree):
         return one
     free, room = space.basis.shape[1], len(left)
-    rows = np.block(
-        [
-            [-kept[agree, None] * space.basis[agree], np.zeros((len(agree), room))],
-            [marks[left, None] * space.basis[left], np.eye(room)],
-        ]
-    )
+    keep, turn = -kept[agree, None] * space.basis[agree], marks[left, None] * space.basis[left]
+    rows = np.block([[keep, np.zeros((len(agree), room))], [turn, np.eye(room)]])
     most = np.repeat([-1.0, 0.0], [len(agree), room])
     bounds = [(None, None)] * free + [(0.0, 1.0)] * room
     found = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")

@@ -18,18 +18,17 @@ from graphs.ids import JointId, LinkId
 from graphs.printing import Block, Printed
 from graphs.tolerances import DOUBLE
 from synth.motion.branches import Branch, Branches, Method
-from synth.motion.configuration import Configuration
-from synth.motion.driving import Asked, Driven, driven_from
-from synth.motion.linkage import PosedLinkage
+from synth.motion.configuration import Configuration, listed
+from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
+from synth.motion.linkage import PosedLinkage, link_motions
 from synth.motion.path import Path
-from synth.motion.placement import link_motions
 
 __all__ = ["FRAMES", "Motion", "motion_along", "motion_of"]
 
 FRAMES = 20
-"""Frames after the first, where nothing else is asked for."""
+"""Frames after the first, by default."""
 _LISTED = 12
-"""Creases and frames that are named, at most."""
+"""Frames that are named, at most."""
 _SEARCHES: dict[Method, str] = {
     "regular pose": "regular configuration",
     "all modes": "all combinations of modes",
@@ -40,7 +39,7 @@ _SEARCHES: dict[Method, str] = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(Printed):
-    """A mechanism on its way.
+    """A motion of a mechanism: driven joints and all frames.
 
     It prints as ``synth fold`` does.
 
@@ -53,11 +52,11 @@ class Motion(Printed):
     path : Path
         Joint angles, radians, of each frame; columns are the joints of the configuration.
     driven : mapping of joint id to float
-        The angles that were asked for, radians.
+        The angles of the driven joints to reach, radians.
     places : float[F, n, 3]
         Of the vertices of a sheet in each frame, else of a point on each axis, in the unit of the coordinates.
     apart : float
-        By how much panels disagree on the place of a vertex, at most, in units of the extent.
+        Largest distance between the places of a vertex by two panels, in units of the extent.
     crossing : tuple of int
         Numbers of the frames in which panels pass through each other.
 
@@ -99,12 +98,12 @@ class Motion(Printed):
 
     @property
     def freedoms(self) -> int | None:
-        """Of the branch that was taken."""
+        """Degrees of freedom of the branch that was taken."""
         return None if self.taken is None else self.taken.freedoms
 
     @property
     def closure(self) -> float:
-        """By how much loops do not close, at most, over all frames."""
+        """The largest loop-closure residual of all frames."""
         return float(self.path.errors.max(initial=0.0))
 
     def frames(self) -> list[Any]:
@@ -119,7 +118,7 @@ class Motion(Printed):
         ----------
         link : link id
         point : sequence of 2 or 3 floats
-            Where the point is in the configuration given, in the unit of the coordinates.
+            Where the point is in the initial configuration, in the unit of the coordinates.
 
         Returns
         -------
@@ -132,13 +131,10 @@ class Motion(Printed):
 
         Examples
         --------
-        A point of the second link of a Bennett linkage goes round the first joint:
-
         >>> import synth
         >>> motion = synth.move(synth.generate("bennett").mechanism, frames=3)
-        >>> path = motion.path_of(1, (0.0, 0.0, 1.0))
-        >>> path.shape, path[0].round(12).tolist()
-        ((4, 3), [0.0, 0.0, 1.0])
+        >>> motion.path_of(1, (0.0, 0.0, 1.0)).shape
+        (4, 3)
         """
         if link not in self.linkage.graph:
             raise InvariantError("link", f"{shown(link)} is no link", "a link id")
@@ -153,6 +149,7 @@ class Motion(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         found, taken, reading = self.branches, self.taken, self.configuration.reading
+        columns = zip(self.joints, np.degrees(self.path.angles.T).tolist(), strict=True)
         return {
             "configuration": self.configuration.to_json(taken),
             "freedoms": self.freedoms,
@@ -165,10 +162,7 @@ class Motion(Printed):
             "frames": len(self.path.angles),
             "closure": self.closure,
             "panels_apart": self.apart,
-            "joint_angles_deg": {
-                str(joint): np.degrees(column).tolist()
-                for joint, column in zip(self.joints, self.path.angles.T, strict=True)
-            },
+            "joint_angles_deg": {str(joint): column for joint, column in columns},
             "stopped": self.path.stopped or None,
             "mended": list(self.configuration.mended),
             "assignment": self.configuration.nearest_to_json(),
@@ -191,29 +185,26 @@ class Motion(Printed):
         lines.append(f"loop-closure residual {self.closure:.1e}{mismatch}")
         if not self.configuration.limited:
             ends = zip(self.joints, np.degrees(self.path.angles[-1]), strict=True)
-            lines.append(
-                "final joint angles: " + ", ".join(f"{shown(joint)} = {angle:.6g}°" for joint, angle in ends)
-            )
+            angles = ", ".join(f"{shown(joint)} = {angle:.6g}°" for joint, angle in ends)
+            lines.append(f"final joint angles: {angles}")
         lines += [event.line(self.joints) for event in self.path.events]
         lines += self._lines_of_assignment()
         if self.crossing:
             frames = ", ".join(map(str, self.crossing[:_LISTED])) + (", ..." if self.crossing[_LISTED:] else "")
             lines.append(f"panels pass through each other in frames {frames}; --collisions ends the path before")
         if not self.path.watched:
-            lines.append("singular configurations on the path were not looked for: there are too many joints")
+            lines.append("did not check for singular configurations on the path: there are too many joints")
         lines += [f"repaired: {repair}" for repair in self.configuration.mended]
         return lines
 
     def _answer(self) -> str:
         """Return the first line: what was driven, and how far the motion came."""
         to = "towards" if self.path.stopped else "to"
-        driven = ", ".join(
-            f"joint {shown(joint)} {to} {degrees(angle):g}°" for joint, angle in self.driven.items()
-        )
+        goals = [f"joint {shown(joint)} {to} {degrees(angle):g}°" for joint, angle in self.driven.items()]
         largest = np.degrees(np.abs(self.path.angles[-1]).max(initial=0.0))
         angle = "fold angle" if self.configuration.limited else "joint angle"
         frames = numbered(len(self.path.angles), "frame")
-        return f"drove {driven}: {frames}, largest final {angle} {largest:.4g}°"
+        return f"drove {', '.join(goals)}: {frames}, largest final {angle} {largest:.4g}°"
 
     def _of_assignment(self) -> dict[str, Any] | None:
         """Return how the frames keep the mountains and valleys, as plain data; None where nothing is assigned."""
@@ -242,11 +233,8 @@ class Motion(Printed):
             lines.append("the assignment is reversed: mountains fold as valleys, valleys as mountains")
         if found["against"]:
             creases = found["against"]
-            names = ", ".join(shown(joint) for joint in creases[:_LISTED])
-            more = f" and {len(creases) - _LISTED} more" if len(creases) > _LISTED else ""
-            plural = "s" * (len(creases) > 1)
-            frame = found["first_frame_against"]
-            lines.append(f"against the assignment, from frame {frame} on: crease{plural} {names}{more}")
+            noun, frame = "crease" if len(creases) == 1 else "creases", found["first_frame_against"]
+            lines.append(f"against the assignment, from frame {frame} on: {noun} {listed(creases)}")
         return lines
 
     def _lines_of_branch(self) -> list[Block]:
@@ -278,57 +266,36 @@ class Motion(Printed):
         return f"<Motion: {len(self.path.angles)} frames of {self.linkage!r}>"
 
 
-def motion_of(configuration: Configuration, asked: Asked, *, collisions: bool = False) -> Motion:
-    """Return the motion that is asked for from a configuration.
+def motion_of(configuration: Configuration, options: MotionOptions, *, collisions: bool = False) -> Motion:
+    """Return the motion from a configuration; with `collisions` it ends before panels pass through each other.
 
-    Parameters
-    ----------
-    configuration : Configuration
-    asked : Asked
-    collisions : bool, optional
-        End before the first frame on whose way panels pass through each other.
-
-    Raises
-    ------
-    UnsolvableError
-        If nothing moves, or not with the driven joints; if collisions are asked for of what has no panels.
-    InvariantError
-        If there is no such joint or branch, or an angle is out of range.
+    Raises `UnsolvableError` if nothing moves, or not with the driven joints, or if there are no panels to collide;
+    `InvariantError` if there is no such joint or branch, or an angle is out of range.
     """
     if not configuration.joints:
-        raise UnsolvableError(
-            "rigid: the sheet has no creases between panels"
-            if configuration.limited
-            else "rigid: there are no joints"
-        )
-    if asked.branch is not None:  # it may exist only with other vertices within the precision
-        configuration, branch = configuration.of_branch(asked.branch)
-        asked = replace(asked, branch=branch)
+        missing = "the sheet has no creases between panels" if configuration.limited else "there are no joints"
+        raise UnsolvableError(f"rigid: {missing}")
+    if options.branch is not None:  # it may exist only with other vertices within the precision
+        configuration, branch = configuration.of_branch(options.branch)
+        options = replace(options, branch=branch)
     if collisions:
-        asked = replace(asked, events=(*asked.events, configuration.collision()))
-    return motion_along(configuration, driven_from(configuration, asked))
+        options = replace(options, events=(*options.events, configuration.collision()))
+    return motion_along(configuration, driven_from(configuration, options))
 
 
-def motion_along(configuration: Configuration, driven: Driven) -> Motion:
+def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
     """Return a motion with its points in each frame, as far as panels hold together.
 
     Loops close by the axes of creases. One of several pieces that are in line but for rounding has one axis, and
     panels part at the other pieces.
-
-    Parameters
-    ----------
-    configuration : Configuration
-    driven : Driven
-        A motion of its linkage.
     """
     path = driven.path
     points, apart = configuration.placed(path.angles)
     if (apart > DOUBLE.same_point).any():
         kept = int(np.argmax(apart > DOUBLE.same_point))
-        reason = (
-            f"panels come apart by {apart[kept]:.1e} of the extent in frame {kept}: creases between them are bent"
-        )
-        path = replace(path.up_to(kept), stopped=reason + configuration.doubt)
+        reason = f"panels come apart by {apart[kept]:.1e} of the extent in frame {kept}"
+        stopped = f"{reason}: creases between them are bent{configuration.doubt}"
+        path = replace(path.up_to(kept), stopped=stopped)
     kept = len(path.angles)
     crossing: tuple[int, ...] = ()
     if not any(event.kind == "collision" for event in path.events):

@@ -1,30 +1,31 @@
-"""Paths of closed poses: joints driven to angles that are asked for, one frame after the other.
+"""Paths of closed configurations with driven joints, and circuits: closed curves past all dead points.
 
 With one freedom turning points of the driver are passed. Where a path ends before its goal it says why and how far
-it came; what it meets on the way is named. How steps are taken: `synth.motion.walk`. Theory:
-docs/theory/folding.md.
+it came; the events on the way are recorded. A path ends where its driven joints cannot come nearer to their
+angles; a circuit has no driver: the walk goes along the curve itself, until it comes back to where it began. How
+steps are taken: `synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import degrees
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Flags, Floats
 from graphs.canonical import trailing
+from graphs.errors import UnsolvableError, numbered
 from graphs.ids import JointId
 from synth.motion.closure import ClosureEquations
-from synth.motion.walk.allowance import Allowance
-from synth.motion.walk.event import PathEvent
+from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint
-from synth.motion.walk.rank import WATCHED, RankWatch
-from synth.motion.walk.signs import KeptSigns
-from synth.motion.walk.walking import Event, Goal, Walk
+from synth.motion.walk.step import WATCHED, Allowance, PathEvent, RankWatch
+from synth.motion.walk.walking import Event, Goal, KeptSigns, Walk
 
-__all__ = ["Drive", "Path", "PathOptions", "driven_path"]
+__all__ = ["Path", "PathOptions", "circuit_through", "driven_path"]
 
 _MOST_PAST = 1_000
 """Steps past a turning point."""
@@ -79,13 +80,13 @@ class Path:
     angles : float[F, J]
         Joint angles of each frame, radians; the first is where it began.
     errors : float[F]
-        By how much loops do not close, at most, in radians and units of the extent.
+        Loop-closure residuals, in radians and units of the extent.
     stopped : str
         Why it ended before its goal, and how far it came; empty if it reached it.
     events : tuple of PathEvent
-        What it met on the way: turning points of the driver, panels on each other, ranks that drop.
+        Turning points of the driver, panels on each other, ranks that drop, in their order.
     watched : bool
-        Whether ranks were watched: of linkages of many joints they are not.
+        Whether ranks were watched: for linkages of many joints they are not.
     """
 
     angles: Floats
@@ -96,7 +97,7 @@ class Path:
 
     @property
     def error(self) -> float:
-        """By how much loops do not close, at most, over all frames."""
+        """The largest loop-closure residual of all frames."""
         return float(self.errors.max(initial=0.0))
 
     @property
@@ -110,7 +111,7 @@ class Path:
         return [event.frame for event in self.events if event.kind == "turning point"]
 
     def up_to(self, frames: int) -> Path:
-        """Return the first frames, and what was met before the last of them."""
+        """Return the first frames, and the events before the last of them."""
         events = tuple(event for event in self.events if event.frame < frames - 1)
         return replace(self, angles=self.angles[:frames], errors=self.errors[:frames], events=events)
 
@@ -123,32 +124,33 @@ def driven_path(
     *,
     options: PathOptions | None = None,
 ) -> Path:
-    """Return the closed poses at which some joints have given angles, one after the other.
+    """Return the closed configurations at which driven joints have some angles, one after the other.
 
     Parameters
     ----------
     closure : ClosureEquations
     start : float[J]
-        A closed pose, radians.
+        A closed configuration, radians.
     drivers : sequence of int
         Places of the joints that are driven.
     values : float[F, D]
         Their angles in each frame, radians.
     options : PathOptions, optional
 
+    Returns
+    -------
+    Path
+
     Examples
     --------
-    A parallelogram in the plane, its first joint turned by 90 degrees:
+    A Bennett linkage, its first joint turned by 90 degrees:
 
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3), "infinite")])
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
-    >>> linkage = linkage_of_axes(four_bar, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
-    >>> path = driven_path(ClosureEquations(linkage), linkage.angles, [0], [[np.pi / 4], [np.pi / 2 - 1e-3]])
-    >>> np.degrees(path.angles[-1]).round(3).tolist(), path.stopped
-    ([89.943, -89.943, 89.943, -89.943], '')
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> linkage = configuration_of(generate("bennett").mechanism).linkage
+    >>> path = driven_path(ClosureEquations(linkage), linkage.angles, [0], [[np.pi / 4], [np.pi / 2]])
+    >>> np.degrees(path.angles[:, 0]).round(3).tolist(), path.stopped
+    ([0.0, 45.0, 90.0], '')
     """
     drive = Drive(closure, start, drivers, options or PathOptions())
     stopped = ""
@@ -160,19 +162,10 @@ def driven_path(
 
 
 class Drive:
-    """Joints driven from one goal to the next: frames of a walk.
+    """Joints driven from one goal to the next: frames of a walk from a closed configuration, float[J].
 
     With one freedom the walk goes on past the points at which the driven joint turns back, until that has its
     angle, the walk comes round, or ends.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    start : float[J]
-        A closed configuration, radians.
-    drivers : sequence of int
-        Places of the driven joints.
-    options : PathOptions
     """
 
     def __init__(
@@ -238,3 +231,58 @@ class Drive:
         stopped = f"{goal.turns_back(frames[best])}; past that, {walk.ended}"
         del frames[best + 1 :]
         return stopped
+
+
+def circuit_through(
+    closure: ClosureEquations, start: Floats, towards: Floats | None = None, events: Sequence[Event] = ()
+) -> Path:
+    """Follow the configurations of a linkage of one freedom from one of them, in one sense.
+
+    Angles of the path are not wrapped: the last configuration of a closed circuit is the first, but for whole
+    turns.
+
+    Parameters
+    ----------
+    closure : ClosureEquations
+    start : float[J]
+        A closed configuration, radians.
+    towards : float[J], optional
+        Rates whose sense the circuit takes.
+    events : sequence of Event, optional
+        Events to record. The frames of the walk are the configurations of the circuit.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    UnsolvableError
+        If the rates there do not have just one freedom.
+
+    Examples
+    --------
+    All joints of a Bennett linkage turn all round:
+
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> linkage = configuration_of(generate("bennett").mechanism).linkage
+    >>> circuit = circuit_through(ClosureEquations(linkage), linkage.angles)
+    >>> circuit.stopped, (np.abs(circuit.angles[-1] - circuit.angles[0]) / (2 * np.pi)).round(9).tolist()
+    ('', [1.0, 1.0, 1.0, 1.0])
+    """
+    rates = rates_at(closure, start)
+    if rates.shape[1] != 1:
+        freedoms = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+        raise UnsolvableError(f"the linkage has {freedoms} at this configuration, expected 1 for a single curve")
+    tangent = -rates[:, 0] if towards is not None and rates[:, 0] @ towards < 0.0 else rates[:, 0]
+    watched = closure.joints <= WATCHED
+    walk = Walk(closure, start, tangent, watch=RankWatch(closure) if watched else None)
+    walk.events = [RankDeficiency(closure), *events, Return(start, tangent)]
+    for step in walk:
+        walk.frames.append(step.after)
+    angles = np.array([frame.angles for frame in walk.frames])
+    stopped = "" if walk.ended == Return.ROUND else walk.ended
+    if stopped:
+        stopped += f" where a joint has turned {degrees(float(np.abs(angles[-1] - start).max())):.6g}°"
+    return Path(angles, np.array([frame.error for frame in walk.frames]), stopped, tuple(walk.met), watched)

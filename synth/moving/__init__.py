@@ -1,8 +1,7 @@
 """Linkages of any kind moved: solids hinged at edges, polyhedron models, conical linkages, guided four-bars.
 
-`configuration_of` makes a mechanism at a configuration of anything that has coordinates, `move` drives its joints,
-`circuit_through` goes round past dead points, `move_on_surface` says what conical linkages do all along. What it
-stands on is in `synth.folding`. Theory: docs/theory/moving.md.
+`made` makes a configuration of any mechanism that has coordinates, `motion` drives its joints and writes tables,
+`on_surface` follows conical linkages all along their circuits. Theory: docs/theory/moving.md.
 """
 
 from __future__ import annotations

@@ -1,11 +1,13 @@
-from synth.motion.walk.circuits import circuit_through as circuit_through
-from synth.moving.made import configuration_of as configuration_of, posed_on_surface as posed_on_surface
-from synth.moving.motion import move as move
+from synth.motion.path import circuit_through as circuit_through
+from synth.moving.made import (
+    configuration_of as configuration_of,
+    linkage_of_rods as linkage_of_rods,
+    posed_on_surface as posed_on_surface,
+)
+from synth.moving.motion import move as move, table_text as table_text
 from synth.moving.on_surface import (
     InstantAxis as InstantAxis,
     LinkPoint as LinkPoint,
     SurfaceMotion as SurfaceMotion,
     move_on_surface as move_on_surface,
 )
-from synth.moving.rods import linkage_of_rods as linkage_of_rods
-from synth.moving.tables import table_text as table_text

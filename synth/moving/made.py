@@ -5,15 +5,19 @@ Theory: docs/theory/moving.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
+import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import precision_of_steps
 from graphs.arrays import Floats
+from graphs.canonical import leading
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.geometry import lines_meet
+from graphs.geometry import frame_about, lines_meet, unit
 from graphs.ids import JointId
 from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.kinds import JointKind
@@ -27,22 +31,188 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.rank.closure import independent_cycles
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces
 from synth.folding.configuration import configuration_of_sheet
 from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.orientations import Orientations
 from synth.motion.closure import ClosureEquations
-from synth.motion.configuration import Configuration
+from synth.motion.configuration import EXACT, Configuration
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
-from synth.motion.misfit import EXACT
-from synth.moving.rods import linkage_of_rods
 
-__all__ = ["Movable", "configuration_of", "posed_on_surface", "sheet_of", "with_precision"]
+__all__ = ["Movable", "configuration_of", "linkage_of_rods", "posed_on_surface", "sheet_of", "with_precision"]
+
+
+@dataclass
+class _Hinges:
+    """Links and hinges as they are added."""
+
+    links: list[Hashable]
+    joints: dict[Hashable, tuple[Hashable, Hashable]] = field(default_factory=dict)
+    axes: dict[Hashable, tuple[list[float], list[float]]] = field(default_factory=dict)
+
+    def join(self, first: int, second: int, point: Floats, directions: Floats) -> None:
+        """Join two rods at a point, by hinges one after the other; small bodies lie between these."""
+        name = f"{first}-{second}"
+        between: list[Hashable] = [f"{name}.{number}" for number in range(1, len(directions))]
+        self.links += between
+        ends = [first, *between, second]
+        for number, direction in enumerate(directions):
+            joint = name if len(directions) == 1 else f"{name}.{'abc'[number]}"
+            self.joints[joint] = (ends[number], ends[number + 1])
+            self.axes[joint] = (point.tolist(), direction.tolist())
+
+
+def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
+    """Return the linkage of hinges that moves as the rods of a polyhedron model do.
+
+    A rod may turn about itself, which says nothing of the model. So the rods are joined along a tree, and there
+    each has just the hinges that its direction needs: two where it meets the rod before it, across it and each
+    other, one where that is the first of all, whose own turning is that of the whole. Where rods meet beside the
+    tree, three hinges stand for the ball between them. So the freedoms are those of the model: 3 V - 6 less the
+    redundant ones.
+
+    Parameters
+    ----------
+    model : PolyhedronModel
+        With coordinates; rods only.
+
+    Returns
+    -------
+    PosedLinkage
+        Links are the rods, by their place in the list of rods, and bodies between hinges.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no coordinates, more than rods, or several parts.
+    InvariantError
+        If a rod has no length.
+
+    Examples
+    --------
+    A square of four rods, in the plane: a hinge of it folds out of the plane.
+
+    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}
+    >>> linkage = linkage_of_rods(PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners))
+    >>> closure = ClosureEquations(linkage)
+    >>> closure.joints - closure.rows  # one freedom in the plane, one out of it
+    2
+    """
+    _check_only_rods(model)
+    rods = list(model.edges)
+    ends = np.array([[model.coordinates[v] for v in rod] for rod in rods], dtype=float)
+    directions = _directions(rods, ends)
+    tolerances = Tolerances.of(precision_of(list(model.coordinates.values())).size)
+    hinges = _Hinges(list(range(len(rods))))
+    meetings = _meetings(model, rods)
+    tree = _tree(meetings, directions, tolerances.parallel)
+    for first, second, vertex in tree:
+        across = _across(directions[first], directions[second], tolerances.parallel)
+        hinges.join(first, second, _at(model, vertex), across[:1] if not hinges.joints else across)
+    for first, second, vertex in _others(meetings, tree):
+        hinges.join(first, second, _at(model, vertex), np.eye(3))
+    return linkage_of_axes(SCGraph(hinges.links, hinges.joints), hinges.axes)
+
+
+def _check_only_rods(model: PolyhedronModel) -> None:
+    if not model.coordinates:
+        raise UnsolvableError(f"motion needs coordinates, and {model!r} has none")
+    more = {
+        "remote centres": model.centres,
+        "points on lines": model.on_line,
+        "points on planes": model.on_plane,
+        "scissors": model.scissors,
+        "a ground link": model.ground,
+    }
+    others = [name for name, terms in more.items() if terms]
+    if others:
+        raise UnsolvableError(f"the polyhedron model has {' and '.join(others)}; expected rods only")
+    if len(model) > 1 and not nx.is_connected(model):
+        raise UnsolvableError("the polyhedron model has several parts; expected 1")
+    if not model.number_of_edges():
+        raise UnsolvableError("the polyhedron model has no rods")
+
+
+def _directions(rods: list[tuple[Any, Any]], ends: Floats) -> Floats:
+    """Return the unit vectors along rods: float[rods, 3]."""
+    along = ends[:, 1] - ends[:, 0]
+    sizes = np.abs(along).max(axis=1)
+    for rod in np.flatnonzero(sizes == 0.0):
+        raise InvariantError("rod", f"the rod between vertices {shown(rods[rod])} has no length")
+    return unit(along / sizes[:, None])
+
+
+def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hashable, list[int]]:
+    """Return the rods at each vertex."""
+    meetings: dict[Hashable, list[int]] = {vertex: [] for vertex in model.nodes}
+    for number, (a, b) in enumerate(rods):
+        meetings[a].append(number)
+        meetings[b].append(number)
+    return meetings
+
+
+def _tree(
+    meetings: dict[Hashable, list[int]], directions: Floats, parallel: float
+) -> list[tuple[int, int, Hashable]]:
+    """Return a tree of the rods, (rod, next rod, vertex) from the first; the first two are not in line."""
+    touching = nx.Graph()
+    touching.add_nodes_from(range(len(directions)))
+    for vertex, here in meetings.items():
+        for place, first in enumerate(here):
+            touching.add_edges_from((first, second, {"vertex": vertex}) for second in here[place + 1 :])
+    root, turn = _beginning(touching, directions, parallel)
+    order = [(root, turn), *nx.bfs_edges(touching, root)] if turn is not None else []
+    seen, tree = {root}, []
+    for first, second in order:
+        if second not in seen:
+            seen.add(second)
+            tree.append((first, second, touching[first][second]["vertex"]))
+    return tree
+
+
+def _beginning(touching: nx.Graph, directions: Floats, parallel: float) -> tuple[int, int | None]:
+    """Return two rods that meet at the largest angle; None for the second if there is only one rod."""
+    if len(directions) == 1:
+        return 0, None
+    pairs = list(touching.edges)
+    ends = np.array(pairs).T
+    sines = np.linalg.norm(np.cross(directions[ends[0]], directions[ends[1]]), axis=1)
+    best = leading(sines)
+    if sines[best] <= parallel:
+        raise UnsolvableError("all rods are in line, so their plane is not known")
+    first, second = pairs[best]
+    return int(first), int(second)
+
+
+def _others(
+    meetings: dict[Hashable, list[int]], tree: list[tuple[int, int, Hashable]]
+) -> list[tuple[int, int, Hashable]]:
+    """Return the meetings that the tree leaves out: at each vertex all rods are joined, without circles."""
+    left = []
+    for vertex, here in meetings.items():
+        joined = nx.Graph([(a, b) for a, b, at in tree if at == vertex])
+        joined.add_nodes_from(here)
+        parts = [min(part) for part in nx.connected_components(joined)]
+        left += [(parts[0], other, vertex) for other in parts[1:]]
+    return left
+
+
+def _across(first: Floats, second: Floats, parallel: float) -> Floats:
+    """Return two directions across a rod: that across the rod before it too, if they are not in line, first."""
+    normal = np.cross(first, second)
+    if np.linalg.norm(normal) <= parallel:
+        return frame_about(second)[:2]
+    return np.stack([unit(normal), np.cross(second, unit(normal))])
+
+
+def _at(model: PolyhedronModel, vertex: Hashable) -> Floats:
+    return np.array(model.coordinates[vertex], dtype=float)
+
 
 Movable = Configuration | PosedLinkage | Mechanism | GuidedFourBar | OnSurface
-"""What is at a configuration, or has coordinates that tell it."""
+"""A configuration, or a mechanism with coordinates."""
 
 _EXACTLY = Precision(0.0, "exact")
 
@@ -50,7 +220,7 @@ _OF_ONE_FREEDOM = {JointKind.REVOLUTE, JointKind.PRISMATIC}
 
 
 def configuration_of(
-    thing: Movable,
+    mechanism: Movable,
     *,
     orientations: Orientations | None = None,
     frame: int | None = None,
@@ -59,27 +229,30 @@ def configuration_of(
     precision: float | None = None,
     slides: bool = False,
 ) -> Configuration:
-    """Return anything that has coordinates as a mechanism at a configuration.
+    """Return any mechanism that has coordinates at a configuration.
 
     Parameters
     ----------
-    thing : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, SurfaceLinkage, OnSurface, GuidedFourBar, ...
+    mechanism : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, SurfaceLinkage, OnSurface, GuidedFourBar, ...
         A model that knows its links is a sheet of panels, else its rods are links. A linkage on a surface lies
         there, a guided four-bar takes the first of its orientations. A Configuration is returned as it is.
     orientations : Orientations, optional
-        Those of a guided four-bar, whose moving axes are told in the frame of the body.
+        Those of a guided four-bar, whose moving axes are in the frame of the body.
     frame : int, optional
-        Of a sheet that has several; by default as it was read, or if that has no coordinates the first that has.
+        For a sheet that has several; by default as it was read, or if that has no coordinates the first that has.
     mend : bool, optional
-        Move vertices of a sheet within the precision of their coordinates if it moves in more ways so.
+        Move vertices of a sheet within the precision of their coordinates if it has more motion branches so.
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a sheet too.
     precision : float, optional
         The error that a coordinate may have, in the unit of the coordinates; by default as they are written, or as
         the geometry of a sheet shows. A Configuration has its own.
     slides : bool, optional
-        Keep the prismatic joints of a linkage of revolute and prismatic joints, in place of revolutes that do the
-        same.
+        Keep the prismatic joints of a linkage of revolute and prismatic joints, in place of equivalent revolutes.
+
+    Returns
+    -------
+    Configuration
 
     Raises
     ------
@@ -96,105 +269,83 @@ def configuration_of(
     >>> configuration_of(HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)}))
     <Configuration: <PosedLinkage: 4 links, 4 joints, 1 loops>>
     """
-    if isinstance(thing, Configuration):
-        return thing
-    if isinstance(thing, PosedLinkage):
-        check_closed(ClosureEquations(thing), thing)
-        return Configuration(thing, _EXACTLY)
-    if isinstance(thing, Sheet) or (frame is None and isinstance(thing, PolyhedronModel)):
-        sheet = sheet_of(thing)
+    if isinstance(mechanism, Configuration):
+        return mechanism
+    if isinstance(mechanism, PosedLinkage):
+        check_closed(ClosureEquations(mechanism), mechanism)
+        return Configuration(mechanism, _EXACTLY)
+    if isinstance(mechanism, Sheet) or (frame is None and isinstance(mechanism, PolyhedronModel)):
+        sheet, options = sheet_of(mechanism), {"hinge_flat": hinge_flat, "mend": mend}
         if sheet is not None:
-            return configuration_of_sheet(
-                sheet, frame=frame, hinge_flat=hinge_flat, mend=mend, precision=precision
-            )
+            return configuration_of_sheet(sheet, frame=frame, precision=precision, **options)
     if frame:
-        raise InvariantError("frames", f"{thing!r} has no frames", "a .fold file")
-    if slides and isinstance(thing, JointedLinkage) and set(thing.kinds.values()) <= _OF_ONE_FREEDOM:
-        linkage, found = _with_slides(thing)
+        raise InvariantError("frames", f"{mechanism!r} has no frames", "a .fold file")
+    if slides and isinstance(mechanism, JointedLinkage) and set(mechanism.kinds.values()) <= _OF_ONE_FREEDOM:
+        linkage, written = _with_slides(mechanism)
     else:
-        linkage, found = _made(thing, orientations)
+        linkage, written = _made(mechanism, orientations)
     if precision is not None:
-        found = Precision(WrittenPrecision(precision, "stated").length / linkage.extent, "stated")
-    return Configuration(linkage, found, found.size <= EXACT, thing if isinstance(thing, Mechanism) else None)
+        written = Precision(WrittenPrecision(precision, "stated").length / linkage.extent, "stated")
+    given = mechanism if isinstance(mechanism, Mechanism) else None
+    return Configuration(linkage, written, written.size <= EXACT, given)
 
 
-def _made(thing: Movable, orientations: Orientations | None) -> tuple[PosedLinkage, Precision]:
-    """Return the linkage that a thing without panels is, and how precise its coordinates are."""
-    if isinstance(thing, PolyhedronModel):
-        return linkage_of_rods(thing), precision_of(list(thing.coordinates.values()))
-    if isinstance(thing, JointedLinkage) and thing.places:
-        thing = revolutes_of(thing)
-    if isinstance(thing, HingedSolids):
-        return _with_centres(linkage_of_axes(thing.chain, thing.axes)), _precision_of_axes(thing.axes)
-    if isinstance(thing, OnSurface):
-        return posed_on_surface(thing), _EXACTLY
-    if isinstance(thing, SurfaceLinkage):
-        precision = _EXACTLY if thing.steps is None else precision_of_steps(thing)
-        return posed_on_surface(_the_one(linkage_on_surfaces(thing), thing.kind)), precision
-    if isinstance(thing, GuidedFourBar):
+def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedLinkage, Precision]:
+    """Return the linkage that a mechanism without panels is, and how precise its coordinates are."""
+    if isinstance(mechanism, PolyhedronModel):
+        return linkage_of_rods(mechanism), precision_of(list(mechanism.coordinates.values()))
+    if isinstance(mechanism, JointedLinkage) and mechanism.places:
+        mechanism = revolutes_of(mechanism)
+    if isinstance(mechanism, HingedSolids):
+        return _with_centres(linkage_of_axes(mechanism.chain, mechanism.axes)), _precision_of_axes(mechanism.axes)
+    if isinstance(mechanism, OnSurface):
+        return posed_on_surface(mechanism), _EXACTLY
+    if isinstance(mechanism, SurfaceLinkage):
+        precision = _EXACTLY if mechanism.steps is None else precision_of_steps(mechanism)
+        return posed_on_surface(_the_one(linkage_on_surfaces(mechanism), mechanism.kind)), precision
+    if isinstance(mechanism, GuidedFourBar):
         if orientations is None:
-            raise UnsolvableError("a guided four-bar has its moving axes in the body: expected its orientations")
-        return _of_guided(thing, orientations.matrices[0]), _EXACTLY
-    raise UnsolvableError(f"to move needs coordinates, and {thing!r} has none")
+            raise UnsolvableError("a guided four-bar has its moving axes in the body; expected its orientations")
+        return _of_guided(mechanism, orientations.matrices[0]), _EXACTLY
+    raise UnsolvableError(f"motion needs coordinates, and {mechanism!r} has none")
 
 
-def with_precision(thing: Mechanism, precision: float | None) -> Mechanism | Configuration:
-    """Return a thing whose coordinates are stated to be wrong by no more than a length, in their unit.
+def with_precision(mechanism: Mechanism, precision: float | None) -> Mechanism | Configuration:
+    """Return a mechanism whose coordinates are stated to be wrong by no more than a length, in their unit.
 
-    Parameters
-    ----------
-    thing : Sheet, PolyhedronModel, HingedSolids, ...
-    precision : float or None
-        None returns the thing as it is.
-
-    Returns
-    -------
-    Sheet or Configuration
-        A sheet keeps its precision; anything else has one where it is.
-
-    Raises
-    ------
-    InvariantError
-        If it is no length.
-    UnsolvableError
-        If the thing has no coordinates.
-
-    Examples
-    --------
-    >>> from synth.patterns import generate
-    >>> with_precision(generate("bennett").mechanism, 0.01).precision.source
-    'stated'
+    A sheet keeps its precision, any other mechanism has one at its configuration; without a length it is returned
+    as it is. Raises `InvariantError` if that is no length, `UnsolvableError` without coordinates.
     """
     if precision is None:
-        return thing
-    sheet = sheet_of(thing)
-    return configuration_of(thing, precision=precision) if sheet is None else stated(sheet, precision)
+        return mechanism
+    sheet = sheet_of(mechanism)
+    return configuration_of(mechanism, precision=precision) if sheet is None else stated(sheet, precision)
 
 
 def _precision_of_axes(axes: Mapping[JointId, Axis]) -> Precision:
     """Return how precise axes are: the coarser of their points and their directions."""
     points, directions = (np.array([axis[part] for axis in axes.values()]) for part in (0, 1))
-    both = (precision_of(one.reshape(-1, 3).tolist()) for one in (points, directions))
-    return max(both, key=lambda one: one.size)
+    both = (precision_of(vectors.reshape(-1, 3).tolist()) for vectors in (points, directions))
+    return max(both, key=lambda precision: precision.size)
 
 
-def _with_slides(thing: JointedLinkage) -> tuple[PosedLinkage, Precision]:
+def _with_slides(mechanism: JointedLinkage) -> tuple[PosedLinkage, Precision]:
     """Return a linkage of revolute and prismatic joints, and how precise its coordinates are."""
-    axes = {joint: (place.point, place.axes[0]) for joint, place in thing.places.items()}
+    axes = {joint: (place.point, place.axes[0]) for joint, place in mechanism.places.items()}
     if not axes:
-        raise UnsolvableError(f"to move needs coordinates, and {thing!r} has none")
-    slides = [joint for joint, kind in thing.kinds.items() if kind is JointKind.PRISMATIC]
-    return _with_centres(linkage_of_axes(thing.chain, axes, slides)), _precision_of_axes(axes)
+        raise UnsolvableError(f"motion needs coordinates, and {mechanism!r} has none")
+    slides = [joint for joint, kind in mechanism.kinds.items() if kind is JointKind.PRISMATIC]
+    return _with_centres(linkage_of_axes(mechanism.chain, axes, slides)), _precision_of_axes(axes)
 
 
-def sheet_of(thing: Mechanism) -> Sheet | None:
-    """Return a sheet, or a model that is its panels and no more, as a sheet; None of anything else."""
-    if isinstance(thing, Sheet):
-        return thing
-    if not isinstance(thing, PolyhedronModel) or not thing.links:
+def sheet_of(mechanism: Mechanism) -> Sheet | None:
+    """Return a sheet, or a model that is its panels and no more, as a sheet; else None."""
+    if isinstance(mechanism, Sheet):
+        return mechanism
+    if not isinstance(mechanism, PolyhedronModel) or not mechanism.links:
         return None
-    more = (*thing.centres, *thing.scissors, *thing.on_line, *thing.on_plane)
-    return None if more or thing.ground is not None else to_sheet(thing)
+    more = (*mechanism.centres, *mechanism.scissors, *mechanism.on_line, *mechanism.on_plane)
+    return None if more or mechanism.ground is not None else to_sheet(mechanism)
 
 
 def posed_on_surface(linkage: OnSurface) -> PosedLinkage:
@@ -224,17 +375,15 @@ def posed_on_surface(linkage: OnSurface) -> PosedLinkage:
     <PosedLinkage: 4 links, 4 joints, 1 loops>
     """
     if linkage.surface is None:
-        raise UnsolvableError("the linkage lies on any cone or cylinder: expected a cone angle or a radius")
+        raise UnsolvableError("the linkage fits any cone or cylinder; expected a cone angle or a radius")
     points, directions = linkage.surface.axes(linkage.places)
     return _with_one_centre(linkage.chain, points, directions, linkage.surface.centre)
 
 
 def _the_one(on_surfaces: Sequence[OnSurface], kind: str) -> OnSurface:
     if len(on_surfaces) != 1:
-        told = numbered(len(on_surfaces), kind)
-        raise UnsolvableError(
-            f"the linkage lies on {told}: expected one (synth {kind} map --{kind} K -o one.json)"
-        )
+        surfaces, command = numbered(len(on_surfaces), kind), f"synth {kind} map --{kind} K -o one.json"
+        raise UnsolvableError(f"the linkage lies on {surfaces}; expected 1; try {command}")
     return on_surfaces[0]
 
 
@@ -280,6 +429,5 @@ def _off_plane(axes: Floats, slides: Sequence[bool]) -> float:
     if sliding.all():
         return 0.0
     normal = axes[~sliding][0]
-    return float(
-        max(np.abs(np.cross(axes[~sliding], normal)).max(), np.abs(axes[sliding] @ normal).max(initial=0))
-    )
+    turning_off = np.abs(np.cross(axes[~sliding], normal)).max()
+    return float(max(turning_off, np.abs(axes[sliding] @ normal).max(initial=0)))

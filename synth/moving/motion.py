@@ -1,23 +1,36 @@
-"""Any mechanism moved from its configuration: joints driven, all loops closed, frame by frame.
+"""Any mechanism moved from its configuration, joints driven, frame by frame; and its frames as tables.
 
-Theory: docs/theory/moving.md.
+Tables are comma-separated, one row per axis or vertex and frame; lengths are in the unit of the coordinates,
+angles in degrees. Theory: docs/theory/moving.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import csv
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from io import StringIO
+from math import degrees
+from types import MappingProxyType
 
+import numpy as np
+
+from graphs.convert.table import Mechanism
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.given import check_given
 from graphs.ids import JointId
-from synth.motion.driving import Asked
+from graphs.mechanism.plane import in_space
+from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
+from synth.motion.driving import MotionOptions
 from synth.motion.motion import FRAMES, Motion, motion_of
-from synth.moving.made import Movable, configuration_of
+from synth.moving.made import Movable, configuration_of, sheet_of
 
-__all__ = ["move"]
+__all__ = ["move", "table_text"]
 
 
 def move(
-    thing: Movable,
+    mechanism: Movable,
     *,
     drive: Mapping[JointId, float] | None = None,
     along: Mapping[JointId, float] | None = None,
@@ -27,29 +40,22 @@ def move(
     precision: float | None = None,
     report: Callable[[int], None] | None = None,
 ) -> Motion:
-    """Move a mechanism from its configuration until driven joints have the angles asked for.
+    """Move a mechanism from its configuration until the driven joints have their angles.
 
     Parameters
     ----------
-    thing : Configuration, or anything that `synth.moving.made.configuration_of` makes one of
-        Of a sheet this is `synth.fold`.
+    mechanism : Configuration, or anything that `synth.moving.made.configuration_of` makes one of
+        For a sheet this is `synth.fold`.
     drive : mapping of joint id to float, optional
-        Angles, radians, from the zero of each joint: of a crease from flat, of others from the pose. By default
-        the joint that moves most is turned once round, of a sheet as far as it folds.
-    along : mapping of joint id to float, optional
-        In place of driven joints: rates at which some begin, others as little as may be. With several freedoms the
-        motion goes straight on.
-    branch : int or str, optional
-        Which of the ways to move from a singular pose: its number among `synth.motion.branches_of`, or its signs.
-    frames : int, optional
-        How many after the first.
-    collisions : bool, optional
-        Of a sheet, end before the first frame on whose way panels pass through each other.
-    precision : float, optional
-        The error that a coordinate may have, in their unit; by default as they are written, or as the geometry
-        shows. A Configuration has its own.
-    report : callable, optional
-        Called with the number of frames after each.
+        Angles, radians, from the zero of each joint: of a crease from flat, of others from the configuration. By
+        default the joint that moves most is turned once round, for a sheet as far as it folds.
+    along, branch, frames, collisions, precision, report
+        As in `synth.fold`: initial rates, motion branch, number of frames, end before a collision, error of a
+        coordinate, callback.
+
+    Returns
+    -------
+    Motion
 
     Raises
     ------
@@ -60,19 +66,110 @@ def move(
 
     Examples
     --------
-    A parallelogram in the plane:
-
     >>> import numpy as np
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from graphs.mechanism.solids import HingedSolids
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2.5, 1, 0), (0.5, 1, 0)]
-    >>> four_bar = HingedSolids(ring, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
-    >>> moved = move(four_bar, drive={0: np.pi / 6}, frames=2)
-    >>> np.degrees(moved.path.angles[-1]).round(6).tolist(), moved.taken.freedoms
-    ([30.0, -30.0, 30.0, -30.0], 1)
+    >>> from synth.patterns import generate
+    >>> moved = move(generate("bennett").mechanism, drive={0: np.pi / 6}, frames=2)
+    >>> np.degrees(moved.path.angles[-1, 0]).round(6).tolist(), moved.taken.freedoms
+    (30.0, 1)
     """
-    check_given("move", thing, Movable)
-    at = configuration_of(thing, precision=precision)
-    return motion_of(at, Asked(drive or {}, along or {}, branch, frames, report), collisions=collisions)
+    check_given("move", mechanism, Movable)
+    at = configuration_of(mechanism, precision=precision)
+    return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
+
+
+_Cell = int | float | str
+_AXES = ("frame", "joint", "first_link", "second_link", "x", "y", "z", "dx", "dy", "dz", "angle_deg")
+_VERTICES = ("frame", "vertex", "x", "y", "z")
+
+
+def table_text(mechanism: Mechanism, which: str) -> tuple[str, tuple[str, ...]]:
+    """Return a table of a mechanism with coordinates, and what it leaves out.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Of a sheet with several frames, the same panels in other configurations are its motion.
+    which : {"axes", "vertices"}
+        Joint axes: a point, a unit vector and the angle of each, by which the second link is turned against the
+        first, right-handed. Or the vertices of its panels.
+
+    Returns
+    -------
+    text : str
+        The first row names the columns.
+    lost : tuple of str
+
+    Raises
+    ------
+    InvariantError
+        If there is no such table.
+    UnsolvableError
+        If it has no coordinates, or, for vertices, no panels.
+
+    Examples
+    --------
+    >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (2, 0), (2, 2), (0, 2)))
+    >>> print(table_text(square, "vertices")[0].splitlines()[:2])
+    ['frame,vertex,x,y,z', '0,0,0.0,0.0,0.0']
+    """
+    if which not in TABLES:
+        raise InvariantError("table", f"there is no table {shown(which)}", ", ".join(TABLES))
+    columns, rows, lost = TABLES[which]
+    poses, left_out = _poses(mechanism)
+    stream = StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(columns)
+    for number, pose in enumerate(poses):
+        writer.writerows((number, *row) for row in rows(pose))
+    return stream.getvalue(), (lost, *((numbered(left_out, "other frame"),) if left_out else ()))
+
+
+def _poses(mechanism: Mechanism) -> tuple[list[Mechanism], int]:
+    """Return a mechanism in each frame of its motion, and how many frames show something else."""
+    sheet = sheet_of(mechanism)
+    if sheet is None or sheet.frames is None:
+        return [mechanism], 0
+    first = sheet.frames.first_placed()
+    others = [sheet.frames.frame(number) for number in range(1, sheet.frames.others + 1)]
+    panels = (first.vertices, first.faces, first.edges)
+    same = [
+        replace(first, coordinates=other.coordinates, fold_angles=other.fold_angles)
+        for other in others
+        if other.coordinates is not None and (other.vertices, other.faces, other.edges) == panels
+    ]
+    shown_first = bool(same) and _stand_alike(same[0], first)
+    poses: list[Mechanism] = [*([] if shown_first else [first]), *same]
+    return poses, 1 + len(others) - len(poses) - shown_first
+
+
+def _stand_alike(first: Sheet, second: Sheet) -> bool:
+    """Tell whether two frames are one: the first frame of a motion is often the key frame again, to rounding."""
+    one, other = (in_space(sheet.coordinates or ()) for sheet in (first, second))
+    return bool(np.abs(one - other).max(initial=0.0) <= DOUBLE.same_point * np.ptp(one, axis=0).max(initial=0.0))
+
+
+def _axes(mechanism: Mechanism) -> Iterator[tuple[_Cell, ...]]:
+    linkage = configuration_of(mechanism).linkage
+    points = linkage.points * linkage.extent + linkage.middle
+    for number, (joint, (first, second)) in enumerate(linkage.graph.joints.items()):
+        angle = degrees(float(linkage.angles[number]))
+        row = (*points[number].tolist(), *linkage.directions[number].tolist(), angle)
+        yield (str(joint), str(first), str(second), *(value + 0.0 for value in row))
+
+
+def _vertices(mechanism: Mechanism) -> Iterator[tuple[_Cell, ...]]:
+    sheet = sheet_of(mechanism)
+    if sheet is None or sheet.coordinates is None:
+        raise UnsolvableError(f"a table of vertices needs panels with coordinates, and {mechanism!r} has none")
+    for number, place in enumerate(in_space(sheet.coordinates).tolist()):
+        yield (number, *place)
+
+
+_Rows = Callable[[Mechanism], Iterator[tuple[_Cell, ...]]]
+TABLES: Mapping[str, tuple[tuple[str, ...], _Rows, str]] = MappingProxyType(
+    {
+        "axes": (_AXES, _axes, "all but joints, their axes and angles"),
+        "vertices": (_VERTICES, _vertices, "all but the places of vertices"),
+    }
+)
+"""Name of a table to its columns, what yields its rows, and what it does not hold."""

@@ -1,43 +1,310 @@
-"""Motion of linkages on cones and cylinders from the conformed position: range, ways of links, circuits.
+"""Motion of linkages on cones and cylinders from the conformed position: range, behaviour of links, circuits.
 
-To first order the ways are told by `synth.conformed.behaviours`; here links are looked at all along.
-Theory: docs/theory/moving.md.
+To first order `synth.conformed.behaviours` says how links behave; here they are followed all along the circuit:
+how far a driving joint goes, and on which side of it links are. A link lies over the shortest arc of the surface
+that has its joints. Theory: docs/theory/moving.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from math import degrees, isfinite, tau
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, partial
+from math import ceil, cos, degrees, inf, isfinite, sin, tau
 from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.arrays import Flags, Floats
 from graphs.canonical import signed
 from graphs.edit.named import known, link_named
 from graphs.errors import InvariantError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.surfaces import Cylinder, surface_json
 from graphs.printing import Block, TableBlock, plain
+from graphs.tolerances import DOUBLE
+from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
+from synth.motion.closure import ClosureEquations, Corrected
 from synth.motion.configuration import Configuration
-from synth.motion.driving import Driven
+from synth.motion.driving import DrivenMotion
+from synth.motion.linkage import PosedLinkage, link_motions
 from synth.motion.motion import Motion, motion_along
-from synth.motion.second_order import rates_at
+from synth.motion.path import Path, circuit_through
+from synth.motion.singular.second_order import rates_at
+from synth.motion.walk.events import TurningPoint
+from synth.motion.walk.step import Step
+from synth.motion.walk.walking import Event, Walk
 from synth.moving.made import configuration_of
-from synth.moving.surface_walk import (
-    ROUND,
-    Course,
-    Position,
-    Sense,
-    Stretch,
-    SurfaceLinks,
-    positions_of,
-)
 
 __all__ = ["InstantAxis", "LinkPoint", "SurfaceMotion", "move_on_surface"]
+
+BACK, ROUND = "turns back", "turns all round"
+"""Why a driving joint goes no further."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """The side of the surface that a link keeps to, up to a turn of the driving joint from the start, radians."""
+
+    way: Way
+    end: float
+
+
+@dataclass(frozen=True, slots=True)
+class Sense:
+    """One sense of the driving joint from the conformed position: its limit, and where links lie on the way.
+
+    The limit is in radians, negative where the joint turns backward; `ends` says why there: ``turns back``,
+    ``turns all round`` (the conformed position again), or why the curve could not be followed. `ways` has the
+    stretches of each link in order.
+    """
+
+    limit: float
+    ends: str
+    ways: dict[LinkId, tuple[Stretch, ...]]
+
+    @property
+    def one_way(self) -> tuple[Way, float] | None:
+        """The side of the surface that all moving links keep to from the beginning, and up to which turn."""
+        moving = [each for each in self.ways.values() if each[0].way != Way.STILL]
+        begin = {each[0].way for each in moving}
+        if len(begin) != 1 or not begin <= {Way.INWARD, Way.OUTWARD}:
+            return None
+        return begin.pop(), min((each[0].end for each in moving), key=abs)
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """A configuration at a turn of the driving joint from the conformed position.
+
+    `at` and the angles of all joints, float[J], count from there, radians; `direct`: the driving joint comes there
+    without turning back on the way; `ways` has the side of the surface on which each link is.
+    """
+
+    at: float
+    angles: Floats
+    direct: bool
+    ways: dict[LinkId, Way]
+
+
+class SurfaceLinks:
+    """The links of a linkage as arcs on its surface."""
+
+    def __init__(self, on_surface: OnSurface, chain: ConformedChain, linkage: PosedLinkage) -> None:
+        assert on_surface.surface is not None
+        self.names, self.linkage, self._surface = chain.links, linkage, on_surface.surface
+        places = np.asarray(on_surface.places, dtype=float)
+        self._arcs = link_arcs(chain, places, on_surface.begins(chain))
+
+    def ways(self, angles: Floats) -> dict[LinkId, Way]:
+        """Return where each link lies at joint angles float[J]."""
+        return dict(zip(self.names, map(_way, self.beyond(angles[None])[0]), strict=True))
+
+    def beyond(self, angles: Floats) -> Flags:
+        """Return whether links have points inside and outside of the surface at float[F, J]: bool[F, N, 2]."""
+        return np.asarray(self.spans(angles) * [-1.0, 1.0] > 0.0)
+
+    def motions(self, angles: Floats) -> dict[LinkId, tuple[Floats, Floats]]:
+        """Return how links have moved from the surface: rotations float[F, 3, 3], shifts float[F, 3]."""
+        extent, middle = self.linkage.extent, self.linkage.middle
+        moved = link_motions(self.linkage, angles, self.names[0])
+        return {link: (turn, extent * shift + middle - turn @ middle) for link, (turn, shift) in moved.items()}
+
+    def spans(self, angles: Floats) -> Floats:
+        """Return how far links lie outside the surface, at least and at most, less rounding: float[F, N, 2].
+
+        Lengths are in units of the distance from the apex, or of the radius.
+        """
+        motions = self.motions(angles)
+        spans = np.empty((len(angles), len(self.names), 2))
+        for number, (link, (begin, length)) in enumerate(zip(self.names, self._arcs, strict=True)):
+            p, q, off = self._surface.outward(*motions[link])
+            low, high = _extremes(p, q, float(begin), float(length))
+            spans[:, number] = np.stack([low + off + DOUBLE.same_point, high + off - DOUBLE.same_point], axis=1)
+        return spans
+
+
+@dataclass(frozen=True, eq=False)
+class Crossing:
+    """A piece of a walk on which a link comes to lie inside or outside of the surface, or ceases to.
+
+    It begins after the circuit's configuration number `frame`; `sides` are those that change: inside (0), outside
+    (1). Where they do is computed only when needed: the circuit goes on past the turning points of the driving
+    joint.
+    """
+
+    links: SurfaceLinks
+    driver: int
+    frame: int
+    piece: Step
+    link: int
+    sides: list[int]
+
+    @cached_property
+    def turns(self) -> list[tuple[float, int]]:
+        """The turn of the driving joint at which each side changes, radians, in the order of the walk."""
+        places = sorted((self._zero(side), side) for side in self.sides)
+        return [(float(self.piece.at(part).angles[self.driver]), side) for part, side in places]
+
+    def _zero(self, side: int) -> float:
+        part = self.piece.zero(lambda place: float(self.links.spans(place.angles[None])[0, self.link, side]))
+        assert part is not None, "a side that changes has a zero"
+        return part
+
+
+class SidesOfSurface(Event):
+    """Links leave a side of the surface, or come to lie on it.
+
+    `begun` and `now`, bool[N, 2], say whether links are inside and outside soon after the start, and at the end.
+    """
+
+    def __init__(self, links: SurfaceLinks, driver: int) -> None:
+        self._links, self._driver = links, driver
+        self.begun = self.now = np.zeros((len(links.names), 2), dtype=bool)
+        self.crossings: list[Crossing] = []
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Look at both halves of a step. Where the circuit is closed all links lie in the surface again."""
+        parts = (0.5,) if walk.ended else (0.5, 1.0)
+        beyond = self._links.beyond(np.array([step.at(part).angles for part in parts]))
+        if len(walk.frames) == 1:
+            self.begun = self.now = beyond[0]
+        for part, now in zip(parts, beyond, strict=True):
+            changed = now != self.now
+            if changed.any():
+                frame, piece = len(walk.frames) - 1, step.piece(part - 0.5, part)
+                for link in np.flatnonzero(changed.any(axis=1)).tolist():
+                    sides = np.flatnonzero(changed[link]).tolist()
+                    self.crossings.append(Crossing(self._links, self._driver, frame, piece, link, sides))
+            self.now = now
+
+
+class Turns(Event):
+    """The driving joint has one of some turns, whole ones aside.
+
+    `places` holds the number of the circuit's configuration before, the turn, and joint angles float[J].
+    """
+
+    def __init__(self, driver: int, turns: Sequence[float]) -> None:
+        self._driver, self._turns = driver, turns
+        self.places: list[tuple[int, float, Floats]] = []
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Land on the turns, and go on from the end of the step; beside a dead point on what is near."""
+        low, high = sorted(float(end.angles[self._driver]) for end in (step.before, step.after))
+        for turn in self._turns:
+            value = turn + tau * ceil((low - turn) / tau)
+            if value <= high:
+                place = step.landing(self._driver, value)
+                if place is None:
+                    place = step.at(step.zero(partial(self._past, value)) or 0.0)
+                self.places.append((len(walk.frames) - 1, turn, place.angles))
+
+    def _past(self, value: float, place: Corrected) -> float:
+        return float(place.angles[self._driver] - value)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """One sense of the circuit from the conformed position, with its events.
+
+    Of a closed circuit passed backward `whole` is the turn of the driving joint all the way round; crossings are
+    those of the forward sense, with the numbers of their configurations there.
+    """
+
+    circuit: Path
+    begun: Flags
+    now: Flags
+    crossings: list[Crossing]
+    places: list[tuple[int, float, Floats]]
+    whole: float | None = None
+
+    @classmethod
+    def along(
+        cls, closure: ClosureEquations, links: SurfaceLinks, towards: Floats, turns: Sequence[float], driver: int
+    ) -> Course:
+        """Return the course that begins towards some rates."""
+        sides, at = SidesOfSurface(links, driver), Turns(driver, turns)
+        circuit = circuit_through(closure, links.linkage.angles, towards, [TurningPoint(driver), sides, at])
+        return cls(circuit, sides.begun, sides.now, sides.crossings, at.places)
+
+    @property
+    def last(self) -> int:
+        """Number of the configuration at which the driving joint first turns back, or of the last one."""
+        return next(iter(self.circuit.turning), len(self.circuit.angles) - 1)
+
+    def reversed(self, driver: int) -> Course:
+        """Return a closed circuit passed the other way, from the same configuration."""
+        circuit, count = self.circuit, len(self.circuit.angles)
+        whole = circuit.angles[-1] - circuit.angles[0]
+        turning = [event for event in reversed(circuit.events) if event.kind == "turning point"]
+        events = tuple(replace(event, frame=count - 1 - event.frame) for event in turning)
+        back = replace(circuit, angles=circuit.angles[::-1] - whole, events=events)
+        return Course(back, self.now, self.begun, self.crossings, [], float(whole[driver]))
+
+    def sense(self, links: SurfaceLinks, driver: int) -> Sense:
+        """Return what happens until the driving joint turns back, or comes round."""
+        ends = BACK if self.circuit.turning else self.circuit.stopped or ROUND
+        limit = float(self.circuit.angles[self.last, driver])
+        ways = {name: self._stretches(link, limit) for link, name in enumerate(links.names)}
+        return Sense(limit, ends, ways)
+
+    def _stretches(self, link: int, limit: float) -> tuple[Stretch, ...]:
+        """Return the ways of a link one after the other, each with the turn at which it ends."""
+        here, stretches = self.begun[link].copy(), []
+        for turn, side in self._leaves(link):
+            stretches.append(Stretch(_way(here), turn))
+            here[side] = not here[side]
+        every = [*stretches, Stretch(_way(here), limit)]
+        starts = [0.0, *(each.end for each in every)]
+        lengths = [abs(each.end - start) for each, start in zip(every, starts, strict=False)]
+        least = DOUBLE.same_configuration
+        return tuple(each for each, length in zip(every, lengths, strict=True) if length > least)
+
+    def _leaves(self, link: int) -> list[tuple[float, int]]:
+        """Return the turns at which a link comes to a side or leaves it, up to where the driver turns back."""
+        here = [each for each in self.crossings if each.link == link]
+        if self.whole is None:
+            return [leaves for each in here if each.frame < self.last for leaves in each.turns]
+        first = len(self.circuit.angles) - 1 - self.last
+        back = [leaves for each in here if each.frame >= first for leaves in each.turns]
+        return [(turn - self.whole, side) for turn, side in reversed(back)]
+
+
+def positions_of(behind: Course, ahead: Course, links: SurfaceLinks, turns: Sequence[float]) -> list[Position]:
+    """Return the positions at some turns of the driving joint, whole turns aside."""
+    back = len(ahead.circuit.angles) - 1 - behind.last if not ahead.circuit.stopped else inf
+    places = [(turn, angles, frame < behind.last) for frame, turn, angles in behind.places]
+    places += [(turn, angles, frame < ahead.last or frame >= back) for frame, turn, angles in ahead.places]
+    kept: list[Position] = []
+    for turn in turns:
+        begun = len(kept)
+        for at, angles, direct in places:
+            if at == turn and not any(_same(angles, other.angles) for other in kept[begun:]):
+                kept.append(Position(turn, angles, direct, links.ways(angles)))
+    return kept
+
+
+def _way(beyond: Flags) -> Way:
+    """Return the way of a link that is inside the surface, outside, both or neither: bool[2]."""
+    inside, outside = beyond.tolist()
+    return Way.BOTH if inside and outside else Way(int(outside) - int(inside))
+
+
+def _extremes(p: Floats, q: Floats, begin: float, length: float) -> tuple[Floats, Floats]:
+    """Return the least and greatest p cos t + q sin t over an arc."""
+    size, top = np.hypot(p, q), np.arctan2(q, p)
+    ends = p * cos(begin) + q * sin(begin), p * cos(begin + length) + q * sin(begin + length)
+    high = np.where(np.remainder(top - begin, tau) < length, size, np.maximum(*ends))
+    low = np.where(np.remainder(top + np.pi - begin, tau) < length, -size, np.minimum(*ends))
+    return low, high
+
+
+def _same(one: Floats, other: Floats) -> bool:
+    gap = one - other
+    return bool(np.abs(gap - tau * np.rint(gap / tau)).max() <= DOUBLE.same_configuration)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +315,9 @@ class LinkPoint:
     ----------
     link : link id
     azimuth : float
-        Of its ruling line, radians.
+        Angle of its ruling line, radians.
     along : float, optional
-        Along the ruling line: from the apex of a cone; on a cylinder from the plane of the circle.
+        Distance along the ruling line: from the apex of a cone; on a cylinder from the plane of the circle.
 
     Examples
     --------
@@ -65,14 +332,14 @@ class LinkPoint:
 
 @dataclass(frozen=True, slots=True)
 class InstantAxis:
-    """The axis about which a link turns against another, at a position.
+    """The axis about which a link turns against another, at a configuration.
 
     Attributes
     ----------
     first, second : link id
     direction : float[3] or None
-        Unit vector: of linkages on cones through the apex. None where they do not turn against each other, or the
-        rates are not told there: at a position with more freedoms to first order.
+        Unit vector: of linkages on cones through the apex. None where the links do not turn against each other, or
+        where the rates are not unique: at a configuration with more freedoms to first order.
     point : float[3] or None
         On it, in the plane of the circle, for cylinders: the instant centre. None where it is at infinity.
 
@@ -91,11 +358,9 @@ class InstantAxis:
 
     def to_json(self) -> dict[str, Any]:
         """Return the axis as plain data."""
-        return {
-            "links": [self.first, self.second],
-            "direction": None if self.direction is None else self.direction.tolist(),
-            "point": None if self.point is None else self.point.tolist(),
-        }
+        vectors = {"direction": self.direction, "point": self.point}
+        plain_vectors = {name: None if vector is None else vector.tolist() for name, vector in vectors.items()}
+        return {"links": [self.first, self.second], **plain_vectors}
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -112,11 +377,11 @@ class SurfaceMotion(Motion):
     driver : joint id
     backward, forward : Sense
     positions : tuple of Position
-        At the turns that were asked for.
+        Configurations at the input angles.
     points : tuple of LinkPoint
-        Whose places at the positions are told.
+        Points that are located at the positions.
     axes : tuple of (link, link)
-        Whose instant axes at the positions are told.
+        Pairs of links whose instant axes are computed at the positions.
     """
 
     on_surface: OnSurface
@@ -136,21 +401,16 @@ class SurfaceMotion(Motion):
 
         Examples
         --------
-        A point of link 2 goes round joint 2, if that is driven:
-
         >>> from synth.conformed.linkages import loop_on_cones
-        >>> first, _ = loop_on_cones(np.radians([120, 95, 45, 85]))
-        >>> motion = move_on_surface(first, driver="2", at=[0.0, 0.05])
-        >>> places = motion.places_of(LinkPoint("2", 2.5))
-        >>> hinge = motion.places_of(LinkPoint("1", first.places[1]))
-        >>> bool(np.ptp((places * hinge).sum(axis=1)) < 1e-12), len(places)
-        (True, 4)
+        >>> motion = move_on_surface(loop_on_cones(np.radians([120, 95, 45, 85]))[0], driver="2", at=[0.0, 0.05])
+        >>> motion.places_of(LinkPoint("2", 2.5)).shape
+        (4, 3)
         """
         surface = self.on_surface.surface
         assert surface is not None, "a linkage is moved from its surface"
         link = link_named(self.on_surface.chain, str(point.link))
         angles = np.array([each.angles for each in self.positions]).reshape(-1, len(self.joints))
-        turn, shift = self._links().motions(angles)[link]
+        turn, shift = self._links.motions(angles)[link]
         return np.asarray(turn @ surface.place(point.azimuth, point.along, 0.0) + shift)
 
     def instant_axes(self, first: LinkId, second: LinkId) -> tuple[InstantAxis, ...]:
@@ -158,18 +418,16 @@ class SurfaceMotion(Motion):
 
         Examples
         --------
-        That of neighbours is their joint:
-
         >>> from synth.conformed.linkages import loop_on_cylinders
-        >>> open_one, _ = loop_on_cylinders([4, 3, 5, 1])
-        >>> [axis] = move_on_surface(open_one, at=[0.0]).instant_axes("1", "2")
-        >>> [(round(x, 4), round(z, 4)) for x, _, z in [axis.point.tolist()]]
-        [(2.4596, -0.6182)]
+        >>> [axis] = move_on_surface(loop_on_cylinders([4, 3, 5, 1])[0], at=[0.0]).instant_axes("1", "2")
+        >>> axis.point[[0, 2]].round(4).tolist()
+        [2.4596, -0.6182]
         """
         names = [link_named(self.on_surface.chain, str(link)) for link in (first, second)]
         places = [self.chain.links.index(name) for name in names]
         return tuple(InstantAxis(names[0], names[1], *self._axis(each.angles, *places)) for each in self.positions)
 
+    @cached_property
     def _links(self) -> SurfaceLinks:
         return SurfaceLinks(self.on_surface, self.chain, self.configuration.linkage)
 
@@ -179,25 +437,22 @@ class SurfaceMotion(Motion):
         rates = rates_at(closure, angles)
         if rates.shape[1] != 1:
             return None, None
-        moved = self._links().motions(angles[None])
+        moved = self._links.motions(angles[None])
+        links = list(zip(self.chain.links, self.chain.joints_of, strict=True))
         points = linkage.points * linkage.extent + linkage.middle
         spin, speed = np.zeros(3), np.zeros(3)
         for joint, share in enumerate((self.chain.paths[second] - self.chain.paths[first]).tolist()):
             if share:
-                turn, shift = (one[0] for one in moved[self._carrier(joint)])
+                carrier = next(link for link, own in links if joint in own)
+                turn, shift = (motion[0] for motion in moved[carrier])
                 axis = share * rates[joint, 0] * (turn @ linkage.directions[joint])
                 spin, speed = spin + axis, speed + np.cross(turn @ points[joint] + shift, axis)
         size = float(np.linalg.norm(spin))
         if size <= self.configuration.tolerances.zero_rate:
             return None, None
         along = signed(spin / size)
-        if isinstance(self.on_surface.surface, Cylinder):
-            return along, np.cross(spin, speed) / size**2
-        return along, np.zeros(3)
-
-    def _carrier(self, joint: int) -> LinkId:
-        """Return a link that carries a joint, by its number."""
-        return next(link for link, own in zip(self.chain.links, self.chain.joints_of, strict=True) if joint in own)
+        on_cylinder = isinstance(self.on_surface.surface, Cylinder)
+        return along, np.cross(spin, speed) / size**2 if on_cylinder else np.zeros(3)
 
     @property
     def closed(self) -> bool:
@@ -229,9 +484,9 @@ class SurfaceMotion(Motion):
             (plain(link), _stretches(self.backward.ways[link]), _stretches(self.forward.ways[link]))
             for link in self.chain.links[1:]
         ]
-        where = f"{self.on_surface.surface}, "
+        ground, driver = plain(self.chain.links[0]), plain(self.driver)
         return [
-            f"{where}link {plain(self.chain.links[0])} fixed, joint {plain(self.driver)} driven",
+            f"{self.on_surface.surface}, link {ground} fixed, joint {driver} driven",
             f"range {_side(self.backward)}, {_side(self.forward)}",
             _circuit(self),
             TableBlock(("link", "backward", "forward"), rows),
@@ -305,12 +560,11 @@ def move_on_surface(
     driver : joint id, optional
         By default the first joint of the fixed link that moves.
     at : sequence of float, optional
-        Turns of the driver from the conformed position, radians, at which positions are wanted: all those of the
-        circuit.
+        Input angles, from the conformed position, radians: all positions of the circuit there are listed.
     points : sequence of LinkPoint, optional
-        Points of links whose places at the positions are told.
+        Points of links to locate at the positions.
     axes : sequence of (link id, link id), optional
-        Pairs of links whose instant axes at the positions are told.
+        Pairs of links whose instant axes to compute at the positions.
 
     Raises
     ------
@@ -322,8 +576,7 @@ def move_on_surface(
     Examples
     --------
     >>> from synth.conformed.linkages import loop_on_cones
-    >>> first, _ = loop_on_cones(np.radians([120, 95, 45, 85]))
-    >>> motion = move_on_surface(first)
+    >>> motion = move_on_surface(loop_on_cones(np.radians([120, 95, 45, 85]))[0])
     >>> motion.turns_fully, motion.closed, motion.driver
     (False, True, '1')
     >>> [round(degrees(sense.limit), 3) for sense in (motion.backward, motion.forward)]
@@ -342,7 +595,7 @@ def move_on_surface(
     ahead = Course.along(closure, links, towards, at, place)
     closed = not ahead.circuit.stopped
     behind = ahead.reversed(place) if closed else Course.along(closure, links, -towards, at, place)
-    along = motion_along(configuration, Driven(None, [place], {}, ahead.circuit))
+    along = motion_along(configuration, DrivenMotion(None, [place], {}, ahead.circuit))
     return SurfaceMotion(
         **{part.name: getattr(along, part.name) for part in fields(Motion)},
         on_surface=on_surface,
@@ -362,12 +615,12 @@ def _driver(configuration: Configuration, chain: ConformedChain, driver: JointId
         raise InvariantError("driver", f"{shown(driver)} is no joint", known(joints, str(driver)))
     rates = np.abs(rates_at(configuration.closure, configuration.linkage.angles)).max(axis=1, initial=0.0)
     moving = rates > configuration.tolerances.zero_rate * rates.max(initial=0.0)
-    asked = list(chain.joints_of[0]) if driver is None else [joints.index(driver)]
-    found = [joint for joint in asked if moving[joint]]
-    if not found:
-        names = ", ".join(shown(joints[joint]) for joint in asked)
+    possible = list(chain.joints_of[0]) if driver is None else [joints.index(driver)]
+    drivers = [joint for joint in possible if moving[joint]]
+    if not drivers:
+        names = ", ".join(shown(joints[joint]) for joint in possible)
         raise InvariantError("driver", f"joint {names} is immobile at the conformed position", "one that moves")
-    return found[0]
+    return drivers[0]
 
 
 def _sense_json(sense: Sense) -> dict[str, Any]:
@@ -395,9 +648,8 @@ def _circuit(motion: SurfaceMotion) -> str:
     if not motion.closed:
         return f"circuit not traced to its end: {motion.path.stopped}"
     turning = [f"joint {plain(joint)} {turns:+d}" for joint, turns in motion.turns.items() if turns]
-    line = (
-        f"circuit closed, loop-closure residual {motion.closure:.1e}; whole turns: {', '.join(turning) or 'none'}"
-    )
+    turns = ", ".join(turning) or "none"
+    line = f"circuit closed, loop-closure residual {motion.closure:.1e}; whole turns: {turns}"
     if motion.meets:
         line += "; another circuit meets it at " + ", ".join(f"{degrees(turn):.6g}°" for turn in motion.meets)
     return line
@@ -410,14 +662,10 @@ def _stretches(stretches: tuple[Stretch, ...]) -> str:
 def _positions(motion: SurfaceMotion) -> list[Block]:
     joints = motion.joints
     heads = ("at", *(f"joint {joint}" for joint in joints), "without turning back")
-    rows = [
-        (
-            f"{degrees(each.at):g}",
-            *(f"{degrees(turn):.8g}" for turn in each.angles),
-            "yes" if each.direct else "no",
-        )
-        for each in motion.positions
-    ]
+    rows = []
+    for each in motion.positions:
+        angles = [f"{degrees(turn):.8g}" for turn in each.angles]
+        rows.append((f"{degrees(each.at):g}", *angles, "yes" if each.direct else "no"))
     inputs = {each.at for each in motion.positions}
     reached = f"{numbered(len(rows), 'configuration')} at {numbered(len(inputs), 'input angle')} within the range"
     return [TableBlock(heads, rows, ["at"]), reached]

@@ -1,9 +1,7 @@
-"""One honest verdict: does it move, with how many freedoms, which joints stay stiff, and how is that known.
+"""One verdict: whether a mechanism moves, its degrees of freedom, its immobile joints, and the evidence.
 
-`mobility` is the question of the front door: counts and ranks of `graphs.answer`, with the verdict first.
-`verdict` holds it, `of_motion` makes it of a crease pattern, `of_type` of counts and ranks, `words` puts it in a
-sentence.
-Theory: docs/theory/verdict.md.
+`mobility` gives the counts and ranks of `graphs.answer` with the verdict first. `verdict` holds the verdict and
+writes its sentences, `judged` makes it of a configuration, or of counts and ranks. Theory: docs/theory/verdict.md.
 """
 
 from __future__ import annotations

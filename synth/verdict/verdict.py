@@ -1,29 +1,46 @@
-"""What is said of the motion of a mechanism, and how it is known.
+"""The verdict on the motion of a mechanism, its evidence, and its sentences.
 
-Theory: docs/theory/verdict.md.
+In words the answer comes first, then branches, then evidence in the order of its weight. A statement without a
+qualifier is proved; a numerical one says how far it was traced. Theory: docs/theory/verdict.md.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from math import degrees
 from typing import Any, Literal
 
 import networkx as nx
 
+from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.tolerances import DOUBLE
 from synth.motion.branches import Certainty
+from synth.motion.configuration import Configuration, at_most, listed
+from synth.motion.marked import Marked
 
-__all__ = ["AsWritten", "Basis", "Verdict", "Way", "WithinPrecision", "clusters_of"]
+__all__ = [
+    "AsWritten",
+    "Basis",
+    "MotionFindings",
+    "Verdict",
+    "Way",
+    "WithinPrecision",
+    "clusters_of",
+    "flaps_of",
+    "in_words",
+    "text_of_motion",
+]
 
 Basis = Literal["motion", "pose", "generic", "count"]
 
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """One way to move from the pose of a file.
+    """One motion branch from the configuration of a file.
 
     Attributes
     ----------
@@ -32,14 +49,14 @@ class Way:
     freedoms : int or None
     certainty : {"proved", "numerical", "not known"}
     stiff_joints : tuple of joint ids
-        That do not move on it.
+        Joints that are immobile on it.
     followed : float
         How far the joint that moves most was followed, radians.
     misfit : float or None
         Largest displacement of a vertex, in units of the extent, in the mechanism that has this branch; 0 where
-        the coordinates have it as they are written, None of what has no vertices.
+        the coordinates have it as they are written, None without vertices.
     from_folded : (float, float) or None
-        Where it was found at a folded state: the largest fold angles there, and at the end of the way back towards
+        For a branch found at a folded state: the largest fold angles there, and at the end of the way back towards
         the flat state, radians.
     """
 
@@ -66,38 +83,24 @@ class Way:
 
 @dataclass(frozen=True, slots=True)
 class AsWritten:
-    """What holds for the coordinates exactly as they are written.
-
-    Attributes
-    ----------
-    freedoms : int or None
-        As those of a verdict; None where they are not known.
-    certainty : {"proved", "numerical", "not known"}
-    """
+    """What holds for the coordinates exactly as they are written; no freedoms are given where they are unknown."""
 
     freedoms: int | None
     certainty: Certainty
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {"freedoms": self.freedoms, "certainty": self.certainty}
+        return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)
 class WithinPrecision:
     """What holds for some mechanism within the precision of the coordinates: four times their error.
 
-    Attributes
-    ----------
-    freedoms : int or None
-    certainty : {"proved", "numerical", "not known"}
-        Of no freedoms, proved if no rates nearly agree, and numerical if for all that do the nearest mechanism is
-        farther off or none was found.
-    misfit : float or None
-        Largest displacement of a vertex, in units of the extent, in the mechanism found; of a rigid pattern in the
-        nearest one that moves, beyond the precision. None where no mechanism was found nearby.
-    precision : float
-        Error of a coordinate, in units of the extent.
+    That nothing moves is proved if no rates nearly agree, and numerical if for all that do the nearest mechanism
+    is farther off or none was found. The misfit is the largest displacement of a vertex, in units of the extent,
+    in the mechanism found; of a rigid pattern in the nearest one that moves, beyond the precision; None where no
+    mechanism was found nearby. The precision is the error of a coordinate, in units of the extent.
     """
 
     freedoms: int | None
@@ -107,12 +110,7 @@ class WithinPrecision:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "freedoms": self.freedoms,
-            "certainty": self.certainty,
-            "misfit": self.misfit,
-            "precision": self.precision,
-        }
+        return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,36 +120,36 @@ class Verdict:
     Attributes
     ----------
     freedoms : int or None
-        Of the branch through a folded pose; of the branch that the marks of a flat sheet choose, or the most that
-        any has; else of the type. None where that is not known.
+        Of the branch through a folded configuration; of the branch that the marks of a flat sheet choose, or the
+        most that any has; else of the type. None if unknown.
     basis : {"motion", "pose", "generic", "count"}
-        Motion: followed, or proved from the pose on. Pose: a regular pose, at which rates are motions. Generic:
-        the exact rank of a general member. Count: a formula.
+        Motion: followed, or proved from the configuration on. Pose: a regular configuration, at which rates are
+        motions. Generic: the exact rank of a generic realisation. Count: a formula.
     certainty : {"proved", "numerical", "not known"}
     text : str
     ways : tuple of Way
-        From the pose, where they were looked for; those that the search had nothing left to follow are left out.
+        Motion branches, where they were looked for; those that the search had nothing left to follow are left out.
     exhaustive : bool
-        Whether there are no other ways.
+        Whether there are no other branches.
     stiff_joints : tuple of joint ids
-        That move on no way.
+        Joints that are immobile on every branch.
     clusters : tuple of tuple of link ids
-        Links that move as one on every way, where they are several.
+        Links that move as one on every branch, where they are several.
     places : mapping of joint id to two points
-        Ends of stiff creases, in the unit of the coordinates.
+        Ends of immobile creases, in the unit of the coordinates.
     as_written : AsWritten or None
-        What holds exactly as written; None of a type, and where motion was not looked for.
+        What holds exactly as written; None for a type, and where motion was not looked for.
     within_precision : WithinPrecision or None
         What holds within the precision of the coordinates of a crease pattern: the verdict is about that.
     further : int or None
-        If the search ended at its allowance: how many beginnings of ways it had found and not followed; there may
-        be more. None if it came to its end.
+        If the search ended at its allowance: how many beginnings of branches it had found and not followed; there
+        may be more. None if it came to its end.
 
     Examples
     --------
     >>> from graphs.mechanism.sheet import Sheet
     >>> from synth.folding.configuration import configuration_of_sheet
-    >>> from synth.verdict.of_motion import verdict_of_motion
+    >>> from synth.verdict.judged import verdict_of_motion
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
     >>> verdict = verdict_of_motion(configuration_of_sheet(Sheet(5, (), "", faces, corners)))
@@ -174,6 +172,7 @@ class Verdict:
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on (docs/command-json.md)."""
+        places = [{"joint": joint, "ends": list(map(list, ends))} for joint, ends in self.places.items()]
         return {
             "freedoms": self.freedoms,
             "basis": self.basis,
@@ -182,9 +181,7 @@ class Verdict:
             "exhaustive": self.exhaustive,
             "not_followed": self.further,
             "stiff_joints": list(self.stiff_joints),
-            "stiff_places": [
-                {"joint": joint, "ends": [list(end) for end in ends]} for joint, ends in self.places.items()
-            ],
+            "stiff_places": places,
             "clusters": [list(cluster) for cluster in self.clusters],
             "as_written": None if self.as_written is None else self.as_written.to_json(),
             "within_precision": None if self.within_precision is None else self.within_precision.to_json(),
@@ -196,15 +193,161 @@ class Verdict:
 
 
 def clusters_of(graph: SCGraph, still: Sequence[JointId]) -> tuple[tuple[LinkId, ...], ...]:
-    """Return links that stiff joints make one, in the order of the graph.
-
-    Examples
-    --------
-    >>> clusters_of(SCGraph(4, [(0, 1), (1, 2), (2, 3)]), [0, 1])
-    ((0, 1, 2),)
-    """
+    """Return links that immobile joints make one, in the order of the graph."""
     together = nx.Graph()
     together.add_edges_from(graph.joints[joint] for joint in still)
     order = {link: place for place, link in enumerate(graph)}
     found = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
     return tuple(sorted(found, key=lambda links: order[links[0]]))
+
+
+_ASSIGNMENT = {
+    "has": " with the given mountain-valley assignment",
+    "none has": ", but not with the given assignment (proved)",
+    "none found": ", but no branch with the given assignment was found",
+}
+_TO_GO_ON = "The search for branches ended at its work limit; try --more."
+
+
+@dataclass(frozen=True, slots=True)
+class MotionFindings:
+    """What a verdict on a motion is written from.
+
+    `marked` says whether a branch begins with the given mountain-valley assignment; `complete` whether the search
+    for branches came to its end; `generic` is the mobility of the type; `stiff` are the joints that are immobile
+    on every branch; the verdict states the degrees of freedom of `way`; `written` is what holds exactly as
+    written, if that differs.
+    """
+
+    at: Configuration
+    ways: Sequence[Way]
+    marked: Marked | None
+    complete: bool
+    generic: int | None
+    stiff: Sequence[JointId]
+    way: Way | None
+    written: AsWritten | None = None
+
+
+def flaps_of(graph: SCGraph) -> list[JointId]:
+    """Return the joints that are in no loop: the links beyond such a joint turn freely."""
+    pairs = nx.Graph()
+    pairs.add_nodes_from(graph.nodes)
+    between: dict[frozenset[object], list[JointId]] = {}
+    for joint, ends in graph.joints.items():
+        between.setdefault(frozenset(ends), []).append(joint)
+        pairs.add_edge(*ends)
+    bridges = {frozenset(pair) for pair in nx.bridges(pairs)}
+    return [joints[0] for pair, joints in between.items() if pair in bridges and len(joints) == 1]
+
+
+def text_of_motion(findings: MotionFindings, freedoms: int | None, certainty: Certainty) -> str:
+    """Return the verdict in sentences; `freedoms` of 0 is rigid, None unknown."""
+    way = findings.way
+    if freedoms is None and (way is None or certainty == "not known"):
+        return _unknown(findings)
+    if freedoms == 0:
+        return f"Rigid{findings.at.doubt}."
+    flaps = flaps_of(findings.at.linkage.graph)
+    rest = len(findings.at.linkage.graph.joints) - len(flaps)
+    if flaps and freedoms == len(flaps) and findings.stiff and len(findings.stiff) == rest:
+        at = f"at the flap {_noun(flaps)} {listed(flaps)}"
+        return f"Rigid except for flaps: {in_words(freedoms)}, {at}. {_immobile(findings.stiff)}"
+    sentences = [_answer(findings, freedoms), *_branches(findings)]
+    if findings.stiff:
+        sentences.append(_immobile(findings.stiff))
+    if certainty != "proved":
+        sentences.append("Not proved." if way is None else f"Numerical: {_traced(way)}.")
+    sentences += _overconstrained(findings.generic, freedoms)
+    return " ".join([*sentences, *_allowance(findings)])
+
+
+def in_words(freedoms: int) -> str:
+    """Return a number of degrees of freedom in words."""
+    return numbered(freedoms, "degree of freedom", "degrees of freedom")
+
+
+def _unknown(findings: MotionFindings) -> str:
+    """Return the verdict where no motion was found, and none excluded."""
+    if findings.written is not None and findings.written.freedoms == 0:
+        within = f"within the drawing's precision, {findings.at.precision}"
+        return f"Unknown: no motion found {within}, and none excluded. Exactly as written it is rigid."
+    none = f"Unknown: no motion found, and none excluded{findings.at.doubt}."
+    return " ".join([none, *_allowance(findings)])
+
+
+def _answer(findings: MotionFindings, freedoms: int | None) -> str:
+    """Return the first sentence: whether it moves, from where, and with how many degrees of freedom."""
+    moves = "Rigid-foldable" if findings.at.limited else "Mobile"
+    start = "from the flat state" if findings.at.flat else "from this configuration"
+    count = "degrees of freedom unknown"
+    if freedoms is not None:
+        count = in_words(freedoms)
+        if findings.marked != "has" and any(way.freedoms != freedoms for way in findings.ways):
+            most = findings.complete and all(way.freedoms is not None for way in findings.ways)
+            count = f"up to {count}" if most else f"{count} on the freest branch found"
+    assignment = "" if findings.marked is None else _ASSIGNMENT[findings.marked]
+    if findings.marked == "has":
+        first = f"{moves} {start}{assignment}: {count}"
+    else:
+        first = f"{moves} {start}: {count}{assignment}"
+    misfit = None if findings.way is None else findings.way.misfit
+    if not misfit:
+        return f"{first}."
+    moved = f"vertices moved by at most {at_most(misfit)} of the extent"
+    return f"{first}, within the drawing's precision ({moved}). {_as_written(findings.written)}"
+
+
+def _as_written(written: AsWritten | None) -> str:
+    """Return what would be without the precision."""
+    if written is None or written.freedoms is None:
+        return "Whether it folds exactly as written is unknown."
+    if not written.freedoms:
+        return "Exactly as written it would be rigid."
+    return f"Exactly as written it has {in_words(written.freedoms)}."
+
+
+def _branches(findings: MotionFindings) -> list[str]:
+    """Return the sentence that counts the branches, where there are several or others were not looked for."""
+    ways, kind = findings.ways, "folding branch" if findings.at.flat else "motion branch"
+    if len(ways) < 2:
+        lone = findings.at.flat and ways and not findings.complete and findings.marked != "has"
+        return [f"Only 1 {kind} was searched for."] if lone else []
+    kinds = Counter(way.freedoms for way in ways)
+    count = ("" if findings.complete else "At least ") + numbered(len(ways), kind, f"{kind}es")
+    if len(kinds) == 1:
+        return [f"{count}."]
+    most_first = sorted(kinds.items(), key=lambda item: -(item[0] or 0))
+    each = [f"{number} with {'unknown' if freedoms is None else freedoms} DOF" for freedoms, number in most_first]
+    return [f"{count}: {', '.join(each)}."]
+
+
+def _immobile(joints: Sequence[JointId]) -> str:
+    return f"Immobile {_noun(joints)}: {listed(joints)}."
+
+
+def _noun(joints: Sequence[JointId]) -> str:
+    return "joint" if len(joints) == 1 else "joints"
+
+
+def _traced(way: Way) -> str:
+    """Return how far a branch was traced, and how well loops close there."""
+    back = ""
+    if way.from_folded is not None:
+        folded, small = map(degrees, way.from_folded)
+        back = f"found folded by {folded:.3g}° and traced back to {small:.2g}°; "
+    return f"{back}traced to {degrees(way.followed):.3g}°, loop-closure residual below {DOUBLE.closed:.0e}"
+
+
+def _overconstrained(generic: int | None, freedoms: int | None) -> list[str]:
+    """Return the sentence that compares with a generic realisation of the type, if that has fewer."""
+    if generic is None or freedoms is None or freedoms <= generic:
+        return []
+    type_has = "is rigid" if generic <= 0 else f"has {in_words(generic)}"
+    return [f"Overconstrained: a generic realisation {type_has} (M = {generic}, h = {freedoms - generic})."]
+
+
+def _allowance(findings: MotionFindings) -> list[str]:
+    """Return the sentence on a search that ended at its allowance, with the way to go on."""
+    ended = not findings.complete and findings.at.branches is not None and not findings.at.more
+    return [_TO_GO_ON] if ended else []

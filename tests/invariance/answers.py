@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 
 from graphs.errors import SynthedraError
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
-from synth.verdict.of_motion import verdict_of_motion
+from synth.verdict.judged import verdict_of_motion
 from tests.invariance.guises import Guise
 
 __all__ = ["Answer", "answer_to", "differences"]

@@ -22,16 +22,12 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from synth.conformed.linkages import loop_on_cones
-from synth.folding.derivatives import SheetDerivatives
+from synth.folding.derivatives import SheetDerivatives, vertex_places
 from synth.folding.motion import fold
-from synth.folding.vertices import vertex_places
-from synth.motion.bodies import BodyTree
-from synth.motion.closure import ClosureEquations
-from synth.motion.derivatives import Sensitivity, dependence_on_axes, derivatives_by_parameters
-from synth.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
-from synth.motion.newton import corrected
+from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.derivatives import BodyTree, Sensitivity, dependence_on_axes, derivatives_by_parameters
+from synth.motion.linkage import PosedLinkage, link_motions, linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
-from synth.motion.placement import link_motions
 from synth.moving.made import posed_on_surface
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import chickenwire, folded_miura, huffman_grid, miura

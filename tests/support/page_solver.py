@@ -12,10 +12,9 @@ import numpy as np
 import pytest
 
 from synth.folding.collisions import Panels
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import corrected
+from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.linkage import link_motions
 from synth.motion.path import PathOptions, driven_path
-from synth.motion.placement import link_motions
 from synth.viewer.shown import Moving
 from synth.viewer.solver_data import solver_data
 

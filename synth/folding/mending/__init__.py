@@ -1,7 +1,6 @@
 """Rounded coordinates moved, within their precision, to ones that fold.
 
-`nearest` finds the nearest mechanisms that move, with the branches that a pattern nearly has (`near`); `places`
-says how a linkage depends on its vertices, `angles` which angles are meant to be alike, `fitting` moves the
+`nearest` finds the branches that a pattern nearly has and the nearest mechanisms that move, `fitting` moves the
 vertices. Theory: docs/theory/mending.md.
 """
 

@@ -1,2 +1,6 @@
-from synth.folding.mending.nearest import Nearby as Nearby, nearby as nearby
-from synth.folding.mending.repair import Mended as Mended, flattened as flattened
+from synth.folding.mending.nearest import (
+    Mended as Mended,
+    Nearby as Nearby,
+    flattened as flattened,
+    nearby as nearby,
+)

@@ -1,43 +1,310 @@
 """Vertices moved so that a crease pattern folds: configurations along its motions, all of which have to close.
 
 The vertices and the joint angles of every configuration are unknowns of one least-squares problem, together with
-angles that are meant to be alike and panels that are meant to be plane. A configuration is added farther along
+angles that are meant to be alike and panels that are meant to be planar. A configuration is added farther along
 whenever the ones before close, from where the moved linkage nearly goes, and then wherever a motion that is
-followed stays open most. Theory: docs/theory/mending.md.
+followed stays open most.
+
+Sectors between neighbouring creases that agree within the precision of the coordinates, or make 180 degrees
+together, are meant to; so are creases that go straight on, and those of a loop whose creases are parallel. About
+flat vertices only these angles count for motion. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import radians
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import pi, radians
 from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
+from graphs.arrays import Floats, Ints
 from graphs.canonical import leading
-from graphs.tolerances import DOUBLE
-from synth.folding.mending.angles import MeantAngles
-from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.steps import Block, least_step
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import TangentSpace, corrected
-from synth.motion.walk.allowance import Allowance
+from graphs.convert.duality import SheetMechanism
+from graphs.geometry import crossing, principal_axes, unit
+from graphs.loops.loop import Centre
+from graphs.mechanism.plane import in_space
+from graphs.mechanism.sheet import Sheet
+from graphs.rank.spaces import row_space, split
+from graphs.tolerances import DOUBLE, EPSILON
+from synth.folding.derivatives import axis_motions
+from synth.motion.closure import ClosureEquations, TangentSpace, corrected
+from synth.motion.linkage import PosedLinkage
+from synth.motion.walk.step import Allowance
 
-__all__ = ["FARTHEST_PATTERN", "Fitting"]
+__all__ = ["FARTHEST_PATTERN", "Fitting", "MeantAngles", "VertexPlaces"]
+
+
+class VertexPlaces:
+    """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept planar.
+
+    Lengths are those of the linkage: in units of the extent, about the middle. `given`, float[V, 3], are the
+    places as written, `ends`, int[J, 2], the vertices at the ends of each crease; `along`, float[2 or 3, 3], are
+    the directions in which vertices may be moved, `unknowns` their number.
+    """
+
+    def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
+        assert sheet.coordinates is not None
+        self.given: Floats = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
+        self.loops = linkage.loops
+        free = [replace(loop, centre=Centre.NONE) for loop in linkage.loops]  # axes need not stay parallel
+        loops = zip(linkage.loops, free, strict=True)
+        kept = tuple(six if loop.centre is Centre.INFINITE else loop for loop, six in loops)
+        self._linkage = replace(linkage, loops=kept)
+        ends = [mechanism.hinges[joint] for joint in linkage.graph.joints]  # type: ignore[index]
+        self.ends: Ints = np.array(ends, dtype=np.int64).reshape(-1, 2)
+        ways = ((self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]]) * linkage.directions).sum(axis=1)
+        self._ways: Floats = np.sign(ways)
+        sizes, directions = principal_axes(self.given)
+        self.along: Floats = directions[:2] if sizes[2] <= DOUBLE.same_point * sizes[0] else np.eye(3)
+        self._on_lines = np.array(list(_between(mechanism, linkage)), dtype=np.int64).reshape(-1, 3)
+        self._panels = [] if len(self.along) == 2 else [panel for panel in sheet.faces if len(panel) > 3]
+        self.unknowns = len(self.given) * len(self.along)
+        self._into_space = scipy.sparse.kron(scipy.sparse.eye(len(self.given)), self.along.T, "csr")
+
+    @property
+    def bent(self) -> float:
+        """How far vertices on creases of several pieces are off their lines, at most."""
+        return float(np.abs(self.off_lines(self.given)[0]).max(initial=0.0))
+
+    @property
+    def lengths(self) -> Floats:
+        """The lengths of the creases: float[J]."""
+        return np.asarray(np.linalg.norm(self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]], axis=1))
+
+    def moved(self, by: Floats) -> Floats:
+        """Return the vertices, moved by unknowns float[unknowns]: float[V, 3]."""
+        return np.asarray(self.given + by.reshape(len(self.given), -1) @ self.along)
+
+    def linkage(self, corners: Floats) -> PosedLinkage:
+        """Return the linkage with vertices at float[V, 3]; loops with parallel axes close with six equations."""
+        ends = corners[self.ends]
+        along = ends[:, 1] - ends[:, 0]
+        directions = unit(along) * self._ways[:, None]
+        return replace(self._linkage, points=ends.mean(axis=1), directions=directions)
+
+    def motions_of_axes(self, corners: Floats) -> scipy.sparse.csr_matrix:
+        """Return how each axis turns and shifts with the unknowns: sparse float[6 J, unknowns]."""
+        return (axis_motions(self.ends, corners) @ self._into_space).tocsr()
+
+    def off_lines(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return how far vertices on creases of several pieces are off their lines, with the derivatives."""
+        vertices, near, far = corners[self._on_lines.T]
+        along = far - near
+        sizes = np.linalg.norm(along, axis=1, keepdims=True)
+        direction = along / np.where(sizes == 0.0, 1.0, sizes)
+        off = np.cross(vertices - near, direction)
+        part = ((vertices - near) * direction).sum(axis=1, keepdims=True) / np.where(sizes == 0.0, 1.0, sizes)
+        across = -crossing(direction) @ self.along.T
+        count, free = len(vertices), len(self.along)
+        rows = np.broadcast_to((3 * np.arange(count)[:, None] + np.arange(3))[..., None], across.shape).ravel()
+        matrix = scipy.sparse.csr_matrix((3 * count, self.unknowns))
+        for share, which in zip((np.ones_like(part), part - 1.0, -part), self._on_lines.T, strict=True):
+            columns = np.broadcast_to((free * which[:, None] + np.arange(free))[:, None], across.shape).ravel()
+            values = (share[..., None] * across).ravel()
+            matrix = matrix + scipy.sparse.csr_matrix((values, (rows, columns)), shape=matrix.shape)
+        return off.ravel(), matrix.tocsr()
+
+    def off_planes(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return how far vertices are off the planes of their panels, with the derivatives by the unknowns."""
+        off: list[Floats] = [np.zeros(0)]
+        blocks: list[scipy.sparse.csr_matrix] = [scipy.sparse.csr_matrix((0, self.unknowns))]
+        for panel in self._panels:
+            around = np.array(panel)
+            middle = corners[around] - corners[around].mean(axis=0)
+            *inside, normal = principal_axes(middle)[1]
+            here = middle @ normal
+            # to first order the best plane takes up what is linear along the panel
+            linear = np.column_stack([np.ones(len(around)), middle @ np.transpose(inside)])
+            basis = row_space(linear.T)
+            across = np.eye(len(around)) - basis @ basis.T
+            off.append(across @ here)
+            values = np.einsum("ij,c->ijc", across, normal).reshape(len(around), -1)
+            rows, columns = np.arange(len(around))[:, None], (3 * around[:, None] + np.arange(3)).ravel()
+            where = (np.broadcast_to(rows, values.shape).ravel(), np.tile(columns, len(around)))
+            blocks.append(scipy.sparse.csr_matrix((values.ravel(), where), shape=(len(around), self.unknowns)))
+        matrix = scipy.sparse.vstack(blocks, format="csr")
+        matrix.eliminate_zeros()
+        return np.concatenate(off), matrix
+
+
+def _between(mechanism: SheetMechanism, linkage: PosedLinkage) -> Iterator[tuple[int, int, int]]:
+    """Yield vertices on creases of several pieces, each with the ends of its crease."""
+    for joint in linkage.graph.joints:
+        near, far = mechanism.hinges[joint]  # type: ignore[index]
+        inside = {vertex for edge in mechanism.pieces[joint] for vertex in edge} - {near, far}  # type: ignore[index]
+        yield from ((vertex, near, far) for vertex in sorted(inside))
+
+
+_ROUNDING = 3.0
+"""Angles differ by this times what a coordinate's precision makes of them, at most, if they are meant to agree."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Sum:
+    """The sum of some headings of creases, some of them reversed, modulo 180 degrees."""
+
+    joints: tuple[int, ...]
+    signs: tuple[int, ...]
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Sector:
+    """From one crease to the next about a vertex: angle and error, radians."""
+
+    joints: tuple[int, int]
+    angle: float
+    error: float
+
+    @property
+    def acute(self) -> float:
+        """The angle, or what is left of it to 180 degrees."""
+        return min(self.angle, pi - self.angle)
+
+
+class MeantAngles:
+    """Equations between the headings of creases of a flat sheet; other sheets have none.
+
+    The precision is that of a coordinate, in units of the extent.
+    """
+
+    def __init__(self, places: VertexPlaces, precision: float) -> None:
+        self._places = places
+        self._precision = _ROUNDING * precision
+        self._sums: list[_Sum] = []
+        if len(places.along) == 2:
+            self._normal = np.cross(*places.along)
+            sectors = []
+            for loop in places.loops:
+                if loop.centre is Centre.FINITE:
+                    round_vertex = self._sectors(loop.joints)
+                    sectors += round_vertex
+                    self._sums += _straight(round_vertex)
+                elif loop.centre is Centre.INFINITE:
+                    first, *others = loop.joints
+                    self._sums += [_Sum((joint, first), (1, -1), 0.0) for joint in others]
+            self._sums += _alike(sectors)
+
+    def __len__(self) -> int:
+        return len(self._sums)
+
+    def _sectors(self, joints: Sequence[int]) -> list[_Sector]:
+        """Return the sectors about the vertex in which creases meet, counterclockwise; none if they do not."""
+        ends = self._places.ends[list(joints)]
+        shared = set(ends[0].tolist()).intersection(*(set(pair.tolist()) for pair in ends))
+        if len(shared) != 1 or len(joints) < 2:
+            return []
+        (vertex,) = shared
+        others = np.where(ends[:, 0] == vertex, ends[:, 1], ends[:, 0])
+        away = (self._places.given[others] - self._places.given[vertex]) @ self._places.along.T
+        headings, errors = np.arctan2(away[:, 1], away[:, 0]), self._precision / np.linalg.norm(away, axis=1)
+        order = np.argsort(headings)
+        following = np.roll(order, -1)
+        sectors = []
+        for i, j in zip(order, following, strict=True):
+            angle, error = float(headings[j] - headings[i]) % (2 * pi), float(errors[i] + errors[j])
+            sectors.append(_Sector((joints[i], joints[j]), angle, error))
+        return sectors
+
+    def off(self, corners: Floats) -> Floats:
+        """Return by how much the equations do not hold with vertices at float[V, 3], radians."""
+        ends = corners[self._places.ends]
+        along = (ends[:, 1] - ends[:, 0]) @ self._places.along.T
+        headings = np.arctan2(along[:, 1], along[:, 0])
+        off = [float(np.dot(headings[list(total.joints)], total.signs)) - total.value for total in self._sums]
+        return np.asarray((np.array(off) + pi / 2) % pi - pi / 2)
+
+    def by_axes(self) -> scipy.sparse.csr_matrix:
+        """Return the derivatives by small motions of the axes: sparse float[rows, 6 J]."""
+        terms = [
+            (row, 6 * joint + c, sign * float(self._normal[c]))
+            for row, total in enumerate(self._sums)
+            for joint, sign in zip(total.joints, total.signs, strict=True)
+            for c in range(3)
+        ]
+        rows, columns, values = zip(*terms, strict=True) if terms else ((), (), ())
+        shape = (len(self._sums), 6 * len(self._places.ends))
+        return scipy.sparse.csr_matrix((values, (rows, columns)), shape=shape)
+
+
+def _straight(sectors: Sequence[_Sector]) -> list[_Sum]:
+    """Return what keeps creases straight that go on through a vertex."""
+    found = []
+    for first in range(len(sectors)):
+        angle, error = 0.0, sectors[first].error
+        for sector in sectors[first:]:
+            angle += sector.angle
+            if abs(angle - pi) <= error + sector.error:
+                found.append(_Sum((sectors[first].joints[0], sector.joints[1]), (-1, 1), pi))
+    return found
+
+
+def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
+    """Return what makes sectors equal, or supplements, that are so within their errors."""
+    convex = [sector for sector in sectors if 0.0 < sector.angle < pi - sector.error]
+    rising = sorted(convex, key=lambda sector: sector.acute)
+    sums: list[_Sum] = []
+    for before, sector in zip([None, *rising], rising, strict=False):
+        first, last = sector.joints
+        if pi / 2 - sector.acute <= sector.error:
+            sums.append(_Sum((first, last), (-1, 1), pi / 2))
+        elif before is not None and sector.acute - before.acute <= sector.error + before.error:
+            same = (sector.angle < pi / 2) == (before.angle < pi / 2)
+            ours, theirs = (-1, 1), (1, -1) if same else (-1, 1)
+            sums.append(_Sum((first, last, *before.joints), (*ours, *theirs), 0.0))
+    return sums
+
+
+class EquationBlock(NamedTuple):
+    """Equations of one configuration: what does not hold, and the derivatives by vertices and by its angles."""
+
+    off: Floats
+    by_vertices: Floats
+    by_angles: Floats
+
+
+def least_step(
+    off: Floats, by_vertices: Floats, blocks: Sequence[EquationBlock], least: float
+) -> tuple[Floats, list[Floats]]:
+    """Return the least change of the vertices, float[u], and of the angles of each block, to leave no residual.
+
+    The derivatives by the angles of a configuration are taken apart, T = U S V'. Then its equations say of each
+    angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r does
+    not hold and B are the derivatives by the vertices. The least step is the solution of a least-squares problem
+    in u alone, in which an equation that no angle takes away (s = 0) weighs most. Equations between vertices alone
+    do not hold by `off`, float[n], derivatives float[n, u]. Singular values below `least` count as that.
+    """
+    unknowns = by_vertices.shape[1]
+    rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-off / least, np.zeros(unknowns)]
+    apart = []
+    for block in blocks:
+        parts = split(block.by_angles)
+        sizes = np.full(len(block.off), least)
+        count = len(parts.values)
+        sizes[:count] = np.maximum(parts.values, least)
+        own, by = parts.left.T @ block.off, parts.left.T @ block.by_vertices
+        rows.append(by / sizes[:, None])
+        right_sides.append(-own / sizes)
+        shares = parts.values / sizes[:count] ** 2  # of values below the least only a part: no angle turns far
+        apart.append((parts.right[:count], shares, own[:count], by[:count]))
+    change = np.linalg.lstsq(np.concatenate(rows), np.concatenate(right_sides), rcond=EPSILON)[0]
+    turns = [-right.T @ (shares * (own + by @ change)) for right, shares, own, by in apart]
+    return change, turns
+
 
 _TURNS = tuple(radians(turn) for turn in (12.0, 30.0, 55.0, 90.0))
-"""Of the joint that moves most, at the configurations that have to close along the first motion."""
+"""Turns of the joint that moves most, at the configurations that have to close along the first motion."""
 _BESIDE = tuple(radians(turn) for turn in (15.0, 50.0))
 """The same along further motions of a branch with several freedoms."""
 _FOLLOWED = tuple(radians(turn) for turn in (5.0, 20.0, 40.0, 70.0, 100.0))
-"""Where motions are looked at when all configurations close."""
+"""Turns at which motions are examined when all configurations close."""
 _ADDED = 6
-"""So many configurations are added, at most, where a motion stays open."""
+"""At most so many configurations are added where a motion stays open."""
 _BEYOND = 30.0
-"""What stays open by more than this times what vertices were moved by is out of reach, where panels meet."""
+"""A residual of more than this times the displacement of vertices is out of reach, where panels meet."""
 FARTHEST_PATTERN = 0.01
 """Vertices are displaced by this part of the extent at most: what is nearest farther off is another pattern."""
 _STEP = radians(3.0)
@@ -55,7 +322,7 @@ _LEAST_VALUE = 1e-9
 _LEAST, _MOST, _SHARE = 1e-14, 1e-6, 0.1
 """Regularisation: a share of the error, between bounds. Equations may become dependent as they come to hold."""
 _DENSE = 400
-"""Up to so many equations of a configuration, or between vertices, matrices are full."""
+"""Matrices with up to so many equations of a configuration, or between vertices, are full."""
 
 
 @dataclass(frozen=True)
@@ -206,7 +473,8 @@ class Fitting:
             if error <= _TIGHT or idle == _IDLE:
                 break
             state = equations.solved(state)
-        if self._equations(best).unscaled > DOUBLE.closed:
+        at_best = self._equations(best)
+        if _largest([at_best.fixed, *(pose.residual for pose in at_best.poses)]) > DOUBLE.closed:
             self.error, self.displaced = least, self._displacement(best)
             return None
         return best
@@ -238,9 +506,13 @@ class _Pose(NamedTuple):
     by_vertices: scipy.sparse.csr_matrix
     by_angles: scipy.sparse.csr_matrix
 
+    def block(self) -> EquationBlock:
+        """Return the divided equations with full matrices."""
+        return EquationBlock(self.residual / self.size, self.by_vertices.toarray(), self.by_angles.toarray())
+
 
 class _Equations(NamedTuple):
-    """What does not hold between vertices alone, its derivatives, and the equations of all configurations."""
+    """Residuals and derivatives of equations between vertices alone, and the equations of all configurations."""
 
     fixed: Floats
     by_vertices: scipy.sparse.csr_matrix
@@ -248,21 +520,17 @@ class _Equations(NamedTuple):
 
     @property
     def error(self) -> float:
-        """By how much equations do not hold, at most, as they are divided."""
-        return max(
-            float(np.abs(one).max(initial=0.0)) for one in (self.fixed, *(p.residual / p.size for p in self.poses))
-        )
-
-    @property
-    def unscaled(self) -> float:
-        """The same in radians and units of the extent."""
-        return _largest([self.fixed, *(pose.residual for pose in self.poses)])
+        """The largest residual, as divided."""
+        return _largest([self.fixed, *(pose.residual / pose.size for pose in self.poses)])
 
     def solved(self, state: _State) -> _State:
         """Return the state after the least step that takes all away."""
         if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
             return self._solved_sparse(state)
-        blocks = [Block(p.residual / p.size, p.by_vertices.toarray(), p.by_angles.toarray()) for p in self.poses]
+        blocks = []
+        for pose in self.poses:
+            by_vertices, by_angles = pose.by_vertices.toarray(), pose.by_angles.toarray()
+            blocks.append(EquationBlock(pose.residual / pose.size, by_vertices, by_angles))
         least = max(_LEAST_VALUE, _SHARE * self.error)
         change, turns = least_step(self.fixed, self.by_vertices.toarray(), blocks, least)
         return state.onwards(np.concatenate([change, *turns]))
@@ -278,7 +546,7 @@ class _Equations(NamedTuple):
 
 
 def _largest(residuals: Sequence[Floats]) -> float:
-    return max(float(np.abs(one).max(initial=0.0)) for one in residuals)
+    return max(float(np.abs(residual).max(initial=0.0)) for residual in residuals)
 
 
 def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:

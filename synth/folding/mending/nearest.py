@@ -1,8 +1,10 @@
 """The nearest mechanisms that move: for each branch that a crease pattern nearly has, vertices at which it has it.
 
-Angles that are meant to be alike come first, since then most patterns have all their branches again; of the
-branches that are left each is fitted, together with those before it as long as that is possible, else by itself:
-mending along one may lose another. Theory: docs/theory/mending.md.
+Sheets of quadrilaterals fold because their geometry is special, and rounding takes that away: as it is written
+such a pattern is rigid. Where rates would agree but for differences that the coordinates cannot resolve, vertices
+are moved to where they do. Angles that are meant to be alike come first, since then most patterns have all their
+branches again; of the branches that are left each is fitted, together with those before it as long as that is
+possible, else by itself: mending along one may lose another. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -10,45 +12,215 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
+from itertools import islice, product
 
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.canonical import MARGIN
 from graphs.convert.duality import SheetMechanism
-from graphs.mechanism.precision import Precision
+from graphs.geometry import across, best_plane
+from graphs.mechanism.precision import Precision, off_plane
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
-from synth.folding.mending.angles import MeantAngles
-from synth.folding.mending.fitting import FARTHEST_PATTERN, Fitting
-from synth.folding.mending.near import NearBranch, covers, near_branches, spaces_at, zeros_of
-from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.repair import FARTHEST, Mended, precision_with_pieces, with_vertices
-from synth.motion.branches import MOST_BRANCHES
+from synth.folding.mending.fitting import FARTHEST_PATTERN, Fitting, MeantAngles, VertexPlaces
+from synth.motion.branches import MOST_BRANCHES, FlatVertices
 from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import EXACT
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
-from synth.motion.misfit import EXACT
-from synth.motion.second_order import RateSpace, rates_near
-from synth.motion.singular.flat_vertices import FlatVertices
-from synth.motion.singular.quadrics import quadrics_of
-from synth.motion.singular.sampling import followed
-from synth.motion.walk.allowance import Allowance
+from synth.motion.singular.sampling import followed, rates_towards
+from synth.motion.singular.second_order import (
+    RateSpace,
+    largest_only,
+    quadrics_of,
+    rates_at,
+    rates_near,
+    spaces_within,
+)
+from synth.motion.walk.step import Allowance
 
-__all__ = ["ALL_BRANCHES", "Nearby", "Written", "beyond_precision", "nearby"]
+__all__ = ["Mended", "Nearby", "WrittenPattern", "beyond_precision", "covers", "flattened", "nearby"]
+
+FARTHEST = 4.0
+"""Vertices are moved by this times the precision at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """A crease pattern whose vertices were moved.
+
+    Attributes
+    ----------
+    sheet : Sheet
+    moved : float
+        Largest displacement of a vertex, in units of the extent.
+    precision : Precision
+        Of the coordinates as they were.
+    why : str
+        The property that the pattern has now and had not.
+    """
+
+    sheet: Sheet
+    moved: float
+    precision: Precision
+    why: str
+
+    def __str__(self) -> str:
+        precise = f"coordinates precise to {self.precision.size:.1g}: {self.precision.source}"
+        return f"vertices moved by up to {self.moved:.1g} of the extent so that {self.why} ({precise})"
+
+
+def flattened(sheet: Sheet, precision: Precision) -> Mended | None:
+    """Return a sheet that is meant to be flat with its vertices in one plane; None if it is not, or is there.
+
+    Examples
+    --------
+    >>> places = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1e-7), (0.0, 1.0, 0.0))
+    >>> book = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), places)
+    >>> print(flattened(book, Precision(1e-7, "7 decimals")).why)
+    they lie in one plane
+    """
+    if sheet.coordinates is None or len(sheet.coordinates[0]) < 3:
+        return None
+    points = np.asarray(sheet.coordinates, dtype=float)
+    off = off_plane(points)
+    if not EXACT / 1e3 < off <= FARTHEST * precision.size:
+        return None
+    plane = best_plane(points)
+    flat = plane.middle + across(points - plane.middle, plane.direction)
+    return Mended(with_vertices(sheet, flat), off, precision, "they lie in one plane")
+
+
+def with_vertices(sheet: Sheet, corners: Floats) -> Sheet:
+    """Return a sheet with its vertices at float[V, 3]."""
+    assert sheet.coordinates is not None
+    size = len(sheet.coordinates[0])
+    return replace(sheet, coordinates=tuple(map(tuple, corners[:, :size].tolist())))
+
+
+_SHORT = 10.0
+"""Percentile of the lengths of the creases by which errors of directions are judged."""
+_LIKE = 0.15
+"""Rates of two spaces are those of one branch, one of them of coordinates with errors, up to this part of the
+largest."""
+_WIDER = (1.0, 10.0, 0.15)
+"""Nearly agreeing rates are looked for at errors so many times those of one direction."""
+_WORK_NEAR = 3e8
+"""Work of one search for spaces of rates, in products of numbers: about a second."""
+_HARDLY, _ERRORS = 0.02, 30.0
+"""A rate may be an error that is no larger than the first, of the largest, and than this times what is zero."""
+_SLOW = 0.1
+"""Joints with smaller rates may be still where errors grew from vertex to vertex."""
+_BESIDE = 3
+"""Further motions along a branch with several freedoms, at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class NearBranch:
+    """A branch that a pattern nearly has: a space of rates that nearly agree.
+
+    `motions` are some of them, general ones, float[J], that nearest to the assignment first; the largest rate of
+    each is 1 or -1. Joints whose rates are no larger than `small` may be immobile on the intended branch: these
+    may be errors.
+    """
+
+    space: RateSpace
+    motions: tuple[Floats, ...]
+    small: float
+
+    @property
+    def begun(self) -> list[list[Floats]]:
+        """Rates of the motions: with joints still that hardly move, as they are, and with slow joints still."""
+        largest = np.abs(self.motions).max(axis=0)
+        found = [list(self.motions)]
+        for place, small in ((0, self.small), (2, _SLOW)):
+            hardly = (largest <= small) & (largest > 0.0)
+            if hardly.any():
+                found.insert(place, [np.where(largest > small, rates, 0.0) for rates in self.motions])
+        return found
+
+    def agreement(self, wanted: Floats) -> float:
+        """Return how many joints begin as is wanted, less those that do not."""
+        return float(np.sign(self.motions[0]) @ wanted)
+
+
+def zeros_of(precision: float, lengths: Floats) -> list[float]:
+    """Return below which parts of the largest values count as zero: what nearly agrees, the most likely first.
+
+    Errors of directions are those of short creases. They grow from vertex to vertex, by as much as rates differ;
+    and where lengths differ or errors are large, a zero that is too wide takes branches for one that are several.
+    """
+    length = float(np.percentile(lengths, _SHORT)) if len(lengths) else 1.0
+    return list(dict.fromkeys(Tolerances.nearly(part * precision, length) for part in _WIDER))
+
+
+def near_branches(
+    linkage: PosedLinkage, zero: float, wanted: Floats, most: int, known: Sequence[NearBranch] = ()
+) -> tuple[list[NearBranch], bool]:
+    """Return the branches that a linkage nearly has, but for known ones, and whether these are all.
+
+    Those nearest to wanted rates come first. Values below the zero count as none. The search ends after `most`
+    spaces of rates.
+    """
+    found: list[NearBranch] = []
+    spaces, complete = spaces_at(linkage, most, zero)
+    for space in spaces:
+        motions = _motions(space, wanted)
+        if motions and not any(_alike(space, one.space) for one in (*known, *found)):
+            found.append(NearBranch(space, motions, min(_HARDLY, _ERRORS * zero)))
+    return sorted(found, key=lambda one: -one.agreement(wanted)), complete
+
+
+def spaces_at(linkage: PosedLinkage, most: int, zero: float = DOUBLE.zero) -> tuple[list[RateSpace], bool]:
+    """Return the spaces of rates that agree to second order, and whether these are all."""
+    tangent, allowance = rates_at(ClosureEquations(linkage), linkage.angles, zero), Allowance(_WORK_NEAR)
+    spaces = spaces_within(tangent, quadrics_of(linkage), zero, allowance)
+    found = list(islice(spaces, most + 1))
+    return largest_only(found[:most], zero), len(found) <= most and not allowance.used_up
+
+
+def covers(space: RateSpace, near: RateSpace) -> bool:
+    """Tell whether rates that agree exactly are those of a branch that nearly agreed, with all its freedoms."""
+    if space.basis.shape[1] < near.basis.shape[1] or len(space.left) > len(near.left):
+        return False
+    off = near.basis - space.basis @ (space.basis.T @ near.basis)
+    return bool(np.abs(off).max() <= _LIKE * np.abs(near.basis).max())
+
+
+def _alike(space: RateSpace, other: RateSpace) -> bool:
+    return space.basis.shape == other.basis.shape and covers(space, other) and covers(other, space)
+
+
+def _motions(space: RateSpace, wanted: Floats) -> tuple[Floats, ...]:
+    """Return general rates of a space, those nearest to wanted ones first; none where there are none."""
+    size = space.basis.shape[1]
+    starts = [wanted]
+    for number in range(min(size, _BESIDE) if size > 1 else 1):
+        chance = np.random.default_rng((*space.basis.shape, number))
+        starts.append(space.basis @ (chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)))
+    found: list[Floats] = []
+    for start in starts:
+        rates = rates_towards(space, start) if space.left else space.basis @ (space.basis.T @ start)
+        largest = float(np.abs(rates).max())
+        if largest > DOUBLE.zero_rate:
+            scaled = rates / largest
+            found.append(np.where(np.abs(scaled) > MARGIN, scaled, 0.0))
+    return tuple(found if size > 1 else found[:1])
+
 
 ALL_BRANCHES = 120
-"""Of linkages of more joints one way to move is enough: there may be twice as many for each two panels more."""
+"""For larger linkages one motion is enough: each two panels more may double the number of branches."""
 _WORK = 3e4
 """Unknowns of all rounds of all fittings together: a few seconds."""
 _SEPARATE = 4
 """After so many branches for which nothing was found no others are tried."""
 _ALONG = "loops close along a motion"
 _ALL_BUT = 0.1
-"""What is open by less than this part of the precision, by the square of the turn, may be near to a mechanism."""
+"""A residual below this part of the precision, by the square of the turn, may be near to a mechanism."""
 _AROUND = 2.0
 """An attempt with a vertex farther off than this times the reach says nothing of what is within."""
 _FOLLOW = 5e2
-"""What following a branch takes of the work."""
+"""Work of following a branch."""
 _FARTHER = (1e-4, 1e-3)
 """Errors of a coordinate, of the extent, at which the nearest mechanism of a rigid pattern is looked for."""
 _TIGHTER = (1.0, 0.25)
@@ -56,7 +228,7 @@ _TIGHTER = (1.0, 0.25)
 
 
 @dataclass(frozen=True)
-class Written:
+class WrittenPattern:
     """A crease pattern as it is written, opened along cuts: its linkage, precision, and wanted signs of rates."""
 
     sheet: Sheet
@@ -73,7 +245,7 @@ class Written:
 
 @dataclass(frozen=True)
 class Nearby:
-    """Mechanisms near a crease pattern that move in ways which it nearly has.
+    """Mechanisms near a crease pattern that have branches which it nearly has.
 
     Attributes
     ----------
@@ -109,7 +281,7 @@ class _Candidate:
     has: frozenset[int]
 
 
-def nearby(written: Written, levels: int = 3) -> Nearby:
+def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
     """Return the nearest mechanisms with the branches that a pattern nearly has.
 
     A vertex is displaced by four times the precision, at most. Nothing is done where a pattern has all of them as
@@ -117,7 +289,9 @@ def nearby(written: Written, levels: int = 3) -> Nearby:
     three levels, until anything is found.
     """
     places = VertexPlaces(written.sheet, written.mechanism, written.linkage)
-    precision = precision_with_pieces(places, written.precision)
+    precision = written.precision
+    if precision.size <= EXACT < places.bent:  # exact by their digits, but not by these
+        precision = Precision(places.bent, "creases of several pieces")
     if precision.size <= EXACT:
         return Nearby()
     if not written.small:
@@ -125,7 +299,7 @@ def nearby(written: Written, levels: int = 3) -> Nearby:
     return _Search(written, places, precision).nearby(levels)
 
 
-def beyond_precision(written: Written) -> Mended | None:
+def beyond_precision(written: WrittenPattern) -> Mended | None:
     """Return the nearest mechanism that was found beyond the precision of a pattern that does not move.
 
     Its branches are looked for at errors ten times larger each time; None where there is none, and of a pattern
@@ -143,9 +317,9 @@ def beyond_precision(written: Written) -> Mended | None:
 
 
 class _Tried:
-    """What all searches have in common: the reach, angles that are meant, patterns with moved vertices."""
+    """The base of all searches: the reach, angles that are meant to be alike, patterns with moved vertices."""
 
-    def __init__(self, written: Written, places: VertexPlaces, precision: Precision) -> None:
+    def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
         self.written, self.places, self.precision = written, places, precision
         self.reach = max(FARTHEST * precision.size, places.bent)  # pieces of a crease were taken to be in line
         self.allowance = Allowance(_WORK)
@@ -156,16 +330,14 @@ class _Tried:
         angles = [MeantAngles(self.places, part * self.precision.size) for part in _TIGHTER]
         if len(angles[0]) == len(angles[1]):
             angles.pop()
-        angles = [*(one for one in angles if len(one)), MeantAngles(self.places, 0.0)]
-        found = []
-        for one in angles:
-            fitting = Fitting(self.places, one, self.written.linkage.angles, self.allowance)
+        angles = [*filter(len, angles), MeantAngles(self.places, 0.0)]
+        fittings = []
+        for meant in angles:
+            fitting = Fitting(self.places, meant, self.written.linkage.angles, self.allowance)
             if fitting.at_the_pose() and fitting.moved <= self.reach:
-                why = (
-                    "angles that nearly agree are equal" if len(one) else "creases are straight and panels planar"
-                )
-                found.append((fitting, why))
-        return found
+                equal, straight = "angles that nearly agree are equal", "creases are straight and panels planar"
+                fittings.append((fitting, equal if len(meant) else straight))
+        return fittings
 
     def mended(self, fitting: Fitting, why: str) -> Mended:
         """Return the pattern with its vertices moved."""
@@ -181,7 +353,7 @@ class _Tried:
 class _Search(_Tried):
     """The search in a pattern of which all spaces of rates are looked for."""
 
-    def __init__(self, written: Written, places: VertexPlaces, precision: Precision) -> None:
+    def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
         super().__init__(written, places, precision)
         self.near: list[NearBranch] = []
         self.candidates: list[_Candidate] = []
@@ -245,10 +417,8 @@ class _Search(_Tried):
         begun = space.basis @ (space.basis.T @ self.near[number].motions[-1])
         rates = begun / np.abs(begun).max()
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
-        came = followed(linkage, closure, rates, still)
-        return came.far > 0.0 and (
-            bool(space.left) or (came.freedoms or 0) >= self.near[number].space.basis.shape[1]
-        )
+        end, freedoms = followed(linkage, closure, rates, still), self.near[number].space.basis.shape[1]
+        return end.far > 0.0 and (bool(space.left) or (end.freedoms or 0) >= freedoms)
 
     def _add(self, mended: Mended, fitting: Fitting) -> _Candidate | None:
         """Take a mended pattern among the candidates if it has any near branch."""
@@ -345,8 +515,5 @@ class _Large(_Tried):
 
     def _nearly(self) -> Floats | None:
         """Return rates near to the assignment that nearly agree."""
-        linkage, zero = self.written.linkage, Tolerances.of(self.precision.size).zero
-        rates = rates_near(
-            ClosureEquations(linkage), linkage.angles, quadrics_of(linkage), self.written.wanted, zero
-        )
+        rates = self._rates(self.written.linkage, Tolerances.of(self.precision.size).zero)
         return None if rates is None else rates / np.abs(rates).max()

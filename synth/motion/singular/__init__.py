@@ -1,9 +1,8 @@
-"""What is known of a singular pose: the equations of second order, proofs that nothing moves, branches followed.
+"""Singular configurations: equations of second order, proofs of rigidity, branches followed.
 
-`quadrics` makes an equation of each self-stress, `definite` finds sums of them that are positive, `rigidity`
-proves by these that nothing moves; `flat_vertices` knows the modes of four creases, `sampling` goes along a
-branch, `located` takes its end to where it is singular to all digits, `nearest` finds one way of linkages that are
-too large for all. Theory: docs/theory/folding.md.
+`second_order` makes an equation of each self-stress, finds the rates that agree with all of them, and proves
+rigidity; `joint_order` is the order of the joints in which branches are searched for, `sampling` follows a branch,
+`nearest` finds one motion of linkages that are too large for all. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """An order of the joints that depends on the mechanism alone, not on how a file numbers them.
 
 A search that is cut off, or that begins at random numbers, depends on the order of joints and of equations; so
-does a choice among equals. Branches are looked for in this order, and told in that of the file. Joints are told
-apart by what a motion, a mirror and another unit of length leave: the links they share, the angles and moments
-between their axes, their distances from the centres of loops. Classes are refined until nothing new is told (by
-colour refinement); of joints that are still alike, as those are that a symmetry takes to each other, one is taken
-out and refinement goes on. Theory: docs/theory/rounding.md.
+does a choice among equals. Branches are looked for in this order, and reported in that of the file. Joints are
+told apart by what a motion, a mirror and another unit of length leave: the links they share, the angles and
+moments between their axes, their distances from the centres of loops. Classes are refined until nothing changes
+(by colour refinement); of joints that are still alike, as those are that a symmetry takes to each other, one is
+taken out and refinement goes on. Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -29,34 +29,14 @@ _BENT = 0.37
 """Invariants x count as 1 / (x + this): sums of squares are alike where their terms are not."""
 
 _SHARES = (1.0, 0.731, 0.519, 0.347)
-"""Of several invariants that are added to one."""
+"""Weights of the invariants that are added to one."""
 
 
 def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
-    """Return the places of the joints of a linkage in an order that renaming, moving and mirroring leave as it is.
+    """Return the places of the joints, int[J], in an order that renaming, moving and mirroring leave as it is.
 
-    Parameters
-    ----------
-    linkage : PosedLinkage
-    marks : float[J], optional
-        1, -1 or 0 of each joint, by which joints that are alike are told apart; up to the sign of all.
-
-    Returns
-    -------
-    int[J]
-
-    Examples
-    --------
-    The sectors of a vertex are told apart by their angles, wherever its list of creases begins:
-
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.motion.linkage import linkage_of_sheet
-    >>> corners = ((0, 0), (1, 0), (.5, .9), (-1, .2), (-.5, -.7))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> ways = (faces, faces[2:] + faces[:2])
-    >>> here, there = (linkage_of_sheet(Sheet(5, (), "", way, corners)) for way in ways)
-    >>> bool(np.allclose(here.points[joint_order(here)], there.points[joint_order(there)]))
-    True
+    Marks, float[J], are 1, -1 or 0 for each joint; joints that are alike are distinguished by them, up to the sign
+    of all.
     """
     joints = len(linkage.angles)
     if joints < 2:
@@ -73,10 +53,8 @@ def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
         return relations.order(colours)
     sides = [np.concatenate([sign * marks, np.zeros(relations.centres)]) for sign in _signs(colours, marks)]
     orders = [relations.order(relations.refined(_classes(colours, side))) for side in sides]
-    seen = [
-        np.concatenate([side[order], relations.pairs[np.ix_(order, order)].ravel()])
-        for order, side in zip(orders, sides, strict=True)
-    ]
+    both, pairs = zip(orders, sides, strict=True), relations.pairs
+    seen = [np.concatenate([side[order], pairs[np.ix_(order, order)].ravel()]) for order, side in both]
     return orders[canonical_order(seen, DOUBLE.zero)[0]]
 
 
@@ -124,26 +102,16 @@ def _is_about(loop: PosedLoop) -> bool:
 
 
 def in_order(linkage: PosedLinkage, order: Ints) -> PosedLinkage:
-    """Return a linkage with its joints in an order, and its loops by these, beginning at their first joint.
-
-    >>> from synth.motion.linkage import linkage_of_axes
-    >>> axes = {joint: ((joint, 0.0, 0.0), (0.0, 0.0, 1.0)) for joint in range(2)}
-    >>> chain = linkage_of_axes(SCGraph(3, [(0, 1), (1, 2)]), axes)
-    >>> list(in_order(chain, np.array([1, 0])).graph.joints)
-    [1, 0]
-    """
+    """Return a linkage with its joints in an order, and its loops by these, beginning at their first joint."""
     graph, names = linkage.graph, list(linkage.graph.joints)
     place = np.argsort(order)
-    loops = sorted((_begun_at_first(loop, place) for loop in linkage.loops), key=_loop_rank)
+    loops = [_begun_at_first(loop, place) for loop in linkage.loops]
+    # those about a point first, in the order of their last joints
+    loops.sort(key=lambda loop: (loop.centre is not Centre.FINITE, sorted(loop.joints, reverse=True)))
     joints = {names[old]: graph.joints[names[old]] for old in order.tolist()}
-    return replace(
-        linkage,
-        graph=SCGraph(graph.nodes, joints, graph.loops, closing=graph.closing, ground=graph.ground),
-        points=linkage.points[order],
-        directions=linkage.directions[order],
-        angles=linkage.angles[order],
-        loops=tuple(loops),
-    )
+    ordered = SCGraph(graph.nodes, joints, graph.loops, closing=graph.closing, ground=graph.ground)
+    points, directions, angles = linkage.points[order], linkage.directions[order], linkage.angles[order]
+    return replace(linkage, graph=ordered, points=points, directions=directions, angles=angles, loops=tuple(loops))
 
 
 def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:
@@ -157,11 +125,6 @@ def _begun_at_first(loop: PosedLoop, place: Ints) -> PosedLoop:
     return PosedLoop(tuple(joints), tuple(signs), loop.centre)
 
 
-def _loop_rank(loop: PosedLoop) -> tuple[bool, list[int]]:
-    """Return what loops are sorted by: those about a point first, in the order of their last joints."""
-    return loop.centre is not Centre.FINITE, sorted(loop.joints, reverse=True)
-
-
 def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
     """Return the sign of marks that the first class whose marks are not in balance makes positive, or both."""
     sums = np.bincount(colours[: len(marks)], weights=marks)
@@ -171,14 +134,10 @@ def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Relations:
-    """What joints and centres are to each other: the mean of it over a class tells its members apart.
+    """Invariant relations of joints and centres to each other: the mean over a class distinguishes its members.
 
-    Attributes
-    ----------
-    pairs : float[n, n]
-        Symmetric; the joints first, then the centres of loops about a point. A sum of invariants, each with a
-        share of its own.
-    joints, centres : int
+    `pairs`, float[n, n], is symmetric, the joints first, then the centres of loops about a point: a sum of
+    invariants, each with a share of its own.
     """
 
     pairs: Floats
@@ -187,7 +146,7 @@ class _Relations:
 
     @classmethod
     def of(cls, linkage: PosedLinkage) -> _Relations:
-        """Return what the joints of a linkage and the centres of its loops are to each other."""
+        """Return the relations of the joints of a linkage and the centres of its loops."""
         joints = len(linkage.angles)
         about = [loop for loop in linkage.loops if _is_about(loop)]
         centres = np.array([_centre(linkage, loop) for loop in about]).reshape(-1, 3)

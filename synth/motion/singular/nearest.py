@@ -1,7 +1,10 @@
-"""Rates near to wanted ones that agree to second order, without a search of all; for linkages too large for that.
+"""One motion near wanted rates, without a search of all branches; for linkages too large for that.
 
-Each equation is looked at on the few joints that it is between, so that one step costs as much as there are
-equations, however many rates there are. Theory: docs/theory/folding.md.
+Rates that agree to second order are found by Newton's method, each equation on the few joints that it is between,
+so that one step costs as much as there are equations, however many rates there are. At the flat state the loops
+say of the signs of rates only what second order does, and Newton's method there comes to rest where branches meet.
+At fold angles of some tenths of a radian most configurations are regular: it needs few steps. A folded state
+belongs to a motion from flat only if it can be followed back there. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -9,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
+from math import pi
 
 import numpy as np
 
@@ -16,23 +20,125 @@ from graphs.arrays import Floats, Ints
 from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
 from graphs.rank.spaces import Inertia, inertia, split
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
+from synth.motion.closure import ClosureEquations, TangentSpace, corrected
 from synth.motion.linkage import PosedLinkage
-from synth.motion.second_order import RateSpace, rates_at, rates_near
-from synth.motion.singular.finite import FoldedStart, folded_start
-from synth.motion.singular.quadrics import Quadric, quadrics_of
 from synth.motion.singular.sampling import rates_towards
+from synth.motion.singular.second_order import Quadric, RateSpace, quadrics_of, rates_at, rates_near
+from synth.motion.walk.step import STRAY
 
-__all__ = ["MOST_RATES", "Begun", "begun_near", "spaces_near"]
+__all__ = ["InitialMotion", "begun_near", "folded_start", "spaces_near"]
+
+_SCALES, _WEIGHTS = (0.4, 0.2, 0.6), (1.0, 0.7, 1.4)
+"""Fold angles of valleys at the starts, radians, and those of mountains as multiples of these: where both are
+alike, a symmetric start may lead back to the flat state."""
+_FEW = 600
+"""With more joints mountains and valleys start alike."""
+_FINITE = 0.05
+"""Configurations with smaller angles only, radians, are the flat state but for what Newton's method left."""
+_STEPS, _PATIENCE = 30, 4
+"""Steps from one start, and so many in turn that do not make the residual less."""
+_BACK, _LEAST_BACK = 0.6, 0.98
+"""Angles after a step back as part of those before, and where no such step is possible."""
+_SMALL = 0.02
+"""The way back ends where the largest angle is smaller, radians: loops there close to fourth order by rates."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoldedStart:
+    """A motion that was found at a folded state and followed back towards the flat one.
+
+    `rates`, float[J], are the fold angles at the end of the way back, the largest 1 or -1; `agree` joints turn as
+    wanted there. The largest fold angles are `found_at` where it was found and `back_to` where the way back ends,
+    radians.
+    """
+
+    rates: Floats
+    agree: int
+    found_at: float
+    back_to: float
+
+
+def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | None:
+    """Return a motion from the flat state on which most joints turn as is wanted; None where none was found.
+
+    Wanted are signs, float[J], 0 where there is none; the search ends at the first motion that has them all. The
+    linkage is flat where its angles are zero.
+    """
+    best = None
+    goal = int(np.count_nonzero(wanted))
+    for start in _starts(wanted):
+        angles = _closed(closure, start)
+        if angles is None or (best is not None and _agreement(angles, wanted) <= best.agree):
+            continue
+        back = _followed_back(closure, angles)
+        if back is None:
+            continue
+        small, largest = back, float(np.abs(back).max())
+        found = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
+        if best is None or found.agree > best.agree:
+            best = found
+        if best.agree == goal:
+            break
+    return best
+
+
+def _starts(wanted: Floats) -> Iterator[Floats]:
+    """Yield fold angles along the signs that are wanted, radians."""
+    signs = np.sign(wanted)
+    for weight in _WEIGHTS if len(wanted) <= _FEW and (signs > 0).any() and (signs < 0).any() else _WEIGHTS[:1]:
+        for scale in _SCALES:
+            yield scale * np.where(signs < 0.0, weight, 1.0) * signs
+
+
+def _closed(closure: ClosureEquations, start: Floats) -> Floats | None:
+    """Return a closed folded configuration near given angles, by Newton's method with all its derivatives.
+
+    It ends where the residual does not fall any more, or a joint has turned once round.
+    """
+    angles, least, idle = start, np.inf, 0
+    for _ in range(_STEPS):
+        residual, jacobian = closure.at(angles)
+        error = float(np.abs(residual).max(initial=0.0))
+        if error <= DOUBLE.closed:
+            largest = float(np.abs(angles).max(initial=0.0))
+            return angles if _FINITE <= largest <= pi else None
+        idle = 0 if error < least else idle + 1
+        least = min(error, least)
+        if idle == _PATIENCE or np.abs(angles).max() > 2.0 * pi:
+            return None
+        angles = angles + TangentSpace(jacobian).step(residual)
+    return None
+
+
+def _followed_back(closure: ClosureEquations, angles: Floats) -> Floats | None:
+    """Return the small angles at the end of the way back to the flat state; None where it does not lead there.
+
+    All angles are made less in proportion, and corrected; a step is taken smaller where the correction is more
+    than a part of it, or a joint turns over.
+    """
+    part = _BACK
+    while float(np.abs(angles).max()) > _SMALL:
+        end = corrected(closure, part * angles)
+        largest = float(np.abs(angles).max())
+        stray = float(np.abs(end.angles - part * angles).max())
+        turned_over = (angles * end.angles < -(DOUBLE.zero_rate**2) * float(angles @ angles)).any()
+        if not end.closed or stray > STRAY * (1.0 - part) * largest or turned_over:
+            part = 1.0 - (1.0 - part) / 2.0
+            if part > _LEAST_BACK:
+                return None
+            continue
+        angles = end.angles
+    return angles
+
 
 MOST_RATES = 1500
-"""Of more joints the rates that close to first order are not all looked for: their matrix is dense."""
+"""With more joints the rates that close to first order are not all computed: their matrix is dense."""
 _DEAD_ENDS = 200
 """After so many choices that leave nothing the search ends."""
 
 
 @dataclass(frozen=True, slots=True)
-class Begun:
+class InitialMotion:
     """Rates with which a motion begins, the largest 1 or -1; None where none were found.
 
     `rigid` says that all choices leave nothing: nothing moves. `folded` is the folded state from which the motion
@@ -44,7 +150,7 @@ class Begun:
     folded: FoldedStart | None = None
 
 
-def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> Begun:
+def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> InitialMotion:
     """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
 
     From folded states along the wanted rates, if the linkage is flat; unless these lead to a motion with all of
@@ -56,12 +162,12 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
     if folded is not None and folded.folded is not None and folded.folded.agree == np.count_nonzero(wanted):
         return folded
     rates = rates_near(closure, linkage.angles, quadrics, wanted)
-    if rates is not None and (folded is None or _agree(rates, wanted) >= _agree(folded.rates, wanted)):
-        return Begun(rates / np.abs(rates).max(), rigid=False)
+    if rates is not None and (folded is None or _agreement(rates, wanted) >= _agreement(folded.rates, wanted)):
+        return InitialMotion(rates / np.abs(rates).max(), rigid=False)
     if folded is not None:
         return folded
     if closure.joints > MOST_RATES:
-        return Begun(None, rigid=False)
+        return InitialMotion(None, rigid=False)
     tangent = rates_at(closure, linkage.angles)
     spaces, nothing = spaces_near(tangent, quadrics, wanted), True
     for space in islice(spaces, _DEAD_ENDS):
@@ -71,14 +177,14 @@ def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats)
         for start in (wanted, space.basis.sum(axis=1)):
             rates = rates_towards(space, start)
             if rates.any():
-                return Begun(rates, rigid=False)
+                return InitialMotion(rates, rigid=False)
     through = not list(islice(spaces, 1))
-    return Begun(None, rigid=nothing and through)
+    return InitialMotion(None, rigid=nothing and through)
 
 
 def _from_folded(
     closure: ClosureEquations, linkage: PosedLinkage, quadrics: Sequence[Quadric], wanted: Floats
-) -> Begun | None:
+) -> InitialMotion | None:
     """Return rates near those of a motion that is followed back from a folded state; None where none is found."""
     if np.abs(linkage.angles).max(initial=0.0) > DOUBLE.parallel:
         return None
@@ -86,14 +192,14 @@ def _from_folded(
     if found is None:
         return None
     near = rates_near(closure, linkage.angles, quadrics, found.rates)
-    lost = near is None or _agree(near, wanted) < found.agree
+    lost = near is None or _agreement(near, wanted) < found.agree
     rates = found.rates if lost or near is None else near / np.abs(near).max()
-    return Begun(rates, rigid=False, folded=found)
+    return InitialMotion(rates, rigid=False, folded=found)
 
 
-def _agree(rates: Floats | None, wanted: Floats) -> int:
-    """Return how many joints turn as is wanted."""
-    return 0 if rates is None else int((rates * wanted > DOUBLE.zero_rate * np.abs(rates).max()).sum())
+def _agreement(rates: Floats | None, wanted: Floats) -> int:
+    """Return how many joints turn as is wanted: at rates or angles, float[J]."""
+    return 0 if rates is None else int((rates * wanted > DOUBLE.zero_rate * np.abs(rates).max(initial=0.0)).sum())
 
 
 def spaces_near(
@@ -183,10 +289,8 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tu
     factors /= np.linalg.norm(factors, axis=2, keepdims=True)
     off = np.abs(factors @ wanted)
     least, most = off.min(axis=1), off.max(axis=1)
-    told = most > DOUBLE.zero_rate * np.linalg.norm(wanted)  # others are on both factors, but for rounding
-    best = trailing(np.where(told, least / np.where(told, most, 1.0), 1.0), scale=1.0)
-    first, second = (
-        factors[best][place] for place in canonical_order([signed(basis @ one) for one in factors[best]])
-    )
+    clear = most > DOUBLE.zero_rate * np.linalg.norm(wanted)  # others are on both factors, but for rounding
+    best = factors[trailing(np.where(clear, least / np.where(clear, most, 1.0), 1.0), scale=1.0)]
+    first, second = (best[place] for place in canonical_order([signed(basis @ normal) for normal in best]))
     swapped = abs(float(second @ wanted)) < abs(float(first @ wanted)) - MARGIN * float(np.linalg.norm(wanted))
     return (second, first) if swapped else (first, second)

@@ -1,8 +1,8 @@
-"""Branches followed from a singular pose: rates to begin with, a pose some way along, the freedoms there.
+"""Branches followed from a singular configuration: initial rates, a configuration along it, the freedoms there.
 
-On many branches joints are still: three creases of a vertex that lies flat while a line through it folds. Their
+On many branches joints are immobile: three creases of a vertex that lies flat while a line through it folds. Their
 closure equations are squares there, which Newton's method approaches slowly, so these joints are locked; where
-nothing is found so, they are freed. Theory: docs/theory/folding.md.
+no motion is found so, they are freed. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -16,20 +16,23 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.canonical import leading, signed, trailing
-from graphs.rank.spaces import inertia, singular_values
+from graphs.rank.spaces import Split, inertia, singular_values, split
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage
+from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.path import PathOptions, driven_path
-from synth.motion.placement import moved
-from synth.motion.second_order import RateSpace, largest_only, rates_at, spaces_within
-from synth.motion.singular.located import located
-from synth.motion.singular.quadrics import all_quadrics, local_forms
-from synth.motion.walk.allowance import Allowance
+from synth.motion.singular.second_order import (
+    RateSpace,
+    all_quadrics,
+    largest_only,
+    local_forms,
+    rates_at,
+    spaces_within,
+)
+from synth.motion.walk.step import Allowance
 
 __all__ = [
-    "FOLLOWED",
-    "Followed",
+    "TracedBranch",
     "followed",
     "freedoms_at",
     "general_rates",
@@ -39,13 +42,67 @@ __all__ = [
     "walked",
 ]
 
+_STEPS = 6
+_NUDGE = 1e-4
+"""Radians, of the differences by which derivatives change along a flex."""
+
+
+def located(closure: ClosureEquations, angles: Floats) -> Floats:
+    """Return the closed configuration beside another at which singular values that are nearly zero are zero.
+
+    Along a flex that does not close to second order, loops closed to 1e-12 leave open the root of that: Newton's
+    method ends anywhere within 1e-6 of the branch, and singular values that are zero on it are as large there. So
+    the end of a path is taken across its flexes to where these are zero, before its rank is. Singular values up to
+    `Tolerances.singular` are examined; the configuration is returned as it is where there are none but zeros, or
+    they do not vanish near it.
+    """
+    matrix = closure.at(angles)[1].toarray()
+    if not _nearly(singular_values(matrix)):
+        return angles
+    here, parts = angles, split(matrix, DOUBLE.singular)
+    size = parts.right.shape[0] - parts.rank
+    for _ in range(_STEPS):
+        here = corrected(closure, here + _across(closure, here, parts)).angles
+        if np.abs(here - angles).max() > DOUBLE.moved:
+            return angles
+        parts = split(closure.at(here)[1].toarray(), DOUBLE.singular)
+        if parts.right.shape[0] - parts.rank != size:
+            return angles
+        if not _nearly(parts.values):
+            return here if closure.error(here) <= DOUBLE.closed else angles
+    return angles
+
+
+def _nearly(values: Floats) -> int:
+    """Return how many singular values are small, and not zero."""
+    largest = values.max(initial=0.0)
+    return int(((values > DOUBLE.zero * largest) & (values <= DOUBLE.singular * largest)).sum())
+
+
+def _across(closure: ClosureEquations, angles: Floats, parts: Split) -> Floats:
+    """Return the least change along flexes at which none of them parts loops to first order: float[J].
+
+    Between flexes and self-stresses the derivatives J are a small matrix, S' J F; along each flex it changes at a
+    rate, and the changes that make it zero are a system of linear equations.
+    """
+    flexes, stresses = parts.right[parts.rank :], parts.left[:, parts.rank :]
+
+    def between(at: Floats) -> Floats:
+        return np.asarray(stresses.T @ (closure.at(at)[1] @ flexes.T))
+
+    nudged = [(between(angles + _NUDGE * flex), between(angles - _NUDGE * flex)) for flex in flexes]
+    slopes = [((ahead - back) / (2.0 * _NUDGE)).ravel() for ahead, back in nudged]
+    shares = np.linalg.lstsq(np.array(slopes).T, -between(angles).ravel(), rcond=DOUBLE.zero**0.5)[0]
+    return np.asarray(shares @ flexes)
+
+
 FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
 _NEWTON, _ROUNDED = 30, 1e-14
 _BESIDE, _ASIDE = 8, 0.3
-"""So many starts beside wanted rates, so far from them as part of their size."""
+"""Number of starts beside wanted rates, and their distance as part of the size of these."""
 _SHORT_OF = 0.7
 """This part of a path that ended early is taken again."""
 _SPACES = 64
@@ -53,7 +110,7 @@ _SPACES = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Followed:
+class TracedBranch:
     """How far one branch was followed: joint angles at the end, radians, and the loop-closure residual there.
 
     Freedoms there are to second order; None where no motion was found or second order does not decide. `far` says
@@ -72,7 +129,7 @@ def followed(
     rates: Floats,
     still: tuple[int, ...] = (),
     allowance: Allowance | None = None,
-) -> Followed:
+) -> TracedBranch:
     """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
 
     The linkage is closed at its pose; initial rates agree to second order, and joints at the places `still` do not
@@ -85,9 +142,9 @@ def followed(
         if far > DOUBLE.moved:
             break
     else:
-        return Followed(None, linkage.angles, closure.error(linkage.angles), 0.0)
+        return TracedBranch(None, linkage.angles, closure.error(linkage.angles), 0.0)
     # what came here moves: where second order leaves nothing, it does not tell
-    return Followed(freedoms_at(linkage, closure, end) or None, end, error, far)
+    return TracedBranch(freedoms_at(linkage, closure, end) or None, end, error, far)
 
 
 def walked(
@@ -104,10 +161,10 @@ def walked(
     return path.angles[-1], float(path.errors[-1])
 
 
-def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> Followed:
+def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> TracedBranch:
     """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
     end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
-    return Followed(space.basis.shape[1], end, closure.error(end), FOLLOWED)
+    return TracedBranch(space.basis.shape[1], end, closure.error(end), FOLLOWED)
 
 
 def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
@@ -142,13 +199,11 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     forms = local_forms(space.basis, space.left)
     x = _on_equations(forms, start)
     if x is not None and (rank := _slopes(forms, x)) < len(forms):
-        beside = [
-            np.random.default_rng((*space.basis.shape, number)).normal(size=len(start))
-            for number in range(_BESIDE)
-        ]
-        found = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(one) * one) for one in beside]
-        general = [one for one in found if one is not None and _slopes(forms, one) > rank]
-        x = general[trailing(np.array([-(one @ start) / size for one in general]), scale=1.0)] if general else x
+        chances = (np.random.default_rng((*space.basis.shape, number)) for number in range(_BESIDE))
+        beside = [chance.normal(size=len(start)) for chance in chances]
+        ends = [_on_equations(forms, start + _ASIDE * size / np.linalg.norm(aside) * aside) for aside in beside]
+        general = [end for end in ends if end is not None and _slopes(forms, end) > rank]
+        x = general[trailing(np.array([-(end @ start) / size for end in general]), scale=1.0)] if general else x
     return np.zeros_like(wanted) if x is None else turn * _scaled(space.basis @ x)
 
 

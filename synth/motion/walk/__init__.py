@@ -1,9 +1,8 @@
-"""One walk along a curve of closed configurations, for all that moves.
+"""One walk along a curve of closed configurations, for all motions.
 
-`walking` takes the steps, `step` finds configurations within one; `events` are objects that are given to a walk:
-turning points, panels on each other, rank deficiencies (`rank` watches, `parting` counts the branches), the return
-to where it began; others bring their own. `event` is the record of what was met, `allowance` counts the work.
-`freedoms`: which joints drive a configuration. Theory: docs/theory/folding.md.
+`walking` takes the steps and keeps the signs of fold angles, `step` finds configurations within one and watches
+the rank; `events` has the events that a walk is given: turning points, panels on each other, rank deficiencies,
+the return to where it began; others bring their own. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations

@@ -1,4 +1,9 @@
-"""What a walk meets by itself: turning points, panels on each other, less rank, the place where it began."""
+"""Events of a walk: turning points, panels on each other, rank deficiencies, the return to where it began.
+
+Where the rank drops, rates r of the kernel close to second order if w . H(r, r) = 0 for all self-stresses w. Where
+the kernel is a plane these are quadratic forms in two variables; if they are multiples of one, its two lines are
+two branches. Theory: docs/theory/folding.md.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +12,16 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
+from graphs.arrays import Flags, Floats, Ints
+from graphs.canonical import pivots
 from graphs.ids import JointId
+from graphs.rank.spaces import row_space, split
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import Corrected, corrected
-from synth.motion.walk.event import named
-from synth.motion.walk.parting import other_ways
-from synth.motion.walk.step import Step
+from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected
+from synth.motion.walk.step import Step, named
 from synth.motion.walk.walking import Event, Walk, only_rates
 
-__all__ = ["Limit", "RankDeficiency", "Return", "TurningPoint"]
+__all__ = ["Limit", "RankDeficiency", "Return", "TurningPoint", "free_rates", "independent_joints"]
 
 _FLAT, _FLAT_BEYOND = 1e-4, 0.02
 """Angles this near to 0 and 180 degrees, radians, are those if loops close with them; the second is for steps that
@@ -27,14 +31,7 @@ _SHORT_OF_END = 0.999
 
 
 class Limit(Event):
-    """Panels lie on each other: joints do not turn beyond 180 degrees.
-
-    Parameters
-    ----------
-    limited : bool[J]
-        Joints that do not.
-    names : sequence of J joint ids
-    """
+    """Panels lie on each other: limited joints, bool[J], do not turn beyond 180 degrees."""
 
     def __init__(self, limited: Flags, names: Sequence[JointId]) -> None:
         self._limited, self._names = limited, names
@@ -90,12 +87,7 @@ class Limit(Event):
 
 
 class RankDeficiency(Event):
-    """The closure equations leave more rates than before and after: branches may part.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    """
+    """The closure equations leave more rates than before and after: branches may meet."""
 
     def __init__(self, closure: ClosureEquations) -> None:
         self._closure = closure
@@ -108,18 +100,9 @@ class RankDeficiency(Event):
 
 
 class TurningPoint(Event):
-    """A joint has an extreme angle. The walk lands there, and goes on.
+    """A joint has an extreme angle: the walk lands there, `last`, and goes on.
 
-    Parameters
-    ----------
-    joint : int
-    sense : float, optional
-        1.0 or -1.0 as its angle grows or falls until the first one; by default as the walk begins.
-
-    Attributes
-    ----------
-    last : Corrected or None
-        The last one that was met.
+    The sense is 1.0 or -1.0 as its angle grows or falls until the first such point; by default as the walk begins.
     """
 
     def __init__(self, joint: int, sense: float = 0.0) -> None:
@@ -170,14 +153,7 @@ class TurningPoint(Event):
 class Return(Event):
     """A walk comes to a configuration again, whole turns aside, the same way as it left it.
 
-    Parameters
-    ----------
-    angles : float[J]
-        The configuration, radians.
-    tangent : float[J]
-        The way on from there.
-    most : int, optional
-        After so many steps the walk ends.
+    Angles and the tangent on from there are float[J]; after `most` steps the walk ends.
     """
 
     ROUND = "it comes round"
@@ -198,3 +174,72 @@ class Return(Event):
         """Give up after too many steps."""
         if self._most is not None and self._steps > self._most and not walk.ended:
             walk.ended = f"{self._most} steps did not lead there"
+
+
+_NUDGE = 1e-3
+"""Rates for second differences, radians."""
+
+
+def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
+    """Return how many other motion branches pass through a singular configuration of a curve, to second order.
+
+    Angles, float[J], are in radians. None where the kernel is not a plane, or second order does not decide.
+    """
+    parts = split(closure.at(angles)[1].toarray(), DOUBLE.singular)
+    kernel, stresses = parts.kernel.T, parts.cokernel.T
+    if len(kernel) != 2:
+        return None
+    first, second, both = (_curved(closure, angles, rates) for rates in (*kernel, kernel.sum(axis=0)))
+    forms = stresses @ np.stack([first, (both - first - second) / 2.0, second], axis=1)
+    none = 10.0 * DOUBLE.singular  # second differences are good to the square of their step
+    rows = row_space(forms, none, 1.0)
+    if rows.shape[1] != 1:
+        return None
+    a, b, c = rows[:, 0]
+    return 1 if b * b - a * c > none else None
+
+
+def _curved(closure: ClosureEquations, angles: Floats, rates: Floats) -> Floats:
+    """Return the second derivative of what does not close along rates: float[rows]."""
+    ahead, here, back = (closure.at(angles + step * rates)[0] for step in (_NUDGE, 0.0, -_NUDGE))
+    return np.asarray((ahead - 2.0 * here + back) / _NUDGE**2)
+
+
+_BLOCK, _MOST = 8, 512
+
+
+def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = None) -> Floats | None:
+    """Return a basis of the rates at a closed configuration, by random ones projected; None if they are too many.
+
+    Nothing dense is made of the equations of large linkages. Angles, float[J], are in radians. `moving`, int[n],
+    are the joints that move, of a branch on which others are immobile: these may have rates of their own there,
+    which begin other branches; by default all. The columns are orthonormal, float[n, F], with rows for the joints
+    that move.
+    """
+    jacobian = closure.at(angles)[1]
+    space = TangentSpace(jacobian if moving is None else jacobian[:, moving])
+    size = len(angles) if moving is None else len(moving)
+    chance = np.random.default_rng(size)
+    found: list[Floats] = []
+    while len(found) < min(_MOST, size):
+        found += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
+        # projected random rates have singular values of their number's root, or none
+        basis = row_space(np.array(found), DOUBLE.singular, float(np.sqrt(size)))
+        if basis.shape[1] < len(found):
+            return basis
+    return None
+
+
+def independent_joints(basis: Floats, first: int) -> list[int]:
+    """Return joints whose rates determine those of all others, a preferred one first.
+
+    The others are as far apart as possible. The basis, float[n, F], has rates as columns; the first joint is left
+    out where it does not move.
+    """
+    chosen = []
+    left = basis
+    own = basis[first]
+    if basis.size and np.linalg.norm(own) > DOUBLE.clear:
+        chosen = [first]
+        left = basis - np.outer(basis @ own, own) / (own @ own)
+    return [*chosen, *pivots(left)]

@@ -1,22 +1,157 @@
-"""A step of a walk: the configurations between its ends, and where on it something is so.
+"""Parts of a walk: its steps, the work it may do, the record of its events, and the watch over the rank.
 
-A cubic through both ends with the rates of both keeps to the curve to the fourth power of the step, so that
-Newton's method does not stray to another branch that passes there.
+A cubic through both ends of a step with the rates of both keeps to the curve to the fourth power of the step, so
+that Newton's method does not stray to another branch that passes there.
+
+The least singular value across the freedoms is followed by one step of inverse iteration per configuration, so
+that its vector goes on from one to the next; with a sign, kept by the continuity of its image, it passes through
+zero where the rank drops. Such steps, and those where it dips, are examined: a configuration is reported only
+where singular values are found to be zero. Of two values near each other the vector may go over from one to the
+other, and a drop with it be missed. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import degrees
+from typing import Any, Literal
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy.linalg
+from scipy.optimize import brentq, minimize_scalar
 
 from graphs.arrays import Floats
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import Corrected, corrected, exactly_held
+from graphs.errors import numbered, shown
+from graphs.ids import JointId
+from graphs.tolerances import DOUBLE
+from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
 
-__all__ = ["STRAY", "Step"]
+__all__ = ["STRAY", "WATCHED", "Allowance", "EventKind", "PathEvent", "RankWatch", "Step", "in_degrees", "named"]
+
+
+@dataclass(slots=True)
+class Allowance:
+    """Work that a search may do altogether, such as the steps of all its paths.
+
+    Where panels are all but nothing branches are endless. Work is counted, not timed, so that answers are the same
+    on slow and on fast machines.
+
+    Attributes
+    ----------
+    left : float
+        Steps, or other units of work.
+
+    Examples
+    --------
+    >>> allowance = Allowance(1)
+    >>> allowance.take(), allowance.take()
+    (True, False)
+    """
+
+    left: float
+
+    def take(self, work: float = 1) -> bool:
+        """Take a step, or another amount of work, if it is left."""
+        self.left -= work
+        return self.left >= 0
+
+    @property
+    def used_up(self) -> bool:
+        """Whether more work was called for than there was."""
+        return self.left < 0
+
+
+EventKind = Literal["turning point", "limit", "rank drop", "collision", "turns over"]
+
+
+_DIGITS: dict[EventKind, int] = {"turning point": 6, "limit": 4, "rank drop": 3, "collision": 6, "turns over": 2}
+"""Decimals of a degree: a singular value of zero, and panels that lie flat on each other, are found to the root of
+rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class PathEvent:
+    """An event on a path.
+
+    Attributes
+    ----------
+    kind : {"turning point", "limit", "rank drop", "collision", "turns over"}
+        Turning point: the driven joint has its extreme angle there. Limit: panels lie on each other. Rank drop:
+        the closure equations leave more rates than before and after; branches may meet there. Collision: panels
+        begin to pass through each other. Turns over: the angle of a crease changes its sign.
+    frame : int
+        The last frame before it, or at it.
+    driver : int
+        Place of the driven joint; of several, of the one that has farthest to go.
+    joints : tuple of int
+        Places of the joints that lie at 180 degrees, or turn over; for other kinds, the driver.
+    angles : float[J]
+        Joint angles there, radians: a turning point closes as frames do, a limit is bracketed to 1e-9 of a step,
+        and at a rank drop, where Newton's method would not keep to the path, they are interpolated.
+    drop : int
+        By how much the rank is less than beside it; 0 for other kinds.
+    other_ways : int or None
+        For a rank drop, other branches than that of the path, to second order; None where that does not decide.
+    panels : tuple of int
+        For a collision, the two links.
+    """
+
+    kind: EventKind
+    frame: int
+    driver: int
+    joints: tuple[int, ...]
+    angles: Floats
+    drop: int = 0
+    other_ways: int | None = None
+    panels: tuple[int, ...] = ()
+
+    def to_json(self, names: Sequence[JointId]) -> dict[str, Any]:
+        """Return the event as plain data, angles in degrees."""
+        return {
+            "kind": self.kind,
+            "frame": self.frame,
+            "driver": names[self.driver],
+            "at_deg": self._at_deg,
+            "joints": [names[joint] for joint in self.joints],
+            "drop": self.drop,
+            "other_ways": self.other_ways,
+            "panels": list(self.panels),
+        }
+
+    @property
+    def _at_deg(self) -> float:
+        """The angle of the driver in degrees, to the digits that the place of the event is known to."""
+        return round(degrees(float(self.angles[self.driver])), _DIGITS[self.kind]) + 0.0
+
+    def line(self, names: Sequence[JointId]) -> str:
+        """Return the event in one line, joints called by names: sequence of J ids."""
+        at = f"at joint {shown(names[self.driver])} = {self._at_deg:.6g}°"
+        if self.kind == "turning point":
+            return f"turning point {at}"
+        if self.kind == "limit":
+            return f"limit {at}: panels lie on each other at {named(self.joints, names)}"
+        if self.kind == "collision":
+            return f"collision {at}: panels {self.panels[0]} and {self.panels[1]}"
+        if self.kind == "turns over":
+            return f"sign change {at}: {named(self.joints, names, 'crease')}, since no motion keeps all signs"
+        others = self.other_ways
+        lower = f"rank of the closure equations {self.drop} lower"
+        branches = "branches may meet"
+        if others is not None:
+            branches = f"{numbered(others, 'other motion branch', 'other motion branches')} (second order)"
+        return f"singular configuration {at}: {lower}; {branches}"
+
+
+def in_degrees(angle: float, decimals: int = 6) -> str:
+    """Return an angle, radians, as printed text: "60°"."""
+    return f"{round(degrees(angle), decimals) + 0.0:.6g}°"
+
+
+def named(joints: Sequence[int], names: Sequence[JointId], noun: str = "joint") -> str:
+    """Return some joints by their names, after what they are: "joints 'a', 'c'"."""
+    return (noun if len(joints) == 1 else f"{noun}s") + " " + ", ".join(shown(names[joint]) for joint in joints)
+
 
 STRAY = 0.25
 """A corrected configuration is at most this part of its step from where it was expected."""
@@ -30,16 +165,7 @@ _AT_END = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of a walk.
-
-    Attributes
-    ----------
-    closure : ClosureEquations
-    before, after : Corrected
-        Its ends.
-    leaving, arriving : float[J]
-        Rates along the curve at its ends, of any size.
-    """
+    """One step of a walk between closed configurations; the rates along the curve, float[J], have any size."""
 
     closure: ClosureEquations
     before: Corrected
@@ -70,9 +196,8 @@ class Step:
     def piece(self, low: float, high: float) -> Step:
         """Return the step between two parts of this one."""
         first, second = self.at(low), self.at(high)
-        return Step(
-            self.closure, first, second, first.space.projected(self.chord), second.space.projected(self.chord)
-        )
+        leaving, arriving = (end.space.projected(self.chord) for end in (first, second))
+        return Step(self.closure, first, second, leaving, arriving)
 
     def up_to(self, end: Corrected) -> Step:
         """Return the step as far as a closed configuration on it."""
@@ -142,3 +267,126 @@ class Step:
             beside = beside + (turned - beside) @ chord / square * chord
         beside = corrected(self.closure, beside).angles
         return corrected(self.closure, turned) if np.abs(beside - turned).max() <= near else None
+
+
+WATCHED = 400
+"""Linkages of more joints are not watched: to look into a step all their singular values are needed."""
+_DIP = 0.1
+"""Part of a squared singular value that is left at the bottom of a dip worth looking into."""
+_AROUND = 0.05
+"""Half of the part of a step that is looked into a second time."""
+_ROUGH, _EXACT = 1e-3, 1e-7
+_FAR = 0.05
+"""A singular value that stays above this on the cubic of a step is not zero beside it."""
+_MOST_LOOKS = 12
+"""Steps of one path that are looked into at most."""
+
+
+class RankWatch:
+    """The least singular value across the freedoms, from configuration to configuration.
+
+    `singular` says whether the rank is less at the last one, or hardly more.
+    """
+
+    def __init__(self, closure: ClosureEquations) -> None:
+        self._closure = closure
+        start = np.random.default_rng(closure.joints).normal(size=closure.joints)
+        self._across, self._image = start / np.linalg.norm(start), np.zeros(closure.rows)
+        self._values: list[float] = []
+        self._steps: list[Step] = []
+        self._looks = 0
+        self.singular = False
+
+    def dropped(self, step: Step, *, flat: bool = False) -> tuple[Floats, int] | None:
+        """Go on by one step; return joint angles on it or the last one where the rank drops, and by how much.
+
+        Where panels lie flat on each other, at its end, the rank is always looked at.
+        """
+        value = self._followed(step)
+        self.singular = abs(value) <= 10.0 * DOUBLE.singular
+        self._values, self._steps = [*self._values, value][-3:], [*self._steps, step][-2:]
+        if self._looks >= _MOST_LOOKS:
+            return None
+        found = None
+        if flat or abs(value) <= DOUBLE.singular:
+            found = self._deficient(step.after.angles, step)
+        elif len(self._values) > 1 and self._values[-2] * value < 0.0:
+            found = self._examined(step)
+        elif self._dips():
+            found = self._examined(self._steps[0]) or self._examined(step)
+        else:
+            return None
+        self.singular |= found is not None and found[0] is step.after.angles
+        self._values = [] if self.singular else [value]
+        return found
+
+    def _followed(self, step: Step) -> float:
+        """Return the least singular value at the end of a step, with the sign that continuity gives it."""
+        space = step.after.space
+        if not self._steps:
+            self._across = _across_freedoms(space, self._across)
+        across = space.sharpened(self._across)
+        across = across if across @ self._across >= 0.0 else -across
+        image = space.image(across)
+        before = self._values[-1] if self._values else 1.0
+        sign = np.sign(before) if image @ self._image >= 0.0 else -np.sign(before)
+        self._across, self._image = across, image
+        return float(sign * np.linalg.norm(image))
+
+    def _dips(self) -> bool:
+        """Tell whether a parabola through the last squares has a bottom near zero in the last two steps."""
+        if len(self._values) < 3:
+            return False
+        first, second = (float(np.linalg.norm(step.chord)) for step in self._steps)
+        if not (first and second):  # a step of no length: nothing was passed
+            return False
+        squares = np.square(self._values)
+        slopes = np.diff(squares) / (first, second)
+        bend = (slopes[1] - slopes[0]) / (first + second)
+        if not bend > 0.0:
+            return False
+        slope = slopes[0] + bend * first
+        bottom = -slope / (2.0 * bend)
+        return bool(-first < bottom < second and squares[1] - bend * bottom**2 <= _DIP * squares[1])
+
+    def _examined(self, step: Step) -> tuple[Floats, int] | None:
+        """Look for a configuration on a step at which singular values are zero."""
+        self._looks += 1
+        freedoms = self._zeros(step.before.angles)
+        part, square = self._least(step, freedoms, _ROUGH)
+        if square > _FAR**2:
+            return None
+        narrow = step.piece(max(part - _AROUND, 0.0), min(part + _AROUND, 1.0))
+        return self._deficient(narrow.expected(self._least(narrow, freedoms, _EXACT)[0]), step)
+
+    def _least(self, step: Step, freedoms: int, exact: float) -> tuple[float, float]:
+        """Return the part of a step at which the least singular value across the freedoms is least; its square."""
+
+        def square(part: float) -> float:
+            return float(self._squares(step.expected(part))[freedoms])
+
+        least = minimize_scalar(square, bounds=(0.0, 1.0), method="bounded", options={"xatol": exact})
+        return float(least.x), float(least.fun)
+
+    def _deficient(self, angles: Floats, step: Step) -> tuple[Floats, int] | None:
+        drop = self._zeros(angles) - self._zeros(step.before.angles)
+        return (angles, drop) if drop > 0 else None
+
+    def _zeros(self, angles: Floats) -> int:
+        return int((self._squares(angles) <= DOUBLE.singular**2).sum())
+
+    def _squares(self, angles: Floats) -> Floats:
+        """Return the squares of the singular values, of all joints, the least first: float[J]."""
+        jacobian = self._closure.at(angles)[1]
+        return np.asarray(scipy.linalg.eigvalsh((jacobian.T @ jacobian).toarray()))
+
+
+def _across_freedoms(space: TangentSpace, start: Floats) -> Floats:
+    """Return the part of a unit vector across the freedoms, to begin with: a unit vector float[J].
+
+    Where most rates are freedoms, most of a random vector is one, and what is followed from there would be taken
+    for a singular value of zero. Where all are, the vector itself.
+    """
+    across = start - space.projected(start)
+    size = float(np.linalg.norm(across))
+    return across / size if size > DOUBLE.clear else start

@@ -1,9 +1,9 @@
-"""Walks: closed configurations one after the other along a curve, and what is met on the way.
+"""Walks: closed configurations one after the other along a curve, and the events on the way.
 
 A step goes along rates at which loops stay closed, bent as the last step was, and is corrected by Newton's
-method; where driven joints land on angles that are asked for they are held there. A step is halved if its end does
-not close, lies far from where it was expected, or goes on in another direction: curves that come near each other
-are not confused. Theory: docs/theory/folding.md.
+method; where driven joints land on their angles they are held there. A step is halved if its end does not close,
+lies far from where it was expected, or goes on in another direction: curves that come near each other are not
+confused. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -12,20 +12,17 @@ from collections.abc import Iterator, Sequence
 from math import inf, sqrt
 
 import numpy as np
+from scipy.optimize import nnls
 
-from graphs.arrays import Floats
+from graphs.arrays import Flags, Floats
 from graphs.canonical import leading
 from graphs.errors import shown
 from graphs.ids import JointId
 from graphs.tolerances import DOUBLE
-from synth.motion.closure import ClosureEquations
-from synth.motion.newton import Corrected, corrected, exactly_held
-from synth.motion.walk.allowance import Allowance
-from synth.motion.walk.event import EventKind, PathEvent, in_degrees
-from synth.motion.walk.rank import RankWatch
-from synth.motion.walk.step import STRAY, Step
+from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
+from synth.motion.walk.step import STRAY, Allowance, EventKind, PathEvent, RankWatch, Step, in_degrees
 
-__all__ = ["Event", "Goal", "Steering", "Walk", "only_rates"]
+__all__ = ["Event", "Goal", "KeptSigns", "Walk", "only_rates"]
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
@@ -60,26 +57,6 @@ class Event:
 
     def after(self, walk: Walk, step: Step) -> None:
         """Record what was met on a step, the walk being at its end."""
-
-
-class Steering(Event):
-    """What chooses among the rates of several freedoms at each step.
-
-    Attributes
-    ----------
-    bound : list of int
-        Joints whose rates are bound on the step that is taken: Newton's method holds them.
-    """
-
-    bound: list[int]
-
-    def admitted(self, walk: Walk, rates: Floats) -> tuple[Floats, float]:
-        """Return rates near given ones, the largest 1 or -1, and how long the step may be."""
-        raise NotImplementedError
-
-    def lost(self, angles: Floats, length: float) -> bool:
-        """Tell whether a step of some length to some angles is to be taken shorter."""
-        raise NotImplementedError
 
 
 class Goal(Event):
@@ -144,7 +121,7 @@ class Goal(Event):
 
     @property
     def driver(self) -> str:
-        """What messages call the joint that leads."""
+        """The name of the leading joint in messages."""
         return f"the driven joint {shown(self.names[self.joint])}"
 
     def angle(self, place: Corrected, decimals: int = 6) -> str:
@@ -165,8 +142,8 @@ class Walk(Iterator[Step]):
     """A walk along a curve of closed configurations, one step for each `next`, until an event ends it.
 
     It goes straight on, or where it has a goal along the least rates that move the driven joints. Each event may
-    cut a step short, record what was met, and end the walk; they are asked in their order, and what is met first
-    on a step counts. A walk that ended goes on when it has another goal.
+    cut a step short, record itself, and end the walk; they are consulted in their order, and the first one on a
+    step counts. A walk that ended goes on when it has another goal.
 
     Parameters
     ----------
@@ -174,13 +151,13 @@ class Walk(Iterator[Step]):
     start : float[J]
         A closed configuration, radians.
     tangent : float[J], optional
-        Rates to begin with; by default the least ones that move the driven joints of the first goal.
+        Initial rates; by default the least ones that move the driven joints of the first goal.
     straight : bool, optional
         Go straight on where there are several freedoms.
     allowance : Allowance, optional
     watch : RankWatch, optional
-        Of the rank on the way; by default it is not watched.
-    kept : Steering, optional
+        Watches the rank on the way.
+    kept : KeptSigns, optional
         Angles that keep their signs as long as they can.
 
     Attributes
@@ -190,14 +167,14 @@ class Walk(Iterator[Step]):
     tangent : float[J] or None
         The way on, of any size; None where the goal decides.
     length : float
-        Of the next step, radians of the joint that moves most.
+        Length of the next step, radians of the joint that moves most.
     straight : bool
     events : list of Event
     goal : Goal or None
     frames : list of Corrected
-        What is kept of the walk: the start, and what its caller adds.
+        The start, and what its caller adds.
     met : list of PathEvent
-        What events recorded.
+        The recorded events.
     drop : (float[J], int) or None
         Joint angles on the last step where the rank is less, and by how much.
     ended : str
@@ -205,20 +182,17 @@ class Walk(Iterator[Step]):
 
     Examples
     --------
-    A parallelogram in the plane, all the way round:
+    A Bennett linkage, all the way round:
 
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
+    >>> from synth.motion.singular.second_order import rates_at
     >>> from synth.motion.walk.events import Return
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
-    >>> linkage = linkage_of_axes(ring, {joint: (corners[joint], (0, 0, 1)) for joint in range(4)})
-    >>> walk = Walk(ClosureEquations(linkage), linkage.angles, np.array([1.0, -1.0, 1.0, -1.0]))
-    >>> walk.events.append(Return(linkage.angles, walk.tangent))
-    >>> largest = max(float(np.abs(step.chord).max()) for step in walk)
-    >>> walk.ended, np.degrees(walk.here.angles).round(6).tolist(), largest <= 0.21
-    ('it comes round', [360.0, -360.0, 360.0, -360.0], True)
+    >>> from synth.moving.made import configuration_of
+    >>> from synth.patterns import generate
+    >>> at = configuration_of(generate("bennett").mechanism)
+    >>> walk = Walk(at.closure, at.linkage.angles, rates_at(at.closure, at.linkage.angles)[:, 0])
+    >>> walk.events.append(Return(at.linkage.angles, walk.tangent))
+    >>> len(list(walk)) > 20, walk.ended
+    (True, 'it comes round')
     """
 
     def __init__(
@@ -230,7 +204,7 @@ class Walk(Iterator[Step]):
         straight: bool = False,
         allowance: Allowance | None = None,
         watch: RankWatch | None = None,
-        kept: Steering | None = None,
+        kept: KeptSigns | None = None,
     ) -> None:
         self.closure, self.watch, self.kept = closure, watch, kept
         self.here = corrected(closure, start)
@@ -277,12 +251,12 @@ class Walk(Iterator[Step]):
         if self.ended:
             raise StopIteration
         rates = self._onwards()
-        self.ended = self._exhausted() or next(
-            filter(None, (each.before(self, rates) for each in self.events)), ""
-        )
+        reasons = filter(None, (event.before(self, rates) for event in self.events))
+        self.ended = self._exhausted() or next(reasons, "")
         step = None if self.ended else self._stepped(rates)
         if step is None:
-            self.ended = self.ended or self._lost()
+            nowhere = "no single branch leads on" if self.goal is None else self.goal.lost(self.here)
+            self.ended = self.ended or nowhere
             raise StopIteration
         for event in self.events:
             cut = event.within(self, step)
@@ -299,9 +273,6 @@ class Walk(Iterator[Step]):
             return f"{_MOST} steps were not enough"
         allowed = self._allowance is None or self._allowance.take()
         return "" if allowed else "the allowance of steps was used up"
-
-    def _lost(self) -> str:
-        return "no single branch leads on" if self.goal is None else self.goal.lost(self.here)
 
     def _onwards(self) -> Floats:
         """Return the rates to go on with, the largest 1 or -1: the least ones that move the driven joints.
@@ -399,3 +370,121 @@ def _reach(speed: float, bend: float, left: float) -> float:
 
 def _alike(one: Floats, other: Floats) -> bool:
     return bool(one @ other > _ALIKE * np.linalg.norm(one) * np.linalg.norm(other))
+
+
+_KEPT, _FLOOR = 0.5, 1e-3
+"""A step leaves at least this part of a fold angle, and none is unfolded below the second, radians."""
+_SHORTEST = 0.01
+"""A crease turns over where no rates keep all signs for a longer step, radians of the joint that moves most."""
+_ROUNDS = 40
+
+
+class KeptSigns(Event):
+    """Fold angles that keep their signs on a walk; each is left free once it has turned over.
+
+    The rates nearest to those that a walk would take, among those at which loops stay closed, driven joints go on
+    as they do, and no crease that is nearly unfolded goes on to unfold: a least-distance problem with few
+    inequalities, solved as a non-negative least-squares problem (C. L. Lawson, R. J. Hanson, Solving Least Squares
+    Problems, 1974, chapter 23). Its solution is unique, so that it does not depend on bases.
+    """
+
+    def __init__(self, signs: Floats) -> None:
+        self._signs, self._kept = np.sign(signs), np.sign(signs)
+        self._crossing: list[int] = []
+        self.bound: list[int] = []  # joints whose rates Newton's method holds on the current step
+
+    def admitted(self, walk: Walk, rates: Floats) -> tuple[Floats, float]:
+        """Return rates near given ones at which no sign is lost on the next step, and how long that may be.
+
+        Given rates, the largest 1 or -1, close to first order. Where no others keep all signs, though the step is
+        short, creases are given up until some do: of a contradiction the one first that would turn over fastest.
+        """
+        here, length = walk.here, walk.length
+        held = [] if walk.goal is None else walk.goal.drivers
+        signs = self._kept = self._signs.copy()
+        signs[held] = 0.0
+        while True:
+            found, bound = _nearest(here, rates, signs, held, length)
+            if found is not None:
+                self.bound = np.flatnonzero(bound).tolist()
+                return found / np.abs(found).max(), length
+            if length > _SHORTEST:
+                length = max(length / 4.0, _SHORTEST)
+                continue
+            signs[leading(np.where(bound, np.minimum(signs * rates, -DOUBLE.zero_rate), 0.0))] = 0.0
+            length = walk.length
+
+    def lost(self, angles: Floats, length: float) -> bool:
+        """Tell whether a sign is lost at the end of a step that might have kept it, were it shorter."""
+        return length > _SHORTEST and bool((self._kept * angles < -DOUBLE.immobile).any())
+
+    def within(self, walk: Walk, step: Step) -> tuple[Step, str] | None:
+        """Note which joints change their signs on a step, without ending it."""
+        before, after = (self._signs * end.angles for end in (step.before, step.after))
+        self._crossing = np.flatnonzero((before >= 0.0) & (after < -DOUBLE.immobile)).tolist()
+        return None
+
+    def after(self, walk: Walk, step: Step) -> None:
+        """Record the creases that turned over on a step."""
+        for joint in self._crossing:
+            part = step.zero(lambda place, joint=joint: float(place.angles[joint]))  # type: ignore[misc]
+            walk.record("turns over", (step.after if part is None else step.at(part)).angles, joints=(joint,))
+            self._signs[joint] = 0.0  # it has turned: from there on it is free
+
+
+def _nearest(
+    here: Corrected, rates: Floats, signs: Floats, held: Sequence[int], length: float
+) -> tuple[Floats | None, Flags]:
+    """Return the rates nearest to given ones at which signs are kept, or None and the joints that contradict.
+
+    Joints `held` keep the rates they have. Inequalities are added as they are needed.
+    """
+    least, sized = _least_rates(here.angles, signs, length), DOUBLE.zero**0.5
+    chosen, bound = rates, np.zeros(len(rates), dtype=bool)
+    for _ in range(_ROUNDS):
+        broken = (signs != 0.0) & ~bound & (signs * chosen < least - sized)
+        if not broken.any():
+            return chosen, bound
+        bound |= broken
+        places = np.flatnonzero(bound)
+        moves = signs[places][:, None] * _moves(here.space, places.tolist(), held)
+        change, contradiction = _least_change(moves, (least - signs * rates)[places])
+        if change is None:
+            blamed = np.zeros(len(rates), dtype=bool)
+            blamed[places[contradiction]] = True
+            return None, blamed
+        chosen = rates + change
+    return chosen, bound
+
+
+def _least_rates(angles: Floats, signs: Floats, length: float) -> Floats:
+    """Return the least rates, by their signs, at which enough of each fold angle is left after a step."""
+    size = signs * angles
+    spare = np.maximum(size - np.maximum(_KEPT * size, _FLOOR), 0.0)
+    return np.asarray(np.where(size < 0.0, -np.inf, -spare / length))
+
+
+def _moves(space: TangentSpace, places: Sequence[int], held: Sequence[int]) -> Floats:
+    """Return the least rates that move each of some joints, across those that move held ones: float[n, J]."""
+    moves = np.array([space.move(joint) for joint in places])
+    if not held:
+        return moves
+    fixed = np.array([space.move(joint) for joint in held])
+    gram = fixed[:, list(held)]
+    return np.asarray(moves - np.linalg.lstsq(gram, moves[:, list(held)].T, rcond=DOUBLE.zero)[0].T @ fixed)
+
+
+def _least_change(moves: Floats, wanted: Floats) -> tuple[Floats | None, Flags]:
+    """Return the least x with ``moves @ x >= wanted``, or None; and of which inequalities a sum contradicts.
+
+    The least-distance problem: of non-negative multiples of the rows [moves, wanted] the sum is taken that is
+    nearest to the last unit vector. What is left of that is x, but for a factor; if nothing is, there is no x.
+    """
+    size = max(float(np.abs(wanted).max()), DOUBLE.zero)
+    rows = np.concatenate([moves, wanted[:, None] / size], axis=1)
+    target = np.eye(1, rows.shape[1], rows.shape[1] - 1)[0]
+    shares, _ = nnls(rows.T, target, maxiter=50 * len(rows))
+    left = rows.T @ shares - target
+    if abs(left[-1]) <= DOUBLE.clear:
+        return None, shares > 0.0
+    return -left[:-1] / left[-1] * size, shares > 0.0

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 from graphs.errors import UnsolvableError
-from synth.folding.alike.classes import alike_classes
-from synth.folding.alike.closure import AlikeClosure
-from synth.folding.alike.reaching import fold_to
+from synth.folding.alike import AlikeClosure, alike_classes, fold_to
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.second_order import rates_at
+from synth.motion.singular.second_order import rates_at
 from synth.patterns import generate
 from synth.patterns.creases.bases import fan, preliminary_base, waterbomb_base
 
@@ -123,6 +121,6 @@ def test_a_turned_and_rounded_pattern_folds_to_the_same_angles():
 def test_a_path_that_ends_is_told_as_that():
     storey = generate("kresling", sides=4, ends=1, turn=pi / 4).mechanism
     with pytest.raises(
-        UnsolvableError, match=r"^its folding ends at 149\.5\d* degrees, before 175: panels lie on each other"
+        UnsolvableError, match=r"^the pattern folds to 149\.5\d*°; expected 175°: panels lie on each other"
     ):
         fold_to(storey, radians(175))

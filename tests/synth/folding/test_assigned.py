@@ -153,5 +153,5 @@ def test_what_cannot_be_assigned_is_told_of(miura):
     sheet, _ = miura
     with pytest.raises(synth.InvariantError, match="there is no branch 99"):
         assign_branch(sheet, 99)
-    with pytest.raises(synth.UnsolvableError, match="this one is folded"):
+    with pytest.raises(synth.UnsolvableError, match="this sheet is folded"):
         assign_branch(synth.fold(sheet, frames=2).frames()[1], 0)

@@ -13,8 +13,7 @@ from scipy.optimize import linprog
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.beginning import Wanted, beginning
-from synth.motion.driving import Asked
+from synth.motion.driving import BranchChoice, MotionOptions, beginning
 from synth.motion.motion import motion_of
 from synth.patterns import generate
 
@@ -27,7 +26,7 @@ MOST = 120
 
 def reaches(at):
     """Whether steps along rates that all creases agree with, found by linear programmes, come to 30 degrees."""
-    _, rates = beginning(at, Wanted())
+    _, rates = beginning(at, BranchChoice())
     signs = np.sign(rates) * (np.abs(rates) > 1e-7)
     angles, rates = 0.0 * rates, rates / np.abs(rates).max()
     for _ in range(80):
@@ -55,7 +54,7 @@ def reaches(at):
 
 def check(at):
     """Frames keep the signs to 30 degrees, or the creases that turn over are named."""
-    motion = motion_of(at, Asked(frames=20))
+    motion = motion_of(at, MotionOptions(frames=20))
     marks = at.marks
     marks = marks if (motion.path.angles[-1] * marks).sum() > 0.0 else -marks
     named = {joint for event in motion.path.events if event.kind == "turns over" for joint in event.joints}

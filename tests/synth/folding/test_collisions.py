@@ -122,7 +122,7 @@ def test_panels_that_cross_at_the_pose_of_the_file():
     flat = fold(strip(1.0, 1.0, 0.8), drive=dict.fromkeys(range(2), np.radians(150)), frames=1).frames()[-1]
     folded = fold(replace(flat, fold_angles=None), drive={0: np.radians(160), 1: np.radians(150)}, collisions=True)
     assert len(folded.path.angles) == 1
-    assert "panels pass through each other where it begins: collision at joint " in folded.path.stopped
+    assert "panels pass through each other at the start: collision at joint " in folded.path.stopped
 
 
 def test_the_command_line_ends_before_a_collision(tmp_path):

@@ -69,7 +69,7 @@ def test_panels_are_rigid_in_every_pattern_that_closes(name):
     [
         (["--drive", "11=10"], "'11' is no joint; expected one of"),
         (["--drive", "1=20"], "'1' is no joint; expected one of 0, 2, 4, 6"),
-        (["--drive", "2=190"], "is to turn by 190 degrees; expected between -180 and 180"),
+        (["--drive", "2=190"], "is driven to 190°; expected between -180 and 180"),
         (["--drive", "2=nan"], "expected between -180 and 180"),
         (["--drive", "=3"], "is not JOINT=DEGREES"),
         (["--branch", "+++++"], "no branch has the signs '+++++'"),

@@ -9,12 +9,10 @@ import pytest
 
 from graphs.files.formats import read
 from synth.motion.branches import branches_of, first_branch
-from synth.motion.closure import ClosureEquations
+from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.newton import corrected
-from synth.motion.second_order import rates_near
-from synth.motion.singular.quadrics import quadrics_of
-from synth.motion.walk.allowance import Allowance
+from synth.motion.singular.second_order import quadrics_of, rates_near
+from synth.motion.walk.step import Allowance
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 

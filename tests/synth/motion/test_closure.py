@@ -8,9 +8,8 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import Tolerances
-from synth.motion.closure import ClosureEquations
+from synth.motion.closure import ClosureEquations, TangentSpace, corrected
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
-from synth.motion.newton import TangentSpace, corrected
 from synth.motion.path import driven_path
 from synth.motion.singular.sampling import freedoms_at
 from synth.patterns.creases.bases import fan

@@ -12,8 +12,8 @@ from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion import linkage
-from synth.motion.beginning import Wanted, beginning
 from synth.motion.configuration import Configuration
+from synth.motion.driving import BranchChoice, beginning
 from synth.moving.made import configuration_of
 from synth.patterns import generate
 from synth.viewer.shown import shown_of
@@ -99,6 +99,6 @@ def test_a_motion_begins_as_the_sheet_is_assigned_where_one_can():
         at = configuration_of(Sheet(6, tuple(creases), word, faces, ((0.0, 0.0), *around)))
         if at.marked.marked == "has":
             begun += 1
-            _, rates = beginning(at, Wanted())
+            _, rates = beginning(at, BranchChoice())
             assert (rates * at.marks).min() > 0.0
     assert begun

@@ -13,7 +13,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.folding.derivatives import SheetDerivatives, dependence_on_vertices
 from synth.folding.motion import fold
-from synth.motion import newton
+from synth.motion import closure
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import (
     Sensitivity,
@@ -186,7 +186,7 @@ def test_two_drivers_of_one_freedom_cannot_be_held():
 
 def test_loops_have_to_be_closed():
     _, closure = four_bar([(0, 0), (1, 0.2), (3, 0), (2.5, 2)])
-    with pytest.raises(UnsolvableError, match="miss closing"):
+    with pytest.raises(UnsolvableError, match="loop-closure residual is"):
         Sensitivity(closure, np.array([0.1, 0.0, 0.0, 0.0]), [0])
 
 
@@ -318,8 +318,8 @@ def test_vertices_of_no_panel_stay_where_their_coordinates_are():
 def test_a_gradient_takes_one_factorisation(monkeypatch):
     shape, angles, place = folded_sheet(miura(6, 6, 1.0), 0.8, STRAIGHT)
     counted = []
-    solver = newton._solver
-    monkeypatch.setattr(newton, "_solver", lambda *given: counted.append(given) or solver(*given))
+    solver = closure._solver
+    monkeypatch.setattr(closure, "_solver", lambda *given: counted.append(given) or solver(*given))
     shape.at(angles[-1], [place]).adjoint(by_places=np.ones((49, 3)))
     assert len(counted) == 1
 

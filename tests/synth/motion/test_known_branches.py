@@ -12,15 +12,13 @@ from scipy.optimize import least_squares
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
 from graphs.mechanism.sheet import with_all_edges
+from synth.folding.configuration import opened
 from synth.folding.motion import fold
-from synth.folding.opened import opened
 from synth.motion.branches import Search, branches_of
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import linkage_of_sheet
-from synth.motion.placement import moved
-from synth.motion.second_order import largest_only, rates_at, spaces_within
-from synth.motion.singular.quadrics import all_quadrics, local_forms
+from synth.motion.linkage import linkage_of_sheet, moved
 from synth.motion.singular.sampling import followed, general_rates, same_part
+from synth.motion.singular.second_order import all_quadrics, largest_only, local_forms, rates_at, spaces_within
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import map_sheet, miura
 from synth.patterns.creases.tubes import kresling, miura_tube

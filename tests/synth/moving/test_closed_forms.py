@@ -11,8 +11,8 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.motion.closure import ClosureEquations
-from synth.motion.placement import link_motions
-from synth.motion.second_order import rates_at
+from synth.motion.linkage import link_motions
+from synth.motion.singular.second_order import rates_at
 from synth.moving.made import configuration_of
 from synth.moving.motion import move
 

@@ -17,8 +17,8 @@ from synth.guidance.fourbars import four_bars
 from synth.guidance.orientations import read_orientations
 from synth.guidance.synthesis import guiding_dyads
 from synth.motion.closure import ClosureEquations
-from synth.motion.placement import link_motions
-from synth.motion.second_order import rates_at
+from synth.motion.linkage import link_motions
+from synth.motion.singular.second_order import rates_at
 from synth.moving.made import configuration_of
 from synth.moving.motion import move
 

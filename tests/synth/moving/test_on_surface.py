@@ -16,8 +16,8 @@ from synth.conformed.linkages import linkage_on_surfaces, loop_of_steps, loop_on
 from synth.conformed.pose import joint_axes
 from synth.fourbar.position import input_limits_spherical
 from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import link_motions
 from synth.motion.path import driven_path
-from synth.motion.placement import link_motions
 from synth.moving.on_surface import LinkPoint, move_on_surface
 
 CRANK, ROCKER = (40, 90, 80, 100), (120, 95, 45, 85)

@@ -11,7 +11,7 @@ from graphs.files.formats import read
 from graphs.mechanism.plane import in_space
 from synth.folding.motion import fold
 from synth.moving.made import configuration_of
-from synth.moving.tables import table_text
+from synth.moving.motion import table_text
 from synth.patterns.generated import generate
 
 

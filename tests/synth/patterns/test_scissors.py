@@ -8,8 +8,8 @@ import pytest
 
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
-from synth.motion.second_order import rates_at
 from synth.motion.singular import freedoms_at
+from synth.motion.singular.second_order import rates_at
 from synth.moving.made import configuration_of
 from synth.patterns import generate
 from synth.patterns.scissors.elements import (

@@ -6,7 +6,7 @@ import pytest
 
 from graphs.convert.panels import scd_from_panels
 from graphs.mechanism.sheet import Sheet
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.drawing import drawings
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import realise

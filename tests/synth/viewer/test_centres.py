@@ -6,7 +6,7 @@ import pytest
 from graphs.files.formats import read
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
-from synth.motion.placement import link_motions
+from synth.motion.linkage import link_motions
 from synth.moving.made import configuration_of
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.centres import centres_of

@@ -10,9 +10,8 @@ from graphs.files.formats import read
 from graphs.mechanism.precision import precision_of_sheet
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
-from synth.folding.mending.angles import MeantAngles
-from synth.folding.mending.places import VertexPlaces
-from synth.folding.mending.repair import flattened
+from synth.folding.mending.fitting import MeantAngles, VertexPlaces
+from synth.folding.mending.nearest import flattened
 from synth.folding.motion import fold
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations

@@ -9,10 +9,10 @@ import pytest
 
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.singular.finite import folded_start
-from synth.motion.singular.quadrics import quadrics_of
+from synth.motion.singular.nearest import folded_start
+from synth.motion.singular.second_order import quadrics_of
 from synth.patterns.creases.triangulated import freedoms_of_triangles, resch, waterbomb
-from synth.verdict.of_motion import verdict_of_motion
+from synth.verdict.judged import verdict_of_motion
 
 TESSELLATIONS = {"Resch 5 x 6, 262 panels": resch(5, 6), "waterbomb 4 x 5, 120 panels": waterbomb(4, 5)}
 

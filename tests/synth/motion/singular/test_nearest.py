@@ -10,10 +10,9 @@ from graphs.tolerances import Tolerances
 from synth.motion import configuration as configurations
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.second_order import largest_only, rates_at, rates_near, spaces_within
 from synth.motion.singular import nearest
 from synth.motion.singular.nearest import begun_near, spaces_near
-from synth.motion.singular.quadrics import quadrics_of
+from synth.motion.singular.second_order import largest_only, quadrics_of, rates_at, rates_near, spaces_within
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import map_sheet, miura
 from synth.verdict.judged import mobility
@@ -89,7 +88,7 @@ def test_large_sheets_are_judged_so(monkeypatch):
     assert (rigid.freedoms, rigid.certainty, rigid.text) == (0, "proved", "Rigid.")
     monkeypatch.undo()
     small = mobility(bent(map_sheet(5, 5)), exact=False).verdict
-    assert (small.freedoms, small.certainty) == (0, "proved")
+    assert (small.freedoms, small.certainty) == (0, "numerical")
     assert small.text.startswith("Rigid; the nearest rigid-foldable pattern has vertices moved by up to ")
 
 

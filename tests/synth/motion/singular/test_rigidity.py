@@ -7,10 +7,17 @@ from folding_patterns import pleated_hypar, spoked_cube
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
-from synth.motion.second_order import rates_at, spaces_within
-from synth.motion.singular.definite import definite_weights
-from synth.motion.singular.quadrics import Quadric, all_quadrics, local_forms, quadrics_of, shared_quadrics
-from synth.motion.singular.rigidity import rigidity_of
+from synth.motion.singular.second_order import (
+    Quadric,
+    all_quadrics,
+    definite_weights,
+    local_forms,
+    quadrics_of,
+    rates_at,
+    rigidity_of,
+    shared_quadrics,
+    spaces_within,
+)
 from synth.patterns.creases.bases import fan
 from synth.patterns.creases.tessellations import miura
 from synth.patterns.creases.tubes import kresling

@@ -8,7 +8,7 @@ import scipy.sparse
 
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.newton import corrected
+from synth.motion.closure import corrected
 from synth.motion.path import PathOptions, driven_path
 from synth.motion.walk import Walk
 from synth.motion.walk.events import Return

@@ -5,7 +5,7 @@ import pytest
 
 from graphs.files.formats import read
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.walk.freedoms import free_rates, independent_joints
+from synth.motion.walk.events import free_rates, independent_joints
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
-from synth.motion.walk.rank import RankWatch
+from synth.motion.walk.step import RankWatch
 from synth.motion.walk.walking import Goal, Walk
 
 

@@ -11,9 +11,9 @@ from scipy.optimize import minimize
 
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.driving import Asked
+from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
-from synth.motion.walk.signs import _least_change
+from synth.motion.walk.walking import _least_change
 from synth.patterns import generate
 from synth.patterns.panels import sheet_of_panels
 
@@ -59,7 +59,7 @@ def test_every_frame_is_as_assigned_whichever_crease_is_driven(name):
         at = configuration_of_sheet(sheet)
         for place, joint in list(enumerate(at.joints))[::3]:
             drive = {joint: radians(100.0) * at.marks[place]}
-            motion = motion_of(at, Asked(drive=drive, frames=5))
+            motion = motion_of(at, MotionOptions(drive=drive, frames=5))
             folds = motion.path.angles[1:] * at.marks
             assert folds.min() > 0.0, (name, joint)
             assert np.degrees(np.abs(motion.path.angles[-1]).max()) >= 30.0
@@ -72,11 +72,11 @@ def test_a_crease_that_has_to_turn_over_is_named():
     rim = [(np.cos(angle), np.sin(angle)) for angle in (0.0, 1.1, 2.5, 3.7, 5.0)]
     faces = tuple((0, one + 1, (one + 1) % 5 + 1) for one in range(5))
     flat = configuration_of_sheet(Sheet(6, (), "", faces, ((0.0, 0.0), *rim)))
-    folded = configuration_of_sheet(motion_of(flat, Asked(frames=6)).frames()[3])
+    folded = configuration_of_sheet(motion_of(flat, MotionOptions(frames=6)).frames()[3])
     start, joints, found = folded.linkage.angles, folded.joints, []
     for turns in ((0.8, -0.5), (-0.5, 0.8), (0.6, 0.6), (-0.6, -0.6)):
         drive = {joints[place]: float(start[place] + turn) for place, turn in enumerate(turns)}
-        motion = motion_of(folded, Asked(drive=drive, frames=3))
+        motion = motion_of(folded, MotionOptions(drive=drive, frames=3))
         named = {joint for event in motion.path.events if event.kind == "turns over" for joint in event.joints}
         crossed = np.flatnonzero(start * motion.path.angles[-1] < -1e-9)
         assert named >= set(crossed.tolist()) - {0, 1}  # others turned over and came back

@@ -1,0 +1,475 @@
+"""Which rates at a singular configuration can begin a motion, to second order, and proofs that none does.
+
+Rates at which loops close to first order form a space. Round a loop the twists x_i of the joints, at rates r_i,
+sum to zero to first order. To second order the sum over i < j of r_i r_j [x_i, x_j] has to be made up for by
+accelerations, and what is across all twists sees none of these: a self-stress w gives the equation w . sum r_i r_j
+[x_i, x_j] = 0. A loop has self-stresses of its own (a flat vertex, the one across the sheet); several loops may
+have more together, since their accelerations are shared.
+
+Where an equation is a product of two linear ones the rates fall into two subspaces: the two modes of a vertex of
+four creases. The solutions are found by taking one mode or the other, as long as any equation is left. If no rates
+are left, nothing moves: suppose that a motion begins as t^k r; what is of order 2 k in the closure equations says
+that each self-stress's form vanishes at r. A sum of these forms that is positive on all rates is the shortest
+proof, and where there is none the rates may be used up case by case. R. Connelly and W. Whiteley, Second-order
+rigidity and prestress stability, SIAM Journal on Discrete Mathematics 9 (1996). Theory: docs/theory/folding.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Literal
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse
+from scipy.optimize import nnls
+
+from graphs.arrays import Floats, Ints
+from graphs.canonical import canonical_basis, canonical_order, signed
+from graphs.loops.loop import Centre
+from graphs.rank.singular_values import spectrum
+from graphs.rank.spaces import inertia, null_space, row_space, split
+from graphs.tolerances import DOUBLE
+from synth.motion.closure import ClosureEquations, TangentSpace
+from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.walk.step import Allowance
+
+__all__ = [
+    "Quadric",
+    "RateSpace",
+    "Rigidity",
+    "all_quadrics",
+    "definite_weights",
+    "largest_only",
+    "local_forms",
+    "quadrics_of",
+    "rates_at",
+    "rates_near",
+    "rigidity_of",
+    "shared_quadrics",
+    "spaces_within",
+]
+
+MOST_ROWS = 600
+"""Self-stresses of several loops together are looked for up to so many closure equations."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quadric:
+    """A quadratic equation between the rates r of k joints: ``r @ form @ r`` has to vanish, the form symmetric."""
+
+    joints: tuple[int, ...]
+    form: Floats
+
+
+def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadric]:
+    """Return the equations of second order between the rates that the self-stresses of each loop alone give.
+
+    Singular values below `zero` times the largest are zero, and forms whose entries are below it.
+    """
+    quadrics = []
+    for loop in linkage.loops:
+        twists = _twists(linkage, loop)
+        stresses = null_space(twists.T, zero)
+        if not stresses.shape[1]:
+            continue
+        for form in np.moveaxis(_second_order(twists) @ stresses, -1, 0):
+            if np.abs(form).max(initial=0.0) > zero:
+                quadrics.append(Quadric(loop.joints, form))
+    return quadrics
+
+
+def shared_quadrics(
+    linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float = DOUBLE.zero
+) -> list[Quadric]:
+    """Return the equations that self-stresses of several loops give beyond those of the loops alone.
+
+    They are for the rates that agree to first order, orthonormal columns float[J, s]; none is a sum of others, or
+    of those of the loops alone (`quadrics_of`), on these rates. The matrix of all closure equations is dense here:
+    for `rows_of` up to `MOST_ROWS`.
+    """
+    size = tangent.shape[1]
+    twists = [_twists(linkage, loop) for loop in linkage.loops]
+    rows = np.cumsum([0, *map(len, twists)])
+    matrix = np.zeros((rows[-1], len(tangent)))
+    seen = np.zeros((size, size, rows[-1]))  # by each closure equation, on the tangent space
+    for loop, block, start, end in zip(linkage.loops, twists, rows, rows[1:], strict=False):
+        joints = list(loop.joints)
+        matrix[start:end, joints] = block
+        here = tangent[joints]
+        seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
+    stresses = null_space(matrix.T, zero) if size and rows[-1] else np.zeros((rows[-1], 0))
+    if not stresses.shape[1]:
+        return []
+    forms = (seen @ stresses).reshape(size * size, -1).T
+    known = local_forms(tangent, alone).reshape(-1, size * size)
+    places, beyond = tuple(range(len(tangent))), _beyond(forms, known, zero).reshape(-1, size, size)
+    return [Quadric(places, tangent @ form @ tangent.T) for form in beyond]
+
+
+def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
+    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, `shared_quadrics`.
+
+    Which loops without a centre are listed is a choice among many: where others are sought, those that they have
+    alone are among these.
+    """
+    if rows_of(linkage) > MOST_ROWS:
+        return quadrics_of(linkage, zero)
+    centred = replace(linkage, loops=tuple(loop for loop in linkage.loops if loop.centre is not Centre.NONE))
+    alone = quadrics_of(centred, zero)
+    return alone + shared_quadrics(linkage, tangent, alone, zero)
+
+
+def rows_of(linkage: PosedLinkage) -> int:
+    """Return the number of closure equations: three of a loop about a point, six of any other."""
+    return sum(3 if loop.centre is Centre.FINITE else 6 for loop in linkage.loops)
+
+
+def local_forms(basis: Floats, quadrics: Sequence[Quadric]) -> Floats:
+    """Return the forms of equations on a space of rates, each as part of its size: float[n, s, s]."""
+    made = np.zeros((len(quadrics), basis.shape[1], basis.shape[1]))
+    for number, quadric in enumerate(quadrics):
+        local = basis[list(quadric.joints)]
+        made[number] = local.T @ quadric.form @ local / np.abs(quadric.form).max()
+    return made
+
+
+def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
+    """Return orthonormal rows that span, together with known ones, what all rows span."""
+    if len(known):
+        spanned = row_space(known, zero)
+        rows = rows - (rows @ spanned) @ spanned.T
+    return row_space(rows, zero, scale=1.0).T  # stresses and rates are unit vectors, brackets of the size of one
+
+
+def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
+    """Return the twists of a loop's joints at the pose, as the loop passes them: float[3 or 6, k]."""
+    joints = list(loop.joints)
+    axes = linkage.directions[joints] * np.array(loop.signs, dtype=float)[:, None]
+    if loop.centre is Centre.FINITE:  # about the centre there are no moments
+        return np.asarray(axes.T)
+    points = linkage.points[joints] - linkage.points[joints].mean(axis=0)
+    return np.concatenate([axes, np.cross(points, axes)], axis=1).T
+
+
+def _second_order(twists: Floats) -> Floats:
+    """Return the forms of r -> sum over i < j of r_i r_j [x_i, x_j], one for each coordinate: float[k, k, e]."""
+    turn, shift = twists[:3].T, twists[3:].T
+    brackets = np.cross(turn[:, None], turn[None])
+    if len(twists) > 3:
+        moments = np.cross(turn[:, None], shift[None]) + np.cross(shift[:, None], turn[None])
+        brackets = np.concatenate([brackets, moments], axis=-1)
+    upper = brackets * np.triu(np.ones(brackets.shape[:2]), 1)[..., None]  # twist i comes before twist j
+    return np.asarray(upper + upper.transpose(1, 0, 2)) / 2.0
+
+
+_MOST = 300
+"""Eigenvectors looked at; beyond, what is left to gain is next to nothing."""
+_NEAR, _GAINS = 1e-5, 1e-9
+"""Where the hull comes so near to zero, or a further value brings it no nearer, there is no clear definite sum."""
+
+
+def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None:
+    """Return multiples of symmetric forms, float[n, s, s], whose sum is positive definite, and how clearly.
+
+    The values that the forms take together, at unit vectors and mixtures of these, make a convex set. If its point
+    nearest to zero is w, not zero itself, then the sum with multiples w is at least |w|^2 everywhere; if it is
+    zero, no sum is definite. It is looked for by Wolfe's method: the least point of the hull of values seen so far
+    says where to look next, at the eigenvector of its least eigenvalue. P. Wolfe, Finding the nearest point in a
+    polytope, Mathematical Programming 11 (1976). The smallest eigenvalue as part of the largest, which must be
+    more than `clear`, is returned too; None where no such multiples were found.
+    """
+    if not len(forms) or not forms.shape[1]:
+        return None
+    size = float(np.abs(forms).max())
+    seen = np.trace(forms, axis1=1, axis2=2)[None] / forms.shape[1]
+    for _ in range(_MOST):
+        shares = _shares(seen / size)
+        if shares is None:
+            return None
+        weights = shares @ seen
+        found = inertia(np.tensordot(weights, forms, 1), clear)
+        if (found.signs > 0).all():
+            return weights, float(found.values[0] / found.values[-1])
+        new = np.einsum("i,nij,j->n", found.vectors[:, 0], forms, found.vectors[:, 0])
+        if np.linalg.norm(weights) <= _NEAR * size or weights @ (weights - new) <= _GAINS * (weights @ weights):
+            return None
+        seen = np.concatenate([seen[shares > 0.0], new[None]])
+    return None
+
+
+def _shares(points: Floats) -> Floats | None:
+    """Return the shares of points in the point of their convex hull that is nearest to zero: float[points].
+
+    None where it is so near to zero that they are not clear.
+    """
+    with_sum = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+    try:
+        shares = nnls(with_sum.T, np.eye(1, with_sum.shape[1], points.shape[1])[0], maxiter=30 * len(points))[0]
+    except RuntimeError:  # its iterations do not end
+        return None
+    return np.asarray(shares / shares.sum())
+
+
+_STEPS = 40
+_MANY = 600
+_CASE = 3e4
+"""Work on a case besides that on its matrices, in products of numbers."""
+_LOST = 10.0
+"""Spaces that are this many times closer than what counts as zero are one."""
+
+
+@dataclass(frozen=True, slots=True)
+class RateSpace:
+    """Rates that agree to second order: a linear space, on which a few equations may be left.
+
+    The basis, float[J, s], is orthonormal; the equations are no products of linear ones on this space.
+    """
+
+    basis: Floats
+    left: tuple[Quadric, ...]
+
+    def in_order(self, order: Ints) -> RateSpace:
+        """Return the same space with joints in another order, int[J]: their places in the present one."""
+        place = np.argsort(order)
+        left = (replace(one, joints=tuple(place[list(one.joints)].tolist())) for one in self.left)
+        return RateSpace(self.basis[order], tuple(left))
+
+
+def spaces_within(
+    tangent: Floats, quadrics: Sequence[Quadric], zero: float = DOUBLE.zero, allowance: Allowance | None = None
+) -> Iterator[RateSpace]:
+    """Yield spaces that hold all rates which agree to second order, depth first; some may be part of others.
+
+    The tangent, float[J, s], holds the rates that agree to first order (`rates_at`). Eigenvalues below `zero`
+    times the largest are zero. The search ends where the allowance, counted in products of numbers, is used up.
+    """
+    quadrics = tuple(quadrics)
+    case = _Case(tangent, quadrics, local_forms(tangent, quadrics), zero)
+    yield from _split(case, allowance or Allowance(inf))
+
+
+def largest_only(spaces: Sequence[RateSpace], zero: float = DOUBLE.zero) -> list[RateSpace]:
+    """Return the spaces that are not part of another, each once, in their order."""
+    kept: dict[int, list[int]] = {}
+    for size in sorted({space.basis.shape[1] for space in spaces}, reverse=True):
+        for number, space in enumerate(spaces):
+            if space.basis.shape[1] == size and not _within_one(space, spaces, kept, zero):
+                kept.setdefault(size, []).append(number)
+    return [spaces[number] for number in sorted(number for numbers in kept.values() for number in numbers)]
+
+
+def rates_near(
+    closure: ClosureEquations,
+    angles: Floats,
+    quadrics: Sequence[Quadric],
+    wanted: Floats,
+    zero: float = DOUBLE.closed,
+) -> Floats | None:
+    """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
+
+    Angles, radians, are those of the pose. Wanted are rates or their signs, float[J]; the answer is as long as
+    they are, and leaves at most `zero` of the equations; None where none were found near them. Where two solutions
+    cross, Newton's method comes near by halves and stays 1e-5 away, which squares of rates hardly show: of exact
+    coordinates `zero` is far below other zeros.
+    """
+    _, jacobian = closure.at(angles)
+    size = float(np.linalg.norm(wanted))
+    rates = TangentSpace(jacobian).projected(wanted)
+    rows = np.repeat(np.arange(len(quadrics)), [len(quadric.joints) for quadric in quadrics])
+    columns = np.array([joint for quadric in quadrics for joint in quadric.joints], dtype=np.int64)
+    for _ in range(_STEPS):
+        if not np.linalg.norm(rates) > DOUBLE.zero_rate * size:
+            return None
+        rates = rates * (size / np.linalg.norm(rates))
+        slopes = [quadric.form @ rates[list(quadric.joints)] for quadric in quadrics]
+        values = np.concatenate([np.zeros(0), *slopes])
+        quadratic = scipy.sparse.csr_matrix((values, (rows, columns)), shape=(len(quadrics), len(rates)))
+        off = np.concatenate([jacobian @ rates, quadratic @ rates])
+        if np.abs(off).max(initial=0.0) <= zero:
+            return rates
+        both = scipy.sparse.vstack([jacobian, 2.0 * quadratic], format="csr")
+        rates = rates + TangentSpace(both).step(off)
+    return None
+
+
+def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zero) -> Floats:
+    """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
+
+    By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
+    third of the time. The columns depend on the space alone (`graphs.canonical`).
+    """
+    matrix = closure.at(angles)[1].toarray()
+    if closure.joints <= _MANY:
+        return null_space(matrix, zero)
+    columns, triangle, _ = scipy.linalg.qr(matrix.T, pivoting=True, overwrite_a=True, check_finite=False)
+    sizes = np.abs(np.diag(triangle))
+    return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
+
+
+def _within_one(
+    space: RateSpace, spaces: Sequence[RateSpace], kept: Mapping[int, Sequence[int]], zero: float
+) -> bool:
+    """Tell whether all rates of a space are those of one of the spaces kept, which are listed by their size."""
+    same = max(DOUBLE.clear, _LOST * zero)
+    one = space.basis.sum(axis=1)  # most spaces differ here already
+    for numbers in kept.values():
+        bases = np.concatenate([spaces[number].basis for number in numbers], axis=1)
+        inside = ((one @ bases).reshape(len(numbers), -1) ** 2).sum(axis=1)
+        near = np.flatnonzero(inside > (1.0 - same) * (one @ one))
+        if any(_within(space, spaces[numbers[place]], zero) for place in near.tolist()):
+            return True
+    return False
+
+
+def _within(space: RateSpace, other: RateSpace, zero: float) -> bool:
+    """Tell whether all rates of one space are those of another."""
+    outside = space.basis - other.basis @ (other.basis.T @ space.basis)
+    if np.abs(outside).max(initial=0.0) > max(DOUBLE.clear, _LOST * zero):
+        return False
+    theirs = [quadric for quadric in other.left if not any(quadric is mine for mine in space.left)]
+    return bool(np.abs(local_forms(space.basis, theirs)).max(initial=0.0) <= zero)
+
+
+@dataclass(frozen=True, slots=True)
+class _Case:
+    """A space, and the equations that need not hold on it: what they are as forms on it."""
+
+    basis: Floats
+    left: tuple[Quadric, ...]
+    forms: Floats
+    zero: float
+
+    def only(self, places: Ints) -> _Case:
+        """Return the same space with some of the equations."""
+        return replace(self, left=tuple(self.left[place] for place in places), forms=self.forms[places])
+
+    def across(self, normals: Floats) -> _Case:
+        """Return the part of the space across one normal, float[s], or several, float[s, n]."""
+        parts = split(normals.reshape(len(normals), -1).T, self.zero)
+        part = parts.right[parts.rank :].T
+        return replace(self, basis=self.basis @ part, forms=part.T @ self.forms @ part)
+
+
+def _split(case: _Case, allowance: Allowance) -> Iterator[RateSpace]:
+    """Yield the spaces of solutions within a space, depth first, until an allowance of work is used up."""
+    if not allowance.take(_CASE + (len(case.left) + 1) * case.basis.shape[1] ** 3):
+        return
+    case, factors = _simplified(case)
+    if not case.basis.shape[1]:
+        return
+    if factors is not None:
+        by_joints = [signed(case.basis @ normal) for normal in factors]
+        for place in canonical_order([one / np.linalg.norm(one) for one in by_joints]):
+            yield from _split(case.across(factors[place]), allowance)
+    elif len(case.left) < 2 or definite_weights(case.forms, max(case.zero, DOUBLE.clear)) is None:
+        yield RateSpace(canonical_basis(case.basis), case.left)
+
+
+def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:
+    """Use up the equations that are linear on a space; return what is left, and one that is a product.
+
+    An equation that is a product is among those left too: it vanishes on either part. One whose form has one sign
+    holds only where all linear ones do that it is a sum of squares of.
+    """
+    while case.basis.shape[1]:
+        case = case.only(np.flatnonzero(np.abs(case.forms).max(axis=(1, 2), initial=0.0) > case.zero))
+        if not case.left:
+            return case, None
+        found = inertia(case.forms, case.zero)
+        definite = np.flatnonzero((found.positive == 0) | (found.negative == 0))
+        if not len(definite):
+            products = np.flatnonzero((found.positive == 1) & (found.negative == 1))
+            return case, _factors(found.values[products[0]], found.vectors[products[0]]) if len(products) else None
+        normals = [found.vectors[one][:, found.signs[one] != 0] for one in definite]
+        case = case.across(np.concatenate(normals, axis=1))
+    return case.only(np.zeros(0, dtype=np.int64)), None
+
+
+def _factors(values: Floats, vectors: Floats) -> tuple[Floats, Floats]:
+    """Return the normals of the two linear equations whose product a form is, by its eigenvectors."""
+    plus, minus = np.sqrt(values[-1]) * vectors[:, -1], np.sqrt(-values[0]) * vectors[:, 0]
+    return plus + minus, plus - minus
+
+
+Proof = Literal["no rates", "definite stress", "cases"]
+
+
+@dataclass(frozen=True, slots=True)
+class Rigidity:
+    """Whether a linkage is proved to be rigid at its configuration, and how.
+
+    Attributes
+    ----------
+    proof : {"no rates", "definite stress", "cases"} or None
+        None without a proof: it may move or not.
+    flexes : int
+        Independent rates that close to first order.
+    margin : float or None
+        Evidence of the proof: the smallest singular value of the closure equations (no rates) or eigenvalue of
+        the form (definite stress), as part of the largest; None for a proof by cases, each of which stands on
+        values above 1e-9 of the largest.
+    stress : float[n]
+        Multiples of the equations whose sum is positive on all flexes; None for other proofs.
+    equations : tuple of Quadric
+        Those that second order adds.
+    """
+
+    proof: Proof | None
+    flexes: int
+    margin: float | None
+    stress: Floats | None
+    equations: tuple[Quadric, ...]
+
+    @property
+    def certainty(self) -> Literal["proved", "not known"]:
+        """Whether it is proved that nothing moves."""
+        return "proved" if self.proof else "not known"
+
+
+def rigidity_of(
+    linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero
+) -> Rigidity:
+    """Look for a proof that a linkage cannot move from its configuration.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+        With closed loops.
+    closure : ClosureEquations, optional
+        Of this linkage, if already computed.
+    zero : float, optional
+        Singular values and eigenvalues below this part of the largest are zero.
+
+    Returns
+    -------
+    Rigidity
+
+    Examples
+    --------
+    A flat vertex with a sector of more than half a turn has two flexes, and does not fold:
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> from synth.motion.linkage import linkage_of_sheet
+    >>> corners = ((0, 0), (1, 0), (.8, .6), (.4, .9), (-.1, 1))
+    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
+    >>> rigidity = rigidity_of(linkage_of_sheet(Sheet(5, (), "", faces, corners)))
+    >>> rigidity.flexes, rigidity.proof, rigidity.margin > .01
+    (2, 'definite stress', True)
+    """
+    closure = closure or ClosureEquations(linkage)
+    tangent = rates_at(closure, linkage.angles, zero)
+    flexes = tangent.shape[1]
+    if not flexes:
+        values = spectrum(closure.at(linkage.angles)[1].toarray(), DOUBLE.derivative)
+        proved = values.rank == closure.joints
+        return Rigidity("no rates" if proved else None, 0, values.smallest if closure.joints else None, None, ())
+    quadrics = tuple(all_quadrics(linkage, tangent, zero))
+    definite = definite_weights(local_forms(tangent, quadrics), max(zero, DOUBLE.clear))
+    if definite is not None:
+        stress = definite[0] / [np.abs(quadric.form).max() for quadric in quadrics]
+        return Rigidity("definite stress", flexes, definite[1], stress, quadrics)
+    proof: Proof | None = None if next(spaces_within(tangent, quadrics, zero), None) else "cases"
+    return Rigidity(proof, flexes, None, None, quadrics)
