@@ -13,7 +13,7 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.surfaces import Surface
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
-from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.moving.made import sheet_of
 
 if TYPE_CHECKING:

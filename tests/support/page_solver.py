@@ -16,8 +16,8 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.newton import corrected
 from synth.motion.path import PathOptions, driven_path
 from synth.motion.placement import link_motions
+from synth.viewer.linkage import solver_data
 from synth.viewer.shown import Moving
-from synth.viewer.solver_data import solver_data
 
 WEB = Path(__file__).resolve().parents[2] / "synth" / "viewer" / "web"
 

@@ -12,7 +12,7 @@ from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.native.documents import dumps
 from graphs.files.patterns.fold import sheet_from_fold
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.catalogue.atlas_types import drawable_of_type
+from synth.drawing.catalogue import drawable_of_type
 
 __all__ = ["mechanism_file_of_type", "sheet_of_type"]
 

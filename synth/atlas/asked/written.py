@@ -17,10 +17,7 @@ from graphs.files.atomic import write_text
 from synth.atlas.asked.mechanisms import mechanism_file_of_type
 from synth.atlas.asked.opened import AtlasRows
 from synth.atlas.columns import COLUMNS
-from synth.drawing.catalogue.atlas_types import drawable_of_type
-from synth.drawing.catalogue.entries import CatalogueEntry
-from synth.drawing.catalogue.pages import catalogue_pages
-from synth.drawing.catalogue.writing import write_catalogue
+from synth.drawing.catalogue import CatalogueEntry, catalogue_pages, drawable_of_type, write_catalogue
 
 __all__ = ["write_rows"]
 

@@ -14,9 +14,9 @@ from synth.atlas.asked.mechanisms import sheet_of_type
 from synth.atlas.asked.type_report import TypeReport
 from synth.atlas.columns import COLUMNS
 from synth.atlas.site.document import document
-from synth.drawing.catalogue.atlas_types import drawable_of_type
+from synth.drawing.catalogue import drawable_of_type
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.svg import svg_text
+from synth.drawing.scene.writing import svg_text
 from synth.templates.formats.svg import svg_of_page
 from synth.templates.pages import pages_of
 from synth.templates.paper import paper_named

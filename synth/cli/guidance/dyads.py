@@ -102,7 +102,7 @@ def asked_for(
 
 
 def _drawn(orientations: Orientations, found: tuple[Dyad, ...]) -> Any:
-    from synth.drawing.order_map import draw_map
+    from synth.drawing.sphere import draw_map
 
     if len(orientations) == 4:
         from synth.guidance.four import centre_axes

@@ -17,7 +17,7 @@ from synth.cli.runner import LimitsType
 
 if TYPE_CHECKING:
     from enumerate.runner.limits import Limits
-    from synth.drawing.catalogue.entries import CatalogueEntry
+    from synth.drawing.catalogue import CatalogueEntry
     from synth.drawing.mechanisms.pictures import Drawable
 
 __all__ = ["draw"]
@@ -109,7 +109,7 @@ def draw(
       synth draw k1:Cr -o four-bar.svg
       synth draw chains.sqlite -o catalogue.pdf --where symmetry=2.. --where planar=1
     """
-    from synth.drawing.catalogue.entries import is_catalogue
+    from synth.drawing.catalogue import is_catalogue
 
     check_picture(output, force=force)
     if is_catalogue(file):
@@ -141,9 +141,7 @@ def _read(file: str) -> Drawable:
 def _catalogue(
     file: str, output: str, kind: str | None, where: dict[str, Limits | str], paper: str, force: bool
 ) -> None:
-    from synth.drawing.catalogue.entries import catalogue_entries
-    from synth.drawing.catalogue.pages import catalogue_pages
-    from synth.drawing.catalogue.writing import write_catalogue
+    from synth.drawing.catalogue import catalogue_entries, catalogue_pages, write_catalogue
 
     failures: list[str] = []
     shown = _counted(catalogue_entries(file, where, failures))

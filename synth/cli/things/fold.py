@@ -107,7 +107,7 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from synth.drawing.foldings import check_output, write_motion
+    from synth.drawing.space.poses import check_output, write_motion
     from synth.moving.made import configuration_of
     from synth.moving.motion import move
 

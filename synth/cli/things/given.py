@@ -12,7 +12,7 @@ from synth.cli.reading import read
 if TYPE_CHECKING:
     from enumerate.strings.panel_strings import ChainString
     from graphs.convert.table import Mechanism
-    from synth.drawing.mechanisms.orders import OrderOnCircle
+    from synth.drawing.mechanisms.chains import OrderOnCircle
 
 __all__ = ["MODE", "ROW", "Given", "given"]
 
@@ -52,7 +52,7 @@ def given(argument: str, row: int | None = None, mode: str | None = None) -> Giv
     >>> given("RR-R-RRR").thing
     ChainString(clusters=(2, 1, 3))
     """
-    from synth.drawing.catalogue.entries import entry_numbered, is_catalogue
+    from synth.drawing.catalogue import entry_numbered, is_catalogue
 
     if is_catalogue(argument):
         if row is None:

@@ -145,7 +145,7 @@ def realise(
     """
     from graphs.errors import FileError
     from graphs.files.formats import write
-    from synth.drawing.catalogue.entries import is_catalogue
+    from synth.drawing.catalogue import is_catalogue
 
     if freedoms is not None:
         search = {"kind": kind, "seed": seed, "tries": tries, "freedoms": freedoms, "geometry": geometry or ""}

@@ -38,7 +38,7 @@ def search_special_geometry(file: str, search: dict[str, Any], output: SpecialOu
 
     The search has the options of `synth.realise`.
     """
-    from synth.drawing.catalogue.entries import is_catalogue
+    from synth.drawing.catalogue import is_catalogue
     from synth.realisation.realised import realise
 
     if is_catalogue(file):

@@ -140,7 +140,7 @@ def template(
     """
     from graphs.errors import InvariantError
     from graphs.mechanism.on_surface import SurfaceLinkage
-    from synth.drawing.mechanisms.orders import OrderOnCircle
+    from synth.drawing.mechanisms.chains import OrderOnCircle
     from synth.templates.paper import paper_named
     from synth.templates.writing import check_template, write_template
 

@@ -88,7 +88,7 @@ def _can_serve() -> bool:
 
 
 def _serve(shown: list[Shown], sources: list[bytes | None]) -> None:
-    from synth.viewer.workbench.serving import serve
+    from synth.viewer.workbench.app import serve
 
     def opened(address: str) -> None:
         click.echo(f"workbench: {address}  (Ctrl-C ends it)")

@@ -19,8 +19,8 @@ from graphs.files.native.documents import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.catalogue.entries import CatalogueEntry, catalogue_entries
-from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.drawing.catalogue import CatalogueEntry, catalogue_entries
+from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.realisation.realised import NotFoundError, Realised, realise
 
 __all__ = ["COLUMNS", "Outcome", "RealisationJob", "summary_of"]
@@ -59,7 +59,7 @@ class RealisationJob:
     Attributes
     ----------
     source : str
-        What `synth.drawing.catalogue.entries.catalogue_entries` reads.
+        What `synth.drawing.catalogue.catalogue_entries` reads.
     options : tuple of (str, value)
         Keyword arguments of `synth.realisation.realise`, JSON values.
 

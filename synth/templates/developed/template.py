@@ -14,7 +14,7 @@ from graphs.mechanism.surfaces import Cone, Cylinder, Surface
 from synth.conformed.layers import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
-from synth.drawing.on_surface import surface_layer
+from synth.drawing.conformed import surface_layer
 from synth.drawing.scene.shapes import Scene
 from synth.templates.developed.cut_out import flat_pieces
 from synth.templates.developed.layered import Dimensions, Joining, LayeredLinkage, layered

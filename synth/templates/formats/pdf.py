@@ -7,7 +7,7 @@ from io import BytesIO
 from typing import Any
 
 from graphs.errors import UnsolvableError
-from synth.drawing.scene.pdf import Painter
+from synth.drawing.scene.writing import PdfPainter
 from synth.templates.lines import LOOKS, Text
 from synth.templates.page import Page, Picture
 
@@ -72,7 +72,7 @@ def _paint(canvas: Any, picture: Picture) -> None:
     canvas.scale(picture.scale * _POINTS, picture.scale * _POINTS)
     canvas.setLineJoin(1)
     canvas.setDash([])
-    painter = Painter(canvas, "light", scene.height)
+    painter = PdfPainter(canvas, "light", scene.height)
     for shape in scene.shapes():
         painter.paint(shape)
     canvas.restoreState()

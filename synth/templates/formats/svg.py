@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xml.sax.saxutils import escape
 
-from synth.drawing.scene.svg import svg_group
+from synth.drawing.scene.writing import svg_group
 from synth.templates.lines import LOOKS, Stroke, Text
 from synth.templates.page import Page, Picture
 
