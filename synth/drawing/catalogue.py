@@ -149,7 +149,7 @@ def drawable_of_type(kind: str, code: str) -> Any:
     ['0', '1', '2', '3']
     """
     if not (isinstance(kind, str) and isinstance(code, str)):
-        raise InvariantError("type", f"the kind is {shown(kind)}, the id {shown(code)}", "texts")
+        raise InvariantError("type", f"kind {shown(kind)}, id {shown(code)}", "texts")
     if kind == "string":
         return ChainString.parse(code)
     chain_code, _, joints = code.rpartition(":") if kind == "order" else (code, "", "")
