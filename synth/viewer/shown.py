@@ -37,7 +37,7 @@ from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
 from synth.viewer.linkage import Bodies, ShownCentre, bodies_of_linkage, bodies_of_sheet, centres_of, solver_data
 
-__all__ = ["Drawn", "Moving", "Report", "Shown", "Ways", "shown_of", "ways_of"]
+__all__ = ["DrawnCreases", "MovingLinkage", "Report", "Shown", "Ways", "shown_of", "ways_of"]
 
 Report = Callable[[str, int, int], None]
 """Called with the next step in words, its number, and the number of steps."""
@@ -140,7 +140,7 @@ def _driven(
 
 
 @dataclass(frozen=True, slots=True)
-class Moving:
+class MovingLinkage:
     """A linkage with its bodies and centres; `ways` is None if it is rigid, or no motion was found.
 
     `ground` is the index of the fixed link; `limited`: joints end at 180 degrees.
@@ -171,7 +171,7 @@ class Moving:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class DrawnCreases:
     """A crease pattern and its picture, so that creases can be added between places on the picture.
 
     Vertices have the coordinates of the file, `places` are theirs in the picture, and all edges are listed.
@@ -201,7 +201,7 @@ class Shown:
         Repairs, and reasons why something is not shown or cannot move.
     pictures : mapping of paper to SVG
         Light and dark; empty if the mechanism cannot be drawn.
-    moving : Moving or None
+    moving : MovingLinkage or None
         None without coordinates.
     configuration : Configuration or None
         Where the motion starts; None without coordinates.
@@ -209,7 +209,7 @@ class Shown:
         Output of `synth mobility --json`, as text, since numbers of a page have 53 bits only.
     stiff, clusters : tuple
         Ids of immobile joints, and of links that move as one.
-    drawn : Drawn or None
+    drawn : DrawnCreases or None
         For a crease pattern that lies in a plane.
     on_request : bool
         Whether the mechanism is so large that its motion is looked for on request only.
@@ -220,12 +220,12 @@ class Shown:
     report: str
     notes: tuple[str, ...]
     pictures: dict[str, str]
-    moving: Moving | None
+    moving: MovingLinkage | None
     configuration: Configuration | None
     answer: str
     stiff: tuple[str, ...]
     clusters: tuple[tuple[str, ...], ...]
-    drawn: Drawn | None = None
+    drawn: DrawnCreases | None = None
     on_request: bool = False
 
     def to_json(self) -> dict[str, Any]:
@@ -296,7 +296,7 @@ def shown_of(
     sheet: Sheet | None = placed if isinstance(placed, Sheet) else None
     drawn = None
     if sheet is not None and sheet.coordinates is not None and lies_flat(sheet):
-        drawn = Drawn(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
+        drawn = DrawnCreases(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
     return Shown(
         plain(name),
         verdict.text,
@@ -313,7 +313,9 @@ def shown_of(
     )
 
 
-def _moving(thing: Mechanism, notes: list[str], *, still: bool) -> tuple[Configuration | None, Moving | None]:
+def _moving(
+    thing: Mechanism, notes: list[str], *, still: bool
+) -> tuple[Configuration | None, MovingLinkage | None]:
     """Return a mechanism at its configuration, and its motions unless it is `still`; note why there are none."""
     try:
         at = configuration_of(thing, mend=not still)
@@ -329,9 +331,9 @@ def _moving(thing: Mechanism, notes: list[str], *, still: bool) -> tuple[Configu
             notes.append(str(error))
     centres = () if still else centres_of(at)
     if not isinstance(at, SheetConfiguration):
-        return at, Moving(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
+        return at, MovingLinkage(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)
-    return at, Moving(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
+    return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
 
 
 def _pictures(thing: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:

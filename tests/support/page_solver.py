@@ -17,7 +17,7 @@ from synth.motion.newton import corrected
 from synth.motion.path import PathOptions, driven_path
 from synth.motion.placement import link_motions
 from synth.viewer.linkage import solver_data
-from synth.viewer.shown import Moving
+from synth.viewer.shown import MovingLinkage
 
 WEB = Path(__file__).resolve().parents[2] / "synth" / "viewer" / "web"
 
@@ -56,7 +56,7 @@ class Asked:
 
 
 def asked_of(
-    moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames: int = 4, *, panels: bool = True
+    moving: MovingLinkage, rng: np.random.Generator, turn: float = 0.8, frames: int = 4, *, panels: bool = True
 ) -> Asked:
     """Ask for residuals anywhere, for the pose next to a disturbed one, and for a path of a driven joint.
 

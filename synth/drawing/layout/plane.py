@@ -19,7 +19,7 @@ import numpy as np
 from graphs.arrays import Flags, Floats, Ints
 from synth.drawing.layout.embedding import Node, faces_of
 
-__all__ = ["PlaneGraph", "Springs", "barycentric", "plane_graph", "pulled", "springs_of"]
+__all__ = ["LayoutSprings", "PlaneGraph", "barycentric", "plane_graph", "pulled", "springs_of"]
 
 _ROUNDS = 12
 _HUB_WEIGHT = 0.25
@@ -137,7 +137,7 @@ def _balanced(pairs: Ints, weights: Floats, places: Floats, inner: Ints, outer: 
 
 
 @dataclass(frozen=True, slots=True)
-class Springs:
+class LayoutSprings:
     """Pairs of nodes, int64[s, 2], their lengths at rest, and stiffnesses, float[s]."""
 
     pairs: Ints
@@ -145,7 +145,7 @@ class Springs:
     stiffness: Floats
 
 
-def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> Springs:
+def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> LayoutSprings:
     """Return springs of edges, of length 1, and of bodies, at rest as regular polygons of sides 1."""
     pairs, lengths, stiffness = [*edges], [1.0] * len(edges), [1.0] * len(edges)
     for body in bodies:
@@ -155,11 +155,11 @@ def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]
                 pairs.append((body[i], body[k]))
                 lengths.append(float(np.sin(np.pi * (k - i) / size) / np.sin(np.pi / size)))
                 stiffness.append(2.0)
-    return Springs(np.array(pairs, np.int64).reshape(-1, 2), np.array(lengths), np.array(stiffness))
+    return LayoutSprings(np.array(pairs, np.int64).reshape(-1, 2), np.array(lengths), np.array(stiffness))
 
 
 def pulled(
-    graph: PlaneGraph, places: Floats, springs: Springs, mirror: Mapping[Node, Node] | None = None
+    graph: PlaneGraph, places: Floats, springs: LayoutSprings, mirror: Mapping[Node, Node] | None = None
 ) -> Floats:
     """Return places, float[n, 2] in side lengths, after the nodes moved under forces.
 
@@ -210,7 +210,7 @@ def _images(graph: PlaneGraph, mirror: Mapping[Node, Node]) -> Ints:
 class _Forces:
     """Forces on the nodes of a graph; sums over nodes are products with matrices made once."""
 
-    def __init__(self, graph: PlaneGraph, springs: Springs) -> None:
+    def __init__(self, graph: PlaneGraph, springs: LayoutSprings) -> None:
         size = len(graph.nodes)
         self._graph, self._springs, self._own = graph, springs, graph.own
         self._spans = _differences(springs.pairs, size)

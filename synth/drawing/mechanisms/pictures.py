@@ -38,7 +38,7 @@ from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
 from synth.motion.configuration import Configuration
 
-__all__ = ["COLOURINGS", "KINDS", "Drawable", "Look", "draw"]
+__all__ = ["COLOURINGS", "KINDS", "Drawable", "PictureOptions", "draw"]
 
 Drawable: TypeAlias = Configuration | Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
 
@@ -47,7 +47,7 @@ _SMALL = 200.0
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class PictureOptions:
     """Options of a picture, which is at most as large as `box`, (width, height) in points.
 
     `colour` is one of `COLOURINGS`; `branch` goes with ``colour="branch"``: its number or its signs, or None for
@@ -78,7 +78,7 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
         joints round a cone; the sphere by the order of orientations. By default a sheet is a pattern or folded, as
         its coordinates are; a graph with assumed centres is a chain.
     **look
-        Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
+        Fields of `PictureOptions`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     kind = _suiting(thing) if kind is None else kind
     if kind not in KINDS:
         raise InvariantError("kind", f"unknown kind {shown(kind)}", ", ".join(KINDS))
-    how = Look(**look)
+    how = PictureOptions(**look)
     branched = how.branch is not None and kind != "marks"
     if kind != "pattern" and (how.colour != "letters" or branched or how.graph):
         raise UnsolvableError(
@@ -147,7 +147,7 @@ def _sheet(thing: object, kind: str) -> Sheet | SheetConfiguration:
     return thing
 
 
-def _pattern(thing: Any, look: Look) -> Scene:
+def _pattern(thing: Any, look: PictureOptions) -> Scene:
     return crease_scene(
         _sheet(thing, "pattern"),
         colour=look.colour,
@@ -159,30 +159,30 @@ def _pattern(thing: Any, look: Look) -> Scene:
     )
 
 
-def _marks(thing: Any, look: Look) -> Scene:
+def _marks(thing: Any, look: PictureOptions) -> Scene:
     sheet = _sheet(thing, "marks")
     overlay = overlay_of_marks(sheet, look.branch)
     return crease_scene(sheet, numbers=look.numbers, box=look.box, caption=look.caption, overlay=overlay)
 
 
-def _repairs(thing: Any, look: Look) -> Scene:
+def _repairs(thing: Any, look: PictureOptions) -> Scene:
     sheet = _sheet(thing, "repairs")
     overlay = overlay_of_repairs(sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet)
     return crease_scene(sheet, numbers=False, box=look.box, caption=look.caption, overlay=overlay)
 
 
-def _folded(thing: Any, look: Look) -> Scene:
+def _folded(thing: Any, look: PictureOptions) -> Scene:
     return folded_scene(_sheet(thing, "folded"), numbers=look.numbers, box=look.box, caption=look.caption)
 
 
-def _chain(thing: Any, look: Look) -> Scene:
+def _chain(thing: Any, look: PictureOptions) -> Scene:
     how = ChainLook(look.numbers, look.numbers)
     if min(look.box) < _SMALL:
         how = ChainLook(look.numbers, False, size=5.0, dot=1.6)
     return chain_scene(_graph_of(thing), look=how, box=look.box, caption=look.caption)
 
 
-def _sc_graph(thing: Any, look: Look) -> Scene:
+def _sc_graph(thing: Any, look: PictureOptions) -> Scene:
     graph = thing if isinstance(thing, SCDGraph) else _graph_of(thing)
     return sc_scene(graph, box=look.box, caption=look.caption)
 
@@ -193,12 +193,12 @@ def _graph_of(thing: Any) -> Any:
     return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
 
 
-def _model(thing: Any, look: Look) -> Scene:
+def _model(thing: Any, look: PictureOptions) -> Scene:
     model = thing if isinstance(thing, PolyhedronModel) else to_polyhedron(thing)
     return model_scene(model, box=look.box, caption=look.caption)
 
 
-def _solids(thing: Any, look: Look) -> Scene:
+def _solids(thing: Any, look: PictureOptions) -> Scene:
     if isinstance(thing, JointedLinkage):
         thing = to_solids(thing)
     if not isinstance(thing, HingedSolids):
@@ -206,7 +206,7 @@ def _solids(thing: Any, look: Look) -> Scene:
     return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
 
 
-def _surface(kind: str, thing: Any, look: Look) -> Scene:
+def _surface(kind: str, thing: Any, look: PictureOptions) -> Scene:
     """Return a linkage on the first of its cones or cylinders."""
     if not isinstance(thing, SurfaceLinkage) or thing.kind != kind:
         raise _unfit(kind, f"a linkage defined by links or angles round a {kind}", thing)
@@ -224,7 +224,7 @@ def _surface(kind: str, thing: Any, look: Look) -> Scene:
     return draw_conformed(chain, linkages[0].places, linkages[0].surface, title)
 
 
-def _circle(thing: Any, look: Look) -> Scene:
+def _circle(thing: Any, look: PictureOptions) -> Scene:
     if isinstance(thing, SurfaceLinkage) and thing.steps is not None:
         thing = order_of_linkage(thing)
     if not isinstance(thing, OrderOnCircle):
@@ -232,7 +232,7 @@ def _circle(thing: Any, look: Look) -> Scene:
     return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
 
 
-def _sphere(thing: Any, look: Look) -> Scene:
+def _sphere(thing: Any, look: PictureOptions) -> Scene:
     if not isinstance(thing, Orientations):
         raise _unfit("sphere", "orientations of a body", thing)
     from synth.drawing.sphere import draw_map
@@ -240,7 +240,7 @@ def _sphere(thing: Any, look: Look) -> Scene:
     return draw_map(thing)
 
 
-KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
+KINDS: Mapping[str, Callable[[Any, PictureOptions], Scene]] = MappingProxyType(
     {
         "pattern": _pattern,
         "marks": _marks,

@@ -22,7 +22,7 @@ from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
 from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Scene, Shape
-from synth.drawing.space.panels import Panels, View, bodies_of, panel_shapes, panels_of, view_from_above
+from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_shapes, panels_of, view_from_above
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
 
@@ -81,7 +81,7 @@ def _seen_from_above(points: Floats, box: Box) -> tuple[Frame, View, list[Point]
 
 
 def _numbers_of_hinges(
-    panels: Panels, page: Sequence[Point], visible: Mapping[int, list[Point]], others: Sequence[Label]
+    panels: SpatialPanels, page: Sequence[Point], visible: Mapping[int, list[Point]], others: Sequence[Label]
 ) -> list[Label]:
     """Return the numbers of joints beside their visible hinges, off the numbers of links."""
     wishes: list[tuple[Label, list[Point]]] = [(label, [label.at]) for label in others]
@@ -96,7 +96,9 @@ def _numbers_of_hinges(
     return placed(wishes, Obstacles([], lines))[len(others) :]
 
 
-def _is_seen(panels: Panels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]) -> bool:
+def _is_seen(
+    panels: SpatialPanels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]
+) -> bool:
     """Check whether the middle of a hinge is on a face that is drawn, and on none of those drawn later."""
     from shapely.geometry import Point as Spot, Polygon as Area
 

@@ -27,7 +27,7 @@ from synth.motion.placement import link_motions
 
 __all__ = [
     "HINGE",
-    "Panels",
+    "SpatialPanels",
     "View",
     "bodies_of",
     "drawn_order",
@@ -162,7 +162,7 @@ def _height(at: Floats, corners: Floats, near: Floats) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Panels:
+class SpatialPanels:
     """Faces of a sheet, or of solids, that can be drawn in space at any configuration.
 
     `faces` are the vertices round each panel, the front of all on one side of the paper; a set of two vertices
@@ -184,12 +184,12 @@ def sheet_and_mechanism(sheet: Sheet | SheetConfiguration) -> tuple[Sheet, Sheet
     )
 
 
-def panels_of(sheet: Sheet | SheetConfiguration) -> Panels:
+def panels_of(sheet: Sheet | SheetConfiguration) -> SpatialPanels:
     """Return the panels of a sheet."""
     drawn, mechanism = sheet_and_mechanism(sheet)
     whole = with_all_edges(drawn)
     letters = {frozenset(edge): letter for edge, letter in zip(whole.edges, whole.assignments, strict=True)}
-    return Panels(
+    return SpatialPanels(
         same_side_up(whole.faces),
         {face: link for link, faces in enumerate(mechanism.panels) for face in faces},
         {frozenset(edge): joint for joint, edges in mechanism.pieces.items() for edge in edges},
@@ -227,7 +227,7 @@ def same_side_up(faces: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
     return [turned[number] for number in range(len(faces))]
 
 
-def front_up(panels: Panels, points: Floats, view: View) -> Panels:
+def front_up(panels: SpatialPanels, points: Floats, view: View) -> SpatialPanels:
     """Return panels with the sides exchanged if more of the backs than of the fronts would be seen."""
     if sum(float(area_vector(points[list(face)]) @ view.towards) for face in panels.faces) >= 0:
         return panels
@@ -235,7 +235,7 @@ def front_up(panels: Panels, points: Floats, view: View) -> Panels:
 
 
 def panel_shapes(
-    panels: Panels, points: Floats, view: View, page: Sequence[Point]
+    panels: SpatialPanels, points: Floats, view: View, page: Sequence[Point]
 ) -> tuple[list[Shape], dict[int, list[Point]]]:
     """Return the shapes of panels, those behind first; and the places of the corners of each, in this order.
 
@@ -261,7 +261,7 @@ def panel_shapes(
     return shapes, corners
 
 
-def _edge(panels: Panels, ends: tuple[int, int], row: list[Point]) -> Line:
+def _edge(panels: SpatialPanels, ends: tuple[int, int], row: list[Point]) -> Line:
     """Return a side of a panel: a hinge in the colour of its letter, another side fine."""
     joint = panels.joint_of.get(frozenset(ends))
     colour = _LETTERS.get(panels.letters.get(frozenset(ends), "B"), "grey")
@@ -278,7 +278,7 @@ def _normal(corners: Floats) -> Floats:
     return unit(area) if has_area else np.zeros(3)
 
 
-def bodies_of(linkage: PosedLinkage) -> tuple[Panels, Floats]:
+def bodies_of(linkage: PosedLinkage) -> tuple[SpatialPanels, Floats]:
     """Return the faces of all links, their front outside, and the corners at the configuration: float[2 J, 3].
 
     Corners 2 j and 2 j + 1 are the ends of hinge j, in units of the extent. A link with one hinge has no body.
@@ -292,7 +292,7 @@ def bodies_of(linkage: PosedLinkage) -> tuple[Panels, Floats]:
             link_of[len(faces)] = link
             faces.append(tuple(own[corner] for corner in face))
     joint_of = {frozenset((2 * i, 2 * i + 1)): joint for i, joint in enumerate(linkage.graph.joints)}
-    return Panels(faces, link_of, joint_of, dict.fromkeys(joint_of, HINGE), solid=True), corners
+    return SpatialPanels(faces, link_of, joint_of, dict.fromkeys(joint_of, HINGE), solid=True), corners
 
 
 def places_of_hinges(linkage: PosedLinkage, angles: Floats) -> Floats:

@@ -25,7 +25,7 @@ from synth.drawing.scene.frame import Frame, framed, page_of
 from synth.drawing.scene.shapes import SMALL, Label, Layer, Scene, moved
 from synth.drawing.scene.writing import check_matplotlib, pixels, save_scene, whole_file
 from synth.drawing.space.panels import (
-    Panels,
+    SpatialPanels,
     bodies_of,
     front_up,
     panel_shapes,
@@ -49,14 +49,16 @@ _STRIPS = (".png", ".svg")
 _PIXELS = (".gif", ".png")
 
 
-def pose_scenes(thing: Sheet | Panels, places: Floats, side: float = _MOVING, air: float = 8.0) -> Iterator[Scene]:
+def pose_scenes(
+    thing: Sheet | SpatialPanels, places: Floats, side: float = _MOVING, air: float = 8.0
+) -> Iterator[Scene]:
     """Yield a square picture of each pose, all from one place and at one scale.
 
     `places`, float[F, vertices, 3], are the vertices in each pose, in any unit of length. `side` is that of the
     square, `air` is left free on each side, in points.
     """
     view = view_of_motion(places[0])
-    panels = thing if isinstance(thing, Panels) else front_up(panels_of(thing), places[0], view)
+    panels = thing if isinstance(thing, SpatialPanels) else front_up(panels_of(thing), places[0], view)
     frame = _square(view.places(places).reshape(-1, 2), side, air)
     for points in places:
         shapes, _ = panel_shapes(panels, points, view, frame.row(view.places(points).tolist()))
@@ -71,12 +73,12 @@ def _square(seen: Floats, side: float, air: float) -> Frame:
     return framed(corners, (side - 2 * air) / (2 * half), (2 * side, 2 * side), air)
 
 
-def strip_of_poses(thing: Sheet | Panels, places: Floats) -> Scene:
+def strip_of_poses(thing: Sheet | SpatialPanels, places: Floats) -> Scene:
     """Return a strip of poses: at most twelve, equally far from each other, numbered.
 
     Parameters
     ----------
-    thing : Sheet or Panels
+    thing : Sheet or SpatialPanels
     places : float[F, vertices, 3]
 
     Examples
@@ -96,17 +98,19 @@ def strip_of_poses(thing: Sheet | Panels, places: Floats) -> Scene:
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
         numbers.append(Label((right + SMALL, down + SMALL), str(number), SMALL, "grey"))
     frame = Frame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
-    solid = isinstance(thing, Panels) and thing.solid
+    solid = isinstance(thing, SpatialPanels) and thing.solid
     said = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
     return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [said])
 
 
-def save_moving_poses(thing: Sheet | Panels, places: Floats, path: str | Path, *, force: bool = False) -> None:
+def save_moving_poses(
+    thing: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False
+) -> None:
     """Write poses as a GIF that moves: there and back, again and again.
 
     Parameters
     ----------
-    thing : Sheet or Panels
+    thing : Sheet or SpatialPanels
     places : float[F, vertices, 3]
         Vertices in each pose.
     path : str or Path
@@ -232,7 +236,7 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     return series
 
 
-def _draw(panels: Sheet | Panels, places: Floats, path: Path, *, force: bool) -> None:
+def _draw(panels: Sheet | SpatialPanels, places: Floats, path: Path, *, force: bool) -> None:
     """Write a moving picture, or a strip of poses."""
     if path.suffix.lower() == ".gif":
         save_moving_poses(panels, places, path, force=force)
