@@ -25,8 +25,7 @@ from synth.folding.configuration import configuration_of_sheet
 from synth.folding.derivatives import largest_panel
 from synth.folding.motion import fold
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.bodies import bodies_of_sheet
-from synth.viewer.solver_data import solver_data
+from synth.viewer.linkage import bodies_of_sheet, solver_data
 
 HERE = Path(__file__).resolve().parent
 ANSWERS = HERE.parent / "synth" / "viewer" / "web" / "src" / "answers.js"

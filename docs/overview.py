@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import synth
-from synth.drawing.scene.moving import moved
-from synth.drawing.scene.shapes import Label, Layer, Scene
+from synth.drawing.scene.shapes import Label, Layer, Scene, moved
 from synth.drawing.scene.writing import save_scene
 from synth.drawing.space.poses import pose_scenes
 

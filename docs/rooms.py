@@ -15,8 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from drawings.pieces import head
 
-from synth.drawing.scene.palette import NORMAL, SMALL
-from synth.drawing.scene.shapes import Label, Layer, Line, Polygon, Scene, Shape, text_width
+from synth.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Polygon, Scene, Shape, text_width
 from synth.drawing.scene.writing import save_scene
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -1,8 +1,7 @@
 """Mechanisms in notebooks: each shows itself as a picture.
 
-Answers know their own tables and say so themselves. Mechanisms are in ``graphs``, which does not know how to draw,
-and pictures do not know how they are written; here IPython is told, by the names of classes, so that nothing is
-imported before its time.
+Answers print their own tables. Mechanisms are in ``graphs``, which cannot draw, and pictures do not know how they
+are written; so IPython gets the names of classes here, and nothing is imported before it is needed.
 """
 
 from __future__ import annotations
@@ -10,7 +9,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-__all__ = ["load_ipython_extension", "picture_of", "show_in_this_notebook"]
+__all__ = ["load_ipython_extension"]
 
 _SHOWN = {
     "graphs.mechanism.sc": "SCGraph",
@@ -24,27 +23,18 @@ _SHOWN = {
     "synth.guidance.orientations": "Orientations",
     "synth.drawing.scene.shapes": "Scene",
 }
-"""Module to class; what inherits from one is shown too."""
+"""Module to class; subclasses are shown too."""
 
 
 def show_in_this_notebook() -> None:
-    """Let mechanisms show themselves, if this is IPython.
-
-    Examples
-    --------
-    Elsewhere it does nothing:
-
-    >>> show_in_this_notebook()
-    """
+    """Let mechanisms show themselves if this is IPython; elsewhere do nothing."""
     shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
     if shell is not None:
         load_ipython_extension(shell)
 
 
 def load_ipython_extension(shell: Any) -> None:
-    """Let mechanisms show themselves in a shell of IPython: what ``%load_ext synth`` calls.
-
-    ``import synth`` in a notebook does so too.
+    """Let mechanisms show themselves in a shell of IPython: ``%load_ext synth`` and ``import synth`` call this.
 
     Parameters
     ----------
@@ -56,19 +46,8 @@ def load_ipython_extension(shell: Any) -> None:
 
 
 def picture_of(thing: Any) -> str | None:
-    """Return a picture as SVG, or that of a mechanism; None, for its description, where it cannot be drawn.
+    """Return a scene or a mechanism as SVG; None if it cannot be drawn, so that IPython prints its description.
 
-    Parameters
-    ----------
-    thing : object
-        A scene, or a mechanism, of a class that the notebook shows.
-
-    Returns
-    -------
-    str or None
-
-    Examples
-    --------
     >>> from graphs.files.ids import mechanism_of_id
     >>> picture_of(mechanism_of_id("k1:Cr"))[:4]
     '<svg'
@@ -76,7 +55,7 @@ def picture_of(thing: Any) -> str | None:
     from graphs.errors import SynthedraError
     from synth.drawing.mechanisms.pictures import draw
     from synth.drawing.scene.shapes import Scene
-    from synth.drawing.scene.svg import svg_text
+    from synth.drawing.scene.writing import svg_text
 
     try:
         return svg_text(thing if isinstance(thing, Scene) else draw(thing))

@@ -47,7 +47,7 @@ EXEMPT = {
     ("synth/compliance/equilibrium.py", "_DOWN"): "length of a step",
     ("synth/compliance/equilibrium.py", "_SOFT"): "length of a step",
     ("synth/compliance/springs.py", "_NUDGE"): "step of differences",
-    ("synth/drawing/hammer.py", "_ROUND"): "simplified outlines of a drawing",
+    ("synth/drawing/sphere.py", "_ROUND"): "simplified outlines of a drawing",
     ("synth/folding/mending/fitting.py", "_HELD"): "weight of a held joint",
     ("synth/folding/mending/fitting.py", "_LEAST_VALUE"): "regularisation of a step",
     ("synth/folding/mending/nearest.py", "_FARTHER"): "errors of a coordinate that are tried in turn",

@@ -8,9 +8,7 @@ from math import inf
 
 from shapely.geometry import LineString
 
-from synth.drawing.scene.moving import moved, put
-from synth.drawing.scene.palette import SMALL
-from synth.drawing.scene.shapes import Disc, Label, Layer, Polygon, Scene, Shape
+from synth.drawing.scene.shapes import SMALL, Disc, Label, Layer, Polygon, Scene, Shape, moved, put
 
 __all__ = [
     "DASH",

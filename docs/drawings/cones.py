@@ -21,11 +21,22 @@ from synth.conformed.layers import links_in_layers
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
+from synth.drawing.conformed import surface_layer
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.on_surface import surface_layer
-from synth.drawing.scene.palette import FINE, NORMAL, STRONG
-from synth.drawing.scene.plot import Plot, round_steps, signed
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape, arc_points
+from synth.drawing.scene.frame import Plot, round_steps, signed
+from synth.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Point,
+    Polygon,
+    Shape,
+    arc_points,
+)
 from synth.drawing.sums import draw_loop_sums
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.cone import cone_reach, link_angles, map_to_cones

@@ -27,10 +27,8 @@ from graphs.mechanism.sc import SCGraph
 from synth.atlas.made.building import build_atlas
 from synth.atlas.made.plan import AtlasPlan
 from synth.drawing import Scene
-from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.mechanisms.orders import OrderOnCircle
-from synth.drawing.scene.palette import NORMAL, STRONG
-from synth.drawing.scene.shapes import Disc, Layer, Line, Point, Polygon, Shape
+from synth.drawing.mechanisms.chains import ChainLook, OrderOnCircle, chain_scene
+from synth.drawing.scene.shapes import NORMAL, STRONG, Disc, Layer, Line, Point, Polygon, Shape
 
 __all__ = ["DRAWINGS"]
 

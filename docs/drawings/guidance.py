@@ -15,11 +15,9 @@ from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.arrays import Floats
 from synth.drawing import Scene
-from synth.drawing.labels import spread
-from synth.drawing.scene.palette import FINE, NORMAL
-from synth.drawing.scene.shapes import Disc, Label, Line, Point, Polygon, Shape
-from synth.drawing.space.view import View, view_from
-from synth.drawing.sphere import draw_hoop
+from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Polygon, Shape
+from synth.drawing.space.panels import View, view_from
+from synth.drawing.sphere import draw_hoop, spread
 from synth.guidance.dyads import Dyad
 from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.hoop_method import hoop

@@ -19,9 +19,20 @@ from synth.compliance.equilibrium import equilibrium, load_path
 from synth.compliance.limited import limits
 from synth.compliance.springs import ElasticLinkage, Springs
 from synth.drawing import Scene
-from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.plot import Plot, round_steps, signed
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape
+from synth.drawing.scene.frame import Plot, round_steps, signed
+from synth.drawing.scene.shapes import (
+    FINE,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Point,
+    Polygon,
+    Shape,
+    colour_of_class,
+)
 from synth.drawing.space.poses import pose_scenes
 from synth.moving.made import configuration_of
 

@@ -19,10 +19,20 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.vertex_edge import vertex_edge_from_sc
 from synth.drawing import Scene
+from synth.drawing.mechanisms.labelling import centre_sign
 from synth.drawing.mechanisms.sc_graphs import class_numbers
-from synth.drawing.mechanisms.signs import centre_sign
-from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.shapes import Disc, Label, Line, Point, Shape
+from synth.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Line,
+    Point,
+    Shape,
+    colour_of_class,
+)
 
 __all__ = ["DRAWINGS"]
 

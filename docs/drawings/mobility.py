@@ -25,9 +25,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.rank.overconstraint import diagnose
 from graphs.rank.pose import PoseMobility, closure_at_pose, dense, pose_mobility
 from synth.drawing import Scene
-from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
-from synth.drawing.scene.plot import Plot, signed
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon, Shape
+from synth.drawing.scene.frame import Plot, signed
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Polygon, Shape
 
 __all__ = ["DRAWINGS"]
 

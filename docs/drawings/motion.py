@@ -21,10 +21,20 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing import Scene
-from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.plot import Plot, signed
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Shape
-from synth.drawing.space.bodies import bodies_of, places_of_hinges
+from synth.drawing.scene.frame import Plot, signed
+from synth.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Shape,
+    colour_of_class,
+)
+from synth.drawing.space.panels import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.derivatives import SheetDerivatives

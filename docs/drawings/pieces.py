@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from math import hypot
 
 from drawings.together import above, beside
-from synth.drawing.scene.palette import NORMAL, SMALL
-from synth.drawing.scene.shapes import Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
+from synth.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
 
 __all__ = ["arrow", "head", "in_rows", "of_shapes", "on_air", "words"]
 

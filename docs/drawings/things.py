@@ -18,9 +18,8 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from synth.drawing import Scene
 from synth.drawing.mechanisms.creases import places_on_page
-from synth.drawing.scene.palette import FINE, NORMAL, STRONG
-from synth.drawing.scene.plot import signed
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Shape
+from synth.drawing.scene.frame import signed
+from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Shape
 from synth.drawing.space.poses import pose_scenes
 from synth.templates.lines import Kind, Piece
 from synth.templates.template import template_of

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from synth.drawing.scene.moving import moved
-from synth.drawing.scene.palette import SMALL
-from synth.drawing.scene.shapes import Label, Layer, Scene, text_width
+from synth.drawing.scene.shapes import SMALL, Label, Layer, Scene, moved, text_width
 
 __all__ = ["above", "beside", "said"]
 

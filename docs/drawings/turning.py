@@ -16,8 +16,7 @@ from graphs.mechanism.sc import SCGraph
 from synth.conformed.layers import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
-from synth.drawing.scene.palette import FINE, NORMAL, STRONG
-from synth.drawing.scene.shapes import Disc, Label, Line, Point, Shape
+from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Line, Point, Shape
 from synth.fourbar.closing import kind_of_planar
 from synth.fourbar.position import output_planar
 from synth.surfaces.circuit import wrapped

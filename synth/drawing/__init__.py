@@ -1,7 +1,7 @@
 """Pictures: crease patterns, chains, graphs, models; loop sums, linkages on cones, orientations; folded panels.
 
-Scenes are in `synth.drawing.scene`, places of links and joints in `synth.drawing.layout`, pictures of mechanisms
-in `synth.drawing.mechanisms`.
+Scenes are in `synth.drawing.scene`, places of links and joints in `synth.drawing.layout`, panels in space in
+`synth.drawing.space`, pictures of mechanisms in `synth.drawing.mechanisms`, of many in `synth.drawing.catalogue`.
 """
 
 from __future__ import annotations

@@ -1,10 +1,15 @@
 from synth.drawing.conformed import draw_conformed as draw_conformed
-from synth.drawing.foldings import write_motion as write_motion
 from synth.drawing.mechanisms.pictures import draw as draw
-from synth.drawing.order_map import draw_map as draw_map
 from synth.drawing.scene.shapes import Scene as Scene
-from synth.drawing.scene.svg import svg_text as svg_text
-from synth.drawing.scene.writing import check_picture as check_picture, save_scene as save_scene
-from synth.drawing.space.poses import save_moving_poses as save_moving_poses, strip_of_poses as strip_of_poses
-from synth.drawing.sphere import draw_hoop as draw_hoop
+from synth.drawing.scene.writing import (
+    check_picture as check_picture,
+    save_scene as save_scene,
+    svg_text as svg_text,
+)
+from synth.drawing.space.poses import (
+    save_moving_poses as save_moving_poses,
+    strip_of_poses as strip_of_poses,
+    write_motion as write_motion,
+)
+from synth.drawing.sphere import draw_hoop as draw_hoop, draw_map as draw_map
 from synth.drawing.sums import draw_loop_sums as draw_loop_sums

@@ -8,10 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from graphs.arrays import Floats
-from synth.drawing.scene.frame import Frame, page_of
-from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.plot import Plot, round_steps
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Scene, Shape
+from synth.drawing.scene.frame import Frame, Plot, page_of, round_steps
+from synth.drawing.scene.shapes import FINE, SMALL, STRONG, Disc, Label, Layer, Line, Scene, Shape, colour_of_class
 from synth.surfaces.cone import ConeMap, cone_reach
 from synth.surfaces.cylinder import CylinderMap, cylinder_reach
 from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
@@ -22,13 +20,13 @@ _POINTS = 400
 _MOST_CURVES = 128
 _MOST_NAMED = 8
 _LEFT, _TOP, _WIDE, _HIGH, _BELOW = 34.0, 22.0, 250.0, 170.0, 30.0
-"""Places of the plot: free on its left, above it; its width and height; free below, points."""
+"""Space left of the plot, and above it; its width and height; space below it, points."""
 _LEGEND = 74.0
 _DASH = 7.0
 
 
 class _Sums(NamedTuple):
-    """What is drawn of the sums of a loop, for a cylinder (base 0) or a cone (base 1).
+    """Sums of a loop to be drawn, for a cylinder (base 0) or a cone (base 1).
 
     `along` is float[p], lambda in degrees or the radius, and `size` the same as `synth.surfaces.loop_sums` counts
     it; `reach` is float[n]. A root is (signs, place along, turns), a family its signs.

@@ -1,8 +1,7 @@
-"""A page that folds: any mechanism on one self-contained page, its motion computed where it is looked at.
+"""A page that folds: any mechanism on one self-contained page, its motion computed in the browser.
 
-`shown` makes the data of the page of a mechanism: `solver_data` what the solver is told, `bodies` what is seen,
-`ways` how it may begin. `page` puts pages together of data and the script that `script` finds; `web` holds the
-sources of that, `build` makes it of them. Theory: docs/theory/viewer.md.
+`shown` makes the data of the page of a mechanism, `linkage` the part about its linkage. `pages` puts pages
+together of data and the script that `building` makes of the sources in `web`. Theory: docs/theory/viewer.md.
 """
 
 from __future__ import annotations

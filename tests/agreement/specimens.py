@@ -16,7 +16,7 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.drawing.foldings import write_motion
+from synth.drawing.space.poses import write_motion
 from synth.folding.motion import fold
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate

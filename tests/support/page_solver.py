@@ -55,7 +55,7 @@ class Asked:
 
 
 def asked_of(
-    moving: Moving, rng: np.random.Generator, turn: float = 0.8, frames: int = 4, *, panels: bool = True
+    moving: MovingLinkage, rng: np.random.Generator, turn: float = 0.8, frames: int = 4, *, panels: bool = True
 ) -> Asked:
     """Ask for residuals anywhere, for the pose next to a disturbed one, and for a path of a driven joint.
 

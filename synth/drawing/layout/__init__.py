@@ -1,4 +1,4 @@
-"""Layouts: where links and joints are drawn, without crossings if that can be, mirrored if that can be too."""
+"""Layouts: places of links and joints in pictures, without crossings and mirrored where possible."""
 
 from __future__ import annotations
 

@@ -15,25 +15,27 @@ from graphs.ids import JointId, Joints, LinkId
 from synth.drawing.layout.embedding import (
     Neighbours,
     Node,
+    Skeleton,
+    bodies,
+    dots,
     embedded,
     faces_of,
     made_biconnected,
+    mirrored,
     part_of,
     same_cycle,
+    swaps_of,
 )
-from synth.drawing.layout.forces import pulled, springs_of
-from synth.drawing.layout.mirror import mirrored, swaps_of
-from synth.drawing.layout.plane import barycentric, plane_graph
-from synth.drawing.layout.skeleton import Skeleton, bodies, dots
+from synth.drawing.layout.plane import barycentric, plane_graph, pulled, springs_of
 
 __all__ = ["Layout", "PlacedFace", "layout_of"]
 
 Place = tuple[float, float]
 _GAP = 1.0
 _MOST_CHOICES = 2
-"""Mirrored drawings that are compared: there are many where there are many symmetries."""
+"""Largest number of mirrored drawings that are compared: there are many where there are many symmetries."""
 _SHORT, _MOST_OUTSIDE = 0.1, 6
-"""Length of a side below which nobody sees it, in units of their mean; faces that are then tried outside."""
+"""Length below which a side is invisible, in units of their mean; faces that are then tried outside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,23 +48,12 @@ class PlacedFace:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Places in the plane, y upwards, in units of the length of a side.
+    """Places in the plane, (x, y), y upwards, in units of the length of a side.
 
-    Attributes
-    ----------
-    links : mapping of link to (x, y)
-        The middle of each.
-    joints : mapping of joint to (x, y)
-    outlines : mapping of link to tuple of (x, y)
-        The corners of each body, counter-clockwise; empty where links are dots.
-    ways : mapping of joint to tuple of (x, y)
-        Where links are dots: the places that the line of a joint passes, from its first link to its second.
-    faces : tuple of PlacedFace
-        Those inside; none of a drawing with crossings.
-    plane : bool
-        Whether no two lines cross.
-    mirror : mapping of link to link, or None
-        The symmetry that is seen as a mirror, upright.
+    `links` are the middles of links, `outlines` the corners of bodies, counter-clockwise (empty where links are
+    dots); `ways` are then the places that the line of a joint passes, from its first link to its second. `faces`
+    are those inside (none of a drawing with crossings); `plane`: no two lines cross. `mirror` maps each link to
+    its image by the symmetry that is seen as an upright mirror, or is None.
     """
 
     links: dict[LinkId, Place]
@@ -82,49 +73,34 @@ def layout_of(
     rotation: Mapping[LinkId, Sequence[JointId]] | None = None,
     outer: Sequence[JointId] = (),
 ) -> Layout:
-    """Return a layout of a link-joint graph: without crossings if it is planar, mirrored if that can be.
+    """Return a layout of a link-joint graph: without crossings if it is planar, mirrored if possible.
 
-    Parameters
-    ----------
-    links : iterable of link ids
-    joints : mapping of joint id to (link, link)
-    as_bodies : bool, optional
-        Links are polygons of their joints; else they are dots.
-    rotation : mapping of link to its joints counter-clockwise, optional
-        The drawing to keep. Without it one is chosen.
-    outer : sequence of joint ids, optional
-        The face to be outside, walked round with it on the left; else one with most joints.
+    Joints map to pairs of links. With `as_bodies` links are polygons of their joints; else they are dots.
+    `rotation`, the joints of each link counter-clockwise, is a drawing to keep; without it one is chosen. `outer`
+    are the joints of the face to be outside, walked round with it on the left; by default it is one with most
+    joints.
 
-    Examples
-    --------
     >>> square = layout_of(range(4), {0: (0, 1), 1: (1, 2), 2: (2, 3), 3: (3, 0)})
     >>> square.plane, len(square.faces), square.mirror is not None
     (True, 1, True)
     """
-    graph = _incidence(links, joints)
-    parts = []
-    for nodes in nx.connected_components(graph):
-        part = part_of(graph, nodes)
-        kept = None if rotation is None else _given(part, rotation, joints)
-        parts.append(_placed(part, joints, as_bodies, kept, outer))
-    return _side_by_side(parts, joints)
-
-
-def _incidence(links: Iterable[LinkId], joints: Joints) -> nx.Graph:
     graph = nx.Graph()
     graph.add_nodes_from(("link", link) for link in links)
     for joint, ends in joints.items():
         graph.add_edges_from((("joint", joint), ("link", end)) for end in ends)
-    return graph
-
-
-def _given(part: nx.Graph, rotation: Mapping[LinkId, Sequence[JointId]], joints: Joints) -> Neighbours:
-    return {
-        (kind, name): tuple(("joint", joint) for joint in rotation[name])
-        if kind == "link"
-        else tuple(("link", end) for end in joints[name])
-        for kind, name in part
-    }
+    parts = []
+    for nodes in nx.connected_components(graph):
+        part = part_of(graph, nodes)
+        kept = None
+        if rotation is not None:
+            kept = {
+                (kind, name): tuple(("joint", joint) for joint in rotation[name])
+                if kind == "link"
+                else tuple(("link", end) for end in joints[name])
+                for kind, name in part
+            }
+        parts.append(_placed(part, joints, as_bodies, kept, tuple(outer)))
+    return _side_by_side(parts, joints)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,23 +122,27 @@ def _placed(
     if len(part) == 1:
         node = next(iter(part))
         return _Part([node], np.zeros((1, 2)), Skeleton({node: ()}, {}, None), [], True)
-    made = bodies if as_bodies else dots
-    wanted = tuple(outer)
+    skeleton_of = bodies if as_bodies else dots
     plain = kept if kept is not None else embedded(part)
     if plain is None:
         return _drawn_crossing(part, as_bodies)
     choices = []
     for rotations, swap in _drawings(part, joints, plain, kept is not None):
-        skeleton = made(rotations, swap)
-        faces = _outer_faces(skeleton, joints, wanted)
+        skeleton = skeleton_of(rotations, swap)
+        faces = _outer_faces(skeleton, joints, outer)
         if faces:
             choices.append((skeleton, faces))
         if len(choices) == _MOST_CHOICES or swap is None:
             break
-    if choices:
-        skeleton, faces = max(choices, key=lambda choice: (choice[0].mirror is not None, len(choice[1][0])))
-        return _drawn_open(skeleton, faces)
-    return _drawn_filled(made(plain), joints, wanted)
+    if not choices:
+        return _drawn_filled(skeleton_of(plain), joints, outer)
+    skeleton, faces = max(choices, key=lambda choice: (choice[0].mirror is not None, len(choice[1][0])))
+    best = _drawn_plane(skeleton, faces[0])
+    for face in faces[1:_MOST_OUTSIDE]:  # as long as a side is too short to be seen
+        if best.shortest >= _SHORT:
+            break
+        best = max(best, _drawn_plane(skeleton, face), key=lambda drawing: drawing.shortest)
+    return best
 
 
 def _drawings(
@@ -192,11 +172,11 @@ def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | No
     return kept
 
 
-def _outer_faces(skeleton: Skeleton, joints: Joints, wanted: Sequence[JointId]) -> list[tuple[Node, ...]]:
+def _outer_faces(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -> list[tuple[Node, ...]]:
     """Return the faces that can be outside, their own mirror images, the one with most corners first.
 
-    There are none if in one of them a node comes twice. Of a ring of binary links both faces have the same joints:
-    that goes first which is walked round as the face that is wanted.
+    There are none if in one of them a node comes twice. In a ring of binary links both faces have the same
+    joints: the one walked round as the requested face comes first.
     """
     faces = [face for face in faces_of(skeleton.around) if not _is_body(face, skeleton)]
     if any(len(set(face)) < len(face) for face in faces):
@@ -207,17 +187,17 @@ def _outer_faces(skeleton: Skeleton, joints: Joints, wanted: Sequence[JointId]) 
             face for face in faces if same_cycle([mirror[node] for node in face[::-1]], face) and len(face) > 2
         ]
         faces = [face for face in faces if {mirror[node] for node in face} == set(face)]
-    fit = [face for face in faces if _shared(face, joints, skeleton, wanted) == len(wanted)]
+    fit = [face for face in faces if _shared(face, joints, skeleton, outer) == len(outer)]
 
     def preferred(face: tuple[Node, ...]) -> tuple[bool, int]:
-        return _runs_as(_joints_of_face(face, joints, skeleton), wanted), len(face)
+        return _runs_as(_joints_of_face(face, joints, skeleton), outer), len(face)
 
     return sorted(fit, key=preferred, reverse=True)
 
 
-def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, wanted: Sequence[JointId]) -> int:
-    """Return how many joints of the face that is wanted outside lie round a face."""
-    return len(set(wanted) & set(_joints_of_face(face, joints, skeleton))) if wanted else 0
+def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, outer: Sequence[JointId]) -> int:
+    """Return the number of joints of the requested outer face that lie round a face."""
+    return len(set(outer) & set(_joints_of_face(face, joints, skeleton))) if outer else 0
 
 
 def _runs_as(row: Sequence[Hashable], other: Sequence[Hashable]) -> bool:
@@ -231,16 +211,6 @@ def _runs_as(row: Sequence[Hashable], other: Sequence[Hashable]) -> bool:
 def _is_body(face: Sequence[Node], skeleton: Skeleton) -> bool:
     return any(len(row) > 2 and set(row) == set(face) and same_cycle(row, face) and _runs_as(row, face)
                for row in skeleton.outlines.values())  # fmt: skip
-
-
-def _drawn_open(skeleton: Skeleton, faces: Sequence[tuple[Node, ...]]) -> _Part:
-    """Draw with the first of the faces outside; where a side is too short to be seen, with the best of several."""
-    best = _drawn_plane(skeleton, faces[0])
-    for face in faces[1:_MOST_OUTSIDE]:
-        if best.shortest >= _SHORT:
-            break
-        best = max(best, _drawn_plane(skeleton, face), key=lambda part: part.shortest)
-    return best
 
 
 def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
@@ -267,12 +237,12 @@ def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
     return _Part(graph.nodes[:own], places[:own], skeleton, faces, True, shortest)
 
 
-def _drawn_filled(skeleton: Skeleton, joints: Joints, wanted: Sequence[JointId]) -> _Part:
+def _drawn_filled(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -> _Part:
     """Draw a graph that a node cuts in two, with nodes that close it, which then are left out."""
     around = made_biconnected(skeleton.around)
     filled = Skeleton(around, skeleton.outlines, None)
     faces = [face for face in faces_of(around) if not _is_body(face, filled)]
-    best = max(faces, key=lambda face: (_shared(face, joints, skeleton, wanted), len(face)))
+    best = max(faces, key=lambda face: (_shared(face, joints, skeleton, outer), len(face)))
     part = _drawn_plane(filled, best)
     kept = [i for i, node in enumerate(part.nodes) if node in skeleton.around]
     real = [(face, at) for face, at in part.faces if all(node in skeleton.around for node in face)]
@@ -280,7 +250,7 @@ def _drawn_filled(skeleton: Skeleton, joints: Joints, wanted: Sequence[JointId])
 
 
 def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
-    """Draw a graph that is not planar: distances as those along the graph, as well as can be."""
+    """Draw a graph that is not planar: distances approximate those along the graph."""
     incidence = {node: tuple(part[node]) for node in part}
     if as_bodies:
         skeleton = bodies(incidence)
@@ -290,9 +260,9 @@ def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
     else:
         skeleton = dots(incidence)
         graph = nx.Graph((a, b) for a, row in skeleton.around.items() for b in row)
-    found = nx.kamada_kawai_layout(graph, pos=nx.circular_layout(graph))
+    place_of = nx.kamada_kawai_layout(graph, pos=nx.circular_layout(graph))
     nodes = list(graph)
-    places = np.array([found[node] for node in nodes])
+    places = np.array([place_of[node] for node in nodes])
     ends = np.array([(nodes.index(a), nodes.index(b)) for a, b in graph.edges])
     places = places / np.median(np.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1))
     at = dict(zip(nodes, places, strict=True))
@@ -301,7 +271,7 @@ def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
 
 
 def _round(row: Sequence[Node], at: Mapping[Node, Floats]) -> tuple[Node, ...]:
-    """Return the corners of a body in the order in which they lie round their middle."""
+    """Return the corners of a body in their order round their middle."""
     if len(row) < 4:
         return tuple(row)
     middle = np.mean([at[node] for node in row], axis=0)
@@ -309,14 +279,14 @@ def _round(row: Sequence[Node], at: Mapping[Node, Floats]) -> tuple[Node, ...]:
 
 
 def _lying(places: Floats) -> Floats:
-    """Return the turn after which places are widest from left to right."""
+    """Return the rotation after which places spread most from left to right."""
     along = best_line(places).direction
     along = along * (1 if along[0] >= 0 else -1)
     return np.array([[along[0], -along[1]], [along[1], along[0]]])
 
 
 def _side_by_side(parts: Sequence[_Part], joints: Joints) -> Layout:
-    """Put the parts in a row, and name what is where."""
+    """Put the parts in a row, and enter their places by name."""
     layout = Layout({}, {}, {}, {}, (), all(part.plane for part in parts), None)
     faces: list[PlacedFace] = []
     right = 0.0
@@ -339,11 +309,6 @@ def _name(part: _Part, shift: Floats, joints: Joints, layout: Layout) -> None:
     at: dict[Node, Place] = {}
     for node, place in zip(part.nodes, (part.places + shift).tolist(), strict=True):
         at[node] = (place[0], place[1])
-    mine: dict[str, list[LinkId]] = {"link": [], "joint": []}
-    for node in [*part.skeleton.around, *part.skeleton.outlines]:
-        kind, name = node[0], node[1]
-        if kind in mine and name not in mine[kind]:
-            mine[kind].append(name)
     for link, row in part.skeleton.outlines.items():
         layout.outlines[link[1]] = tuple(at[node] for node in row)
         layout.links[link[1]] = _middle([at[node] for node in row])
@@ -353,11 +318,8 @@ def _name(part: _Part, shift: Floats, joints: Joints, layout: Layout) -> None:
             layout.links.setdefault(name, place)
         elif kind == "joint":
             layout.joints[name] = place
-    if not part.skeleton.outlines:
-        _enter_ways(joints, layout)
-
-
-def _enter_ways(joints: Joints, layout: Layout) -> None:
+    if part.skeleton.outlines:
+        return
     for joint, (a, b) in joints.items():
         if joint in layout.ways or a not in layout.links or b not in layout.links:
             continue
@@ -375,11 +337,11 @@ def _joints_of_face(row: Sequence[Node], joints: Joints, skeleton: Skeleton) -> 
     """Return the joints round a face, from the nodes round it."""
     if skeleton.outlines:
         return tuple(node[1] for node in row if node[0] == "joint")
-    found: list[JointId] = []
+    on_edges: list[JointId] = []
     between = {frozenset(ends): joint for joint, ends in joints.items()}
     for a, b in zip(row, (*row[1:], row[0]), strict=True):
         if a[0] == "joint":
-            found.append(a[1])
+            on_edges.append(a[1])
         elif a[0] == b[0] == "link":
-            found.append(between[frozenset((a[1], b[1]))])
-    return tuple(found)
+            on_edges.append(between[frozenset((a[1], b[1]))])
+    return tuple(on_edges)

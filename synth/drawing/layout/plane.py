@@ -1,10 +1,10 @@
-"""Places of the nodes of a plane graph: barycentric, with weights that even out the lengths.
+"""Places of the nodes of a plane graph: barycentric, then pulled into shape by forces.
 
 Tutte's theorem: if the outer face is a convex polygon and every other node lies in a weighted mean of its
 neighbours, weights positive, then a plane graph whose inner faces are triangles is drawn without crossings. Here
-every inner face has a *hub*, a node joined to all its corners. Then nodes move under forces; no move may turn a
-triangle over, so that none makes a crossing. Both steps treat mirror images alike. Theory:
-docs/theory/pictures.md.
+every inner face has a *hub*, a node joined to all its corners, and weights even out the lengths. Then nodes move
+under forces: sides of one length, bodies regular, nodes apart. No move may turn a triangle over, so that none
+makes a crossing. Both steps treat mirror images alike. Theory: docs/theory/pictures.md.
 
 Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963).
 """
@@ -16,13 +16,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
+from graphs.arrays import Flags, Floats, Ints
 from synth.drawing.layout.embedding import Node, faces_of
 
-__all__ = ["PlaneGraph", "barycentric", "plane_graph"]
+__all__ = ["LayoutSprings", "PlaneGraph", "barycentric", "plane_graph", "pulled", "springs_of"]
 
 _ROUNDS = 12
 _HUB_WEIGHT = 0.25
+_STEPS = 80
+_LOOKS = 8
+"""Steps between two checks of the outer face."""
+_STILL = 2e-3
+_SPRING, _PUSH = 0.2, 0.06
+_OF_HEIGHT = 0.45
+_OPEN, _LOW = 0.04, 0.3
+"""How hard, and below which height, triangles are opened, in units of a side's length."""
+_APART, _AWAY = 0.5, 0.8
+"""How near nodes may come to edges before they are pushed, and how hard, in units of a side's length."""
+_UPRIGHT = np.array([-1.0, 1.0])
+_HUB_PULL = 0.5
+_LARGE = 250
+"""Number of nodes above which the barycentric places are kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,11 +62,6 @@ def plane_graph(around: Mapping[Node, Sequence[Node]], outer: Sequence[Node]) ->
     """Return a biconnected plane graph with hubs, from the neighbours of each node, counter-clockwise.
 
     `outer` is one of the faces, as `faces_of` returns it: clockwise if it is drawn outside.
-
-    >>> square = {0: (1, 3), 1: (2, 0), 2: (3, 1), 3: (0, 2)}
-    >>> graph = plane_graph(square, faces_of(square)[1])
-    >>> len(graph.triangles), graph.outer.tolist()
-    (4, [1, 2, 3, 0])
     """
     number = {node: i for i, node in enumerate(around)}
     faces = [tuple(number[node] for node in face) for face in faces_of(around)]
@@ -88,11 +97,6 @@ def barycentric(graph: PlaneGraph, mirror: Mapping[Node, Node] | None = None) ->
     """Return places, float[n, 2], with the outer face a regular polygon, and weights that make lengths more even.
 
     `mirror` is a symmetry that reverses the graph and its outer face; its mirror line is upright.
-
-    >>> square = {0: (1, 3), 1: (2, 0), 2: (3, 1), 3: (0, 2)}
-    >>> places = barycentric(plane_graph(square, faces_of(square)[1]))
-    >>> bool(abs(places[4]).max() < 1e-9)
-    True
     """
     corners = len(graph.outer)
     start = _start(graph, mirror)
@@ -114,7 +118,7 @@ def barycentric(graph: PlaneGraph, mirror: Mapping[Node, Node] | None = None) ->
 
 
 def _start(graph: PlaneGraph, mirror: Mapping[Node, Node] | None) -> float:
-    """Return the place in the outer face that is put on top: the mirror is upright; may lie between two."""
+    """Return the index in the outer face of the node on top, on the mirror line; it may lie between two."""
     if mirror is None:
         return 0.0
     row = [graph.nodes[i] for i in graph.outer.tolist()]
@@ -130,3 +134,177 @@ def _balanced(pairs: Ints, weights: Floats, places: Floats, inner: Ints, outer: 
     np.fill_diagonal(laplacian, -laplacian.sum(axis=1))
     pulled: Floats = -laplacian[np.ix_(inner, outer)] @ places[outer]
     return np.asarray(np.linalg.solve(laplacian[np.ix_(inner, inner)], pulled), dtype=np.float64)
+
+
+@dataclass(frozen=True, slots=True)
+class LayoutSprings:
+    """Pairs of nodes, int64[s, 2], their lengths at rest, and stiffnesses, float[s]."""
+
+    pairs: Ints
+    lengths: Floats
+    stiffness: Floats
+
+
+def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> LayoutSprings:
+    """Return springs of edges, of length 1, and of bodies, at rest as regular polygons of sides 1."""
+    pairs, lengths, stiffness = [*edges], [1.0] * len(edges), [1.0] * len(edges)
+    for body in bodies:
+        size = len(body)
+        for i in range(size):
+            for k in range(i + 1, size):
+                pairs.append((body[i], body[k]))
+                lengths.append(float(np.sin(np.pi * (k - i) / size) / np.sin(np.pi / size)))
+                stiffness.append(2.0)
+    return LayoutSprings(np.array(pairs, np.int64).reshape(-1, 2), np.array(lengths), np.array(stiffness))
+
+
+def pulled(
+    graph: PlaneGraph, places: Floats, springs: LayoutSprings, mirror: Mapping[Node, Node] | None = None
+) -> Floats:
+    """Return places, float[n, 2] in side lengths, after the nodes moved under forces.
+
+    The drawing must have no crossings; its faces stay the same, without crossings. `mirror` is the symmetry of
+    which its places are mirror images, upright: that is kept to the last digit, where rounding alone would let
+    parts under pressure bend to one side.
+    """
+    size = np.linalg.norm(places[graph.edges[:, 0]] - places[graph.edges[:, 1]], axis=1).mean()
+    here: Floats = places / size
+    if len(here) > _LARGE:
+        return here
+    forces = _Forces(graph, springs)
+    image = None if mirror is None else _images(graph, mirror)
+    whole = here  # the last drawing whose outer face was found not to cross itself
+    for number in range(_STEPS):
+        longest = 0.2 * (1 - number / _STEPS) + 0.005
+        move = forces.at(here)
+        length = np.sqrt((move**2).sum(axis=1))
+        most = np.minimum(longest, _free_way(graph.triangles, here))
+        move *= np.minimum(1.0, most / np.maximum(length, 1e-12))[:, None]
+        if image is not None:
+            move = (move + move[image] * _UPRIGHT) / 2
+        here = here + move
+        if number % _LOOKS == _LOOKS - 1:
+            if _crosses_itself(here[graph.outer]):
+                return whole
+            whole = here
+            if length.max() < _STILL:
+                break
+    return whole
+
+
+def _images(graph: PlaneGraph, mirror: Mapping[Node, Node]) -> Ints:
+    """Return the index of the image of each node, hubs included."""
+    number = {node: i for i, node in enumerate(graph.nodes)}
+    image: Ints = np.arange(len(graph.nodes))
+    for i, node in enumerate(graph.nodes[: graph.own]):
+        image[i] = number[mirror[node]]
+    hub_at = dict(zip(map(frozenset, graph.faces), graph.hub_of, strict=True))
+    for face, hub in zip(graph.faces, graph.hub_of, strict=True):
+        if hub is not None:
+            there = hub_at[frozenset(image[list(face)].tolist())]
+            assert there is not None  # the image of a face has as many corners
+            image[hub] = there
+    return image
+
+
+class _Forces:
+    """Forces on the nodes of a graph; sums over nodes are products with matrices made once."""
+
+    def __init__(self, graph: PlaneGraph, springs: LayoutSprings) -> None:
+        size = len(graph.nodes)
+        self._graph, self._springs, self._own = graph, springs, graph.own
+        self._spans = _differences(springs.pairs, size)
+        ends = graph.edges
+        nodes = np.arange(graph.own)[:, None]
+        self._beside = (nodes != ends[:, 0]) & (nodes != ends[:, 1])
+        self._ends = np.zeros((len(ends), graph.own))
+        self._ends[np.arange(len(ends))[:, None], ends] = 0.5
+        self._hubs = [hub for hub in graph.hub_of if hub is not None]
+        self._means = np.zeros((len(self._hubs), size))
+        hubbed = [face for face, hub in zip(graph.faces, graph.hub_of, strict=True) if hub is not None]
+        for row, face in zip(self._means, hubbed, strict=True):
+            row[list(face)] = 1 / len(face)
+
+    def at(self, here: Floats) -> Floats:
+        """Return the force on each node: float[n, 2]."""
+        apart = self._spans @ here
+        length = np.maximum(np.sqrt((apart**2).sum(axis=1)), 1e-9)
+        pull = _SPRING * self._springs.stiffness * (1 - self._springs.lengths / length)
+        force: Floats = -self._spans.T @ (pull[:, None] * apart)
+        own = here[: self._own]
+        between = own[:, None, :] - own[None, :, :]
+        square = (between**2).sum(axis=-1)
+        np.fill_diagonal(square, np.inf)
+        force[: self._own] += ((_PUSH / square**1.5)[:, :, None] * between).sum(axis=1)
+        force[: self._own] += self._off_edges(own)
+        self._open(force, here)
+        force[self._hubs] += _HUB_PULL * (self._means @ here - here[self._hubs])
+        return force
+
+    def _off_edges(self, own: Floats) -> Floats:
+        """Push nodes off edges that they come near to, and the edges off them."""
+        a, b = own[self._graph.edges[:, 0]], own[self._graph.edges[:, 1]]
+        along = b - a
+        off = own[:, None, :] - a
+        part = (off * along).sum(axis=-1) / np.maximum((along**2).sum(axis=-1), 1e-12)
+        off = off - np.clip(part, 0, 1)[:, :, None] * along
+        distance = np.sqrt((off**2).sum(axis=-1))
+        near = (distance < _APART) & self._beside
+        size = np.where(near, _AWAY * (_APART - distance) / np.maximum(distance, 1e-6), 0.0)
+        pushes = size[:, :, None] * off
+        force: Floats = pushes.sum(axis=1) - self._ends.T @ pushes.sum(axis=0)
+        return force
+
+    def _open(self, force: Floats, here: Floats) -> None:
+        """Push the corners of low triangles off their opposite sides: a flat one would hold its corners fast."""
+        triangles = self._graph.triangles
+        corners = here[triangles]
+        opposite = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+        length = np.maximum(np.sqrt((opposite**2).sum(axis=2)), 1e-12)
+        twice_area = opposite[:, 0, 0] * opposite[:, 1, 1] - opposite[:, 0, 1] * opposite[:, 1, 0]
+        height = np.maximum(twice_area[:, None] / length, 1e-9)
+        push = np.minimum(_OPEN * np.maximum(1 / height - 1 / _LOW, 0.0), 1.0) / length
+        inward = np.stack([-opposite[:, :, 1], opposite[:, :, 0]], axis=2) * push[:, :, None]
+        np.add.at(force, triangles, inward - np.roll(inward, 1, axis=1) / 2 - np.roll(inward, 2, axis=1) / 2)
+
+
+def _differences(pairs: Ints, size: int) -> Floats:
+    """Return the matrix that takes places to the vectors from the first of each pair to the second."""
+    matrix = np.zeros((len(pairs), size))
+    rows = np.arange(len(pairs))
+    matrix[rows, pairs[:, 1]] = 1
+    matrix[rows, pairs[:, 0]] = -1
+    return matrix
+
+
+def _free_way(triangles: Ints, here: Floats) -> Floats:
+    """Return the distance that each node may move: float[n].
+
+    No triangle is turned over, wherever the others go: it keeps its sense while no corner moves half its least
+    height.
+    """
+    corners = here[triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    twice_area = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+    height = twice_area / np.sqrt((sides**2).sum(axis=2).max(axis=1))
+    way = np.full(len(here), np.inf)
+    np.minimum.at(way, triangles, height[:, None])
+    return _OF_HEIGHT * way
+
+
+def _crosses_itself(ring: Floats) -> bool:
+    """Whether two sides of a polygon that have no corner in common meet."""
+    ends = np.roll(ring, -1, axis=0)
+    sides = _turn(ring[:, None], ends[:, None], ring[None]) * _turn(ring[:, None], ends[:, None], ends[None])
+    crossed: Flags = (sides <= 0) & (sides.T <= 0)
+    count = len(ring)
+    step = (np.arange(count)[:, None] - np.arange(count)[None]) % count
+    crossed &= (step > 1) & (step < count - 1)
+    return bool(crossed.any())
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
+    turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
+        c[..., 0] - a[..., 0]
+    )
+    return turn

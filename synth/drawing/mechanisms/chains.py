@@ -1,30 +1,47 @@
-"""Kinematic chains as the literature of mechanisms draws them: links as bodies, joints as small circles."""
+"""Kinematic chains as the literature draws them; joints in their order round a cone; R/- strings as strips.
+
+Links of a chain are bodies, joints small circles. An order of joints is shown on the circle as seen from the
+apex, links as chords between their joints; azimuths are 0 on top and grow counter-clockwise, as in the pictures
+of `synth.drawing.conformed`, which show more. A string is a strip of paper between two bodies, with fans of
+creases that meet in a point.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot
+from itertools import pairwise
+from math import cos, hypot, pi, sin
 
+from enumerate.strings.panel_strings import ChainString
 from graphs.errors import numbered
 from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Centre
+from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.mechanisms.signs import joint_dot
-from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
-from synth.drawing.scene.palette import NORMAL, SMALL
-from synth.drawing.scene.shapes import Label, Layer, Line, Point, Polygon, Scene, Shape
+from synth.drawing.mechanisms.labelling import Obstacles, beside, joint_dot, placed
+from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
 
-__all__ = ["ChainLook", "chain_layers", "chain_scene"]
+__all__ = ["ChainLook", "OrderOnCircle", "chain_scene", "order_of_linkage", "order_scene", "strip_scene"]
 
 _UNIT = 46.0
 _BINARY = 3.4
 """Width of a binary link, points."""
+_CIRCLE = 60.0
+"""The radius of the circle, points, where there is room."""
+_SMALL_BOX = 200.0
+"""Points of width and height below which letters and dots are smaller."""
+_HIGH, _PANEL, _FAN, _END = 1.0, 0.8, 0.55, 0.6
+"""Height of a strip; widths of a panel, of a step of a fan, and of a body at an end, in units of the height."""
+_STRIP = 34.0
+"""Height of a strip, points, where there is room."""
 
 
 @dataclass(frozen=True, slots=True)
 class ChainLook:
-    """What a picture of a chain shows; the size of letters and the radius of joints are in points."""
+    """Options of a picture of a chain; the size of letters and the radius of joints are in points."""
 
     link_numbers: bool = True
     joint_numbers: bool = True
@@ -33,47 +50,26 @@ class ChainLook:
 
 
 def chain_scene(
-    chain: SCGraph,
-    *,
-    look: ChainLook | None = None,
-    box: tuple[float, float] = (COLUMN, COLUMN),
-    caption: str | None = "",
+    chain: SCGraph, *, look: ChainLook | None = None, box: Box = BOX, caption: str | None = ""
 ) -> Scene:
-    """Return a picture of a link-joint graph with links as bodies: the loops' centres are not shown.
+    """Return a picture of a link-joint graph with links as bodies, without the loops' centres.
 
-    Parameters
-    ----------
-    chain : SCGraph
-    look : ChainLook, optional
-    box : (width, height), optional
-        Points there are at most.
-    caption : str, optional
-        Goes before the line that says what is seen; None: no line at all.
-
-    Examples
-    --------
-    >>> scene = chain_scene(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> [layer.name for layer in scene.layers]
-    ['links', 'joints', 'labels', 'caption']
+    It is at most as large as the box (width, height), in points. The caption comes before the line that describes
+    the picture; with None there is neither.
     """
     layout = layout_of(chain.nodes, chain.joints)
-    frame = framed([place for row in _places(layout) for place in row], _UNIT, box)
-    layers = chain_layers(chain, layout, frame, look or ChainLook())
-    return page_of(frame, layers, captions_of(caption, _said(chain, layout)))
-
-
-def _places(layout: Layout) -> list[list[Point]]:
-    return [list(layout.links.values()), list(layout.joints.values()), *map(list, layout.outlines.values())]
-
-
-def _said(chain: SCGraph, layout: Layout) -> str:
+    corners = [place for outline in layout.outlines.values() for place in outline]
+    frame = framed([*layout.links.values(), *layout.joints.values(), *corners], _UNIT, box)
+    layers = _chain_layers(chain, layout, frame, look or ChainLook())
     said = f"{numbered(len(chain), 'link')}, {numbered(len(chain.joints), 'joint')}"
     if not layout.plane:
-        return said + "; not planar: lines cross"
-    return said + ("; drawn with a mirror" if layout.mirror else "")
+        said += "; not planar: lines cross"
+    elif layout.mirror:
+        said += "; drawn with a mirror"
+    return page_of(frame, layers, captions_of(caption, said))
 
 
-def chain_layers(chain: SCGraph, layout: Layout, frame: Frame, look: ChainLook) -> list[Layer]:
+def _chain_layers(chain: SCGraph, layout: Layout, frame: Frame, look: ChainLook) -> list[Layer]:
     """Return links, joints and labels of a chain in a frame."""
     outlines = {link: frame.row(row) for link, row in layout.outlines.items()}
     bodies: list[Shape] = []
@@ -82,9 +78,12 @@ def chain_layers(chain: SCGraph, layout: Layout, frame: Frame, look: ChainLook) 
         bodies += _body(link, outlines[link], link == chain.ground, look, layout.plane)
     joints = {joint: frame.at(place) for joint, place in layout.joints.items()}
     dots: list[Shape] = [joint_dot(at, joint, look.dot) for joint, at in joints.items()]
-    single = [_single(link, frame.at(layout.links[link])) for link in layout.links if link not in outlines]
+    for link, place in layout.links.items():
+        if link not in outlines:
+            x, y = frame.at(place)
+            bodies.append(Line([(x - 6, y), (x + 6, y)], "ink", 2 * NORMAL, data=(("link", str(link)),)))
     labels = _labels(outlines, joints, look)
-    return [Layer("links", (*bodies, *single)), Layer("joints", tuple(dots)), Layer("labels", tuple(labels))]
+    return [Layer("links", tuple(bodies)), Layer("joints", tuple(dots)), Layer("labels", tuple(labels))]
 
 
 def _body(link: LinkId, row: list[Point], ground: bool, look: ChainLook, plane: bool) -> list[Shape]:
@@ -108,21 +107,16 @@ def _width(row: list[Point], look: ChainLook) -> float:
 
 
 def _edges(row: list[Point], off: float) -> list[tuple[Point, Point]]:
-    """Return what is seen of the outline of a body: lines on both sides of each of its own."""
-    found = []
+    """Return the visible outline of a body: lines on both sides of each of its own."""
+    edges = []
     for (ax, ay), (bx, by) in zip(row, row[1:] + (row[:1] if len(row) > 2 else []), strict=False):
         long = hypot(bx - ax, by - ay) or 1.0
         across = (-(by - ay) / long * off, (bx - ax) / long * off)
-        found += [
+        edges += [
             ((ax + side * across[0], ay + side * across[1]), (bx + side * across[0], by + side * across[1]))
             for side in (1, -1)
         ]
-    return found
-
-
-def _single(link: LinkId, at: Point) -> Shape:
-    row = [(at[0] - 6, at[1]), (at[0] + 6, at[1])]
-    return Line(row, "ink", 2 * NORMAL, data=(("link", str(link)),))
+    return edges
 
 
 def _labels(outlines: dict[LinkId, list[Point]], joints: dict[JointId, Point], look: ChainLook) -> list[Label]:
@@ -156,3 +150,98 @@ def _for_body(row: list[Point], look: ChainLook) -> list[Point]:
         foot = (ax + part * (bx - ax), ay + part * (by - ay))
         places += [(foot[0] + side * far * across[0], foot[1] + side * far * across[1]) for side in (1, -1)]
     return [*places, *beside(middle, far)]
+
+
+@dataclass(frozen=True, slots=True)
+class OrderOnCircle:
+    """Joints round a cone, at azimuths in radians.
+
+    The chain is drawn if the order is not shown. `pairs` are the indices of neighbouring joints of a link.
+    """
+
+    chain: SCGraph
+    names: Sequence[str]
+    azimuths: Sequence[float]
+    pairs: Sequence[tuple[int, int]]
+
+
+def order_of_linkage(linkage: SurfaceLinkage) -> OrderOnCircle:
+    """Return the order of a linkage that is defined by steps between its axes.
+
+    Raise InvariantError if the steps disagree, or do not lead to every joint.
+    """
+    azimuths = linkage.places()
+    joints = list(linkage.chain.joints)
+    pairs: set[tuple[int, int]] = set()
+    for link in linkage.chain.nodes:
+        own = [place for place, joint in enumerate(joints) if link in linkage.chain.joints[joint]]
+        own.sort(key=lambda place: azimuths[place] % (2 * pi))
+        pairs.update((min(a, b), max(a, b)) for a, b in zip(own, own[1:] + own[:1], strict=True) if a != b)
+    return OrderOnCircle(linkage.chain, list(map(str, joints)), azimuths, sorted(pairs))
+
+
+def order_scene(order: OrderOnCircle, *, numbers: bool = True, box: Box = BOX, caption: str | None = "") -> Scene:
+    """Return a picture of an order of joints round a cone, at most as large as the box, in points.
+
+    `numbers`: write the names of joints. The caption comes before the line that describes the picture; with None
+    there is neither.
+    """
+    size, dot = (5.0, 1.6) if min(box) < _SMALL_BOX else (SMALL, 2.1)
+    frame = framed([(-1, -1), (1, 1)], _CIRCLE, box, margin=2 * size + dot)
+    middle, radius = frame.at((0, 0)), frame.scale
+    places = [frame.at((-sin(azimuth), cos(azimuth))) for azimuth in order.azimuths]
+    chords = [(places[a], places[b]) for a, b in order.pairs]
+    dots = [joint_dot(at, name, dot) for at, name in zip(places, order.names, strict=True)]
+    layers = [
+        Layer("circle", (Disc(middle, radius, None, "grey", NORMAL),)),
+        Layer("links", tuple(Line(chord, "class0", 1.2 * NORMAL) for chord in chords)),
+        Layer("joints", tuple(dots)),
+    ]
+    if numbers:
+        turns = [2 * pi * i / 48 for i in range(49)]
+        circle = [(middle[0] + radius * cos(turn), middle[1] + radius * sin(turn)) for turn in turns]
+        obstacles = Obstacles([(*at, dot + 0.8) for at in places], [*chords, *pairwise(circle)])
+        wishes = []
+        for at, azimuth, name in zip(places, order.azimuths, order.names, strict=True):
+            label = Label((0, 0), name, size, widest=4, data=(("joint", name),))
+            wishes.append((label, beside(at, dot + 0.9 * size, first=-pi / 2 - azimuth)))
+        layers.append(Layer("labels", tuple(placed(wishes, obstacles))))
+    planar = bool(order.chain.loops) and all(loop.centre is Centre.INFINITE for loop in order.chain.loops)
+    where = "cylinder, seen along its axis" if planar else "cone, seen from the apex"
+    said = f"{numbered(len(order.names), 'joint')} round a {where}; links are chords between joints"
+    return page_of(frame, layers, captions_of(caption, said))
+
+
+def strip_scene(chain: ChainString, *, box: Box = BOX, caption: str | None = "") -> Scene:
+    """Return a picture of an R/- string: the bodies at its ends are grey, a fan meets at the lower edge.
+
+    It is at most as large as the box, in points. The caption comes before the line that describes the picture;
+    with None there is neither.
+    """
+    creases = _creases_of_strip(chain)
+    right = max(top for _, top in creases) + _END
+    sides = [(0.0, 0.0), *creases, (right, right)]
+    frame = framed([(0, 0), (right, _HIGH)], _STRIP, box)
+    panels: list[Shape] = []
+    for number, ((b0, t0), (b1, t1)) in enumerate(pairwise(sides)):
+        corners = [(b0, 0.0), (b1, 0.0), (t1, _HIGH), (t0, _HIGH)]
+        row = frame.row(dict.fromkeys(corners))  # the corners of a triangle once
+        end = number in (0, len(sides) - 2)
+        panels.append(Polygon(row, "ground" if end else "body", "ink", NORMAL, data=(("link", str(number)),)))
+    lines = tuple(
+        Line(frame.row([(bottom, 0.0), (top, _HIGH)]), "class0", 1.4 * NORMAL, data=(("joint", str(number)),))
+        for number, (bottom, top) in enumerate(creases)
+    )
+    said = f"{chain.text}: {chain.creases} creases"
+    return page_of(frame, [Layer("panels", tuple(panels)), Layer("creases", lines)], captions_of(caption, said))
+
+
+def _creases_of_strip(chain: ChainString) -> list[tuple[float, float]]:
+    """Return for each crease its x at the lower and at the upper edge."""
+    creases = []
+    left = _END
+    for size in chain.clusters:
+        wide = _FAN * (size - 1)
+        creases += [(left + wide / 2, left + _FAN * i) for i in range(size)]
+        left += wide + _PANEL
+    return creases

@@ -1,39 +1,74 @@
-"""Crease patterns: mountains, valleys, cuts, borders; panels and creases by number; the SC graph over them.
+"""Crease patterns: mountains, valleys, cuts, borders; panels and creases by number; overlays.
 
-Mountains are red and whole, valleys blue and dashed, cuts green and dotted, what is unassigned purple, borders
-black. Numbers are those of the mechanism: links count panels, joint ids are places in the list of edges, as
-messages and JSON have them. Theory: docs/theory/crease-patterns.md. The overlay is that of Wiener 2016, Figs. 21,
-32, 35.
+Mountains are red and whole, valleys blue and dashed, cuts green and dotted, unassigned creases purple, borders
+black. Creases can also be coloured by what they do when the pattern moves. Overlays are the SC graph (as in
+Wiener 2016, Figs. 21, 32, 35), creases that disagree with a branch, and repairs made when a drawing was read.
+Numbers are those of the mechanism: links count panels, joint ids are places in the list of edges, as messages and
+JSON have them. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 from statistics import median
+from typing import Literal, TypeAlias
+
+import numpy as np
 
 from graphs.convert.duality import SheetMechanism
-from graphs.errors import InvariantError, numbered, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.geometry import signed_area
-from graphs.ids import LinkId
+from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.plane import flat_places
+from graphs.mechanism.reading import Reading, RepairKind
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.mechanisms.motions import Doing, Motions, motions_by_verdict, motions_on_branch
+from graphs.tolerances import DOUBLE
+from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
-from synth.drawing.mechanisms.signs import SIGN, centre_sign
-from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
-from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Scene, Shape, text_width
-from synth.drawing.space.panels import panels_made
+from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.shapes import (
+    FINE,
+    NORMAL,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Point,
+    Polygon,
+    Scene,
+    Shape,
+    colour_of_class,
+    text_width,
+)
+from synth.drawing.space.panels import sheet_and_mechanism
 from synth.folding.configuration import SheetConfiguration
+from synth.motion.beginning import Wanted, beginning
+from synth.motion.branches import Branch
+from synth.motion.marked import disagreement_with
+from synth.moving.made import configuration_of
+from synth.verdict.of_motion import verdict_of_motion
 
-__all__ = ["COLOURINGS", "DrawnPattern", "Overlay", "crease_scene", "inside", "places_on_page", "width_of_lines"]
+__all__ = [
+    "COLOURINGS",
+    "Overlay",
+    "crease_scene",
+    "motions_by_verdict",
+    "motions_on_branch",
+    "overlay_of_marks",
+    "overlay_of_repairs",
+    "places_on_page",
+]
 
 COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
-"""What colours tell: letters of the file; what is still, and moves as one; how creases begin to fold on a branch;
-the class of centres; nothing."""
+"""Colours show the assignment; immobile creases and panels that move as one; how creases begin to fold on a
+branch; the class of centres; nothing."""
+
+Doing: TypeAlias = Literal["moves", "still", "unknown", "mountain", "valley", "later"]
+"""What a crease does; later: it is at rest as the motion begins, but not immobile."""
 
 _LOOKS: Mapping[str, tuple[str, tuple[float, ...]]] = {
     "M": ("mountain", ()),
@@ -53,11 +88,21 @@ _DOINGS: Mapping[Doing, tuple[str, float, tuple[float, ...]]] = {
     "later": ("unassigned", NORMAL, (6.0, 1.5, 1.0, 1.5)),
 }
 """Colour, width and dash of what a crease does."""
-_WORDS = {"M": "mountain", "V": "valley", "U": "unassigned", "F": "flat", "J": "join", "C": "cut", "B": "border"}
+_LEGEND = {
+    "M": "mountain red",
+    "V": "valley blue, dashed",
+    "U": "unassigned purple",
+    "F": "flat grey",
+    "C": "cut green",
+}
 _LEAST_LETTERS = 2.2
-"""Height of letters, points, below which numbers are left out: nobody reads them."""
+"""Height of letters, points, below which numbers are left out: they would be illegible."""
 _MANY = 120
-"""Labels of which more are put in the middle of what they name, without looking what lies there."""
+"""Number of labels above which each is put in the middle of its panel or crease, without a search for space."""
+_BAND = 6.0
+"""Width of a band of the marks, in widths of a crease."""
+_SIZE = 3.5
+"""Half the size of the sign of a repair, points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +123,9 @@ class DrawnPattern:
 
 @dataclass(frozen=True, slots=True)
 class Overlay:
-    """Signs on a crease pattern: a layer of shapes below its creases, and what is said of it.
+    """Signs on a crease pattern: a layer of shapes below its creases, and the lines that explain them.
 
-    `beyond` are places in the plane of the pattern that the picture is to hold too.
+    `beyond` are places in the plane of the pattern that the picture must contain too.
     """
 
     name: str
@@ -96,52 +141,32 @@ def crease_scene(
     branch: int | str | None = None,
     numbers: bool = True,
     graph: bool = False,
-    box: tuple[float, float] = (COLUMN, COLUMN),
+    box: Box = BOX,
     caption: str | None = "",
     overlay: Overlay | None = None,
 ) -> Scene:
-    """Return a picture of a crease pattern that lies in a plane.
+    """Return a picture of a crease pattern that lies in a plane, at most as large as the box, in points.
 
-    Parameters
-    ----------
-    sheet : Sheet or SheetConfiguration
-    colour : {"letters", "verdict", "branch", "centres", "none"}, optional
-        What the colours of creases tell; see `COLOURINGS`.
-    branch : int or str, optional
-        With the colouring by branch, which one: its number or signs; by default the one that suits the letters.
-    numbers : bool, optional
-        Write the numbers of links and joints.
-    graph : bool, optional
-        Draw the SC graph over it: links in their panels, joints across their creases, the signs of the centres.
-    box : (width, height), optional
-        Points there are at most.
-    caption : str, optional
-        Goes before the line that says what is seen; None: no line at all.
-    overlay : Overlay, optional
-        Signs on it.
-
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, or does not lie in a plane.
-    InvariantError
-        If the colouring or the branch is not known, or a branch is given with another colouring.
-
-    Examples
-    --------
-    >>> square = Sheet(4, ((0, 1), (1, 2), (2, 3), (3, 0), (0, 2)), "BBBBV", ((0, 1, 2), (0, 2, 3)),
-    ...                ((0, 0), (1, 0), (1, 1), (0, 1)))
-    >>> [layer.name for layer in crease_scene(square).layers]
-    ['panels', 'creases', 'labels', 'caption']
+    `colour` is one of `COLOURINGS`. `branch` goes with the colouring by branch: its number or signs; by default
+    the one nearest to the assignment. `numbers` are those of links and joints; `graph` draws the SC graph over
+    the pattern: links in their panels, joints across their creases, the signs of the centres. The caption comes
+    before the line that describes the picture; with None there is neither. Raise UnsolvableError if the sheet has
+    no coordinates or does not lie in a plane; InvariantError if the colouring or the branch is unknown, or a
+    branch comes with another colouring.
     """
     if colour not in COLOURINGS:
-        raise InvariantError("colour", f"the colouring {shown(colour)} is not known", ", ".join(COLOURINGS))
+        raise InvariantError("colour", f"unknown colouring {shown(colour)}", ", ".join(COLOURINGS))
     if branch is not None and colour != "branch":
-        raise InvariantError("branch", f"the colouring {shown(colour)} shows none", "the colouring 'branch'")
-    given, mechanism = panels_made(sheet)
-    whole = with_all_edges(given)
+        raise InvariantError("branch", f"the colouring {shown(colour)} shows no branch", "the colouring 'branch'")
+    drawn_sheet, mechanism = sheet_and_mechanism(sheet)
+    whole = with_all_edges(drawn_sheet)
     frame, places = _framed(whole, box, () if overlay is None else overlay.beyond)
-    drawn = DrawnPattern(whole, mechanism, frame, places, _motions(sheet, colour, branch))
+    motions = Motions()
+    if colour == "verdict":
+        motions = motions_by_verdict(sheet)
+    elif colour == "branch":
+        motions = motions_on_branch(sheet, branch)
+    drawn = DrawnPattern(whole, mechanism, frame, places, motions)
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
     if overlay is not None:
         layers.insert(1, Layer(overlay.name, tuple(overlay.shapes(drawn))))
@@ -153,7 +178,7 @@ def crease_scene(
     return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph), drawn.motions.said, *said))
 
 
-def places_on_page(sheet: Sheet, box: tuple[float, float] = (COLUMN, COLUMN)) -> list[Point]:
+def places_on_page(sheet: Sheet, box: Box = BOX) -> list[Point]:
     """Return where the vertices of a crease pattern are in its picture, if that has no lines of text below it.
 
     The box, and the errors, are those of `crease_scene`.
@@ -161,9 +186,7 @@ def places_on_page(sheet: Sheet, box: tuple[float, float] = (COLUMN, COLUMN)) ->
     return _framed(with_all_edges(sheet), box)[1]
 
 
-def _framed(
-    whole: Sheet, box: tuple[float, float], beyond: Sequence[tuple[float, ...]] = ()
-) -> tuple[Frame, list[Point]]:
+def _framed(whole: Sheet, box: Box, beyond: Sequence[tuple[float, ...]] = ()) -> tuple[Frame, list[Point]]:
     """Return the frame of a picture, and the places of the vertices in it."""
     flat = flat_places(whole, "a picture of a crease pattern")
     every = [*flat, *beyond]
@@ -172,26 +195,20 @@ def _framed(
     return frame, frame.row(flat)
 
 
-def _motions(sheet: Sheet | SheetConfiguration, colour: str, branch: int | str | None) -> Motions:
-    if colour == "verdict":
-        return motions_by_verdict(sheet)
-    return motions_on_branch(sheet, branch) if colour == "branch" else Motions()
-
-
 def _panels(drawn: DrawnPattern) -> list[Shape]:
     link_of = {face: link for link, faces in enumerate(drawn.mechanism.panels) for face in faces}
     cluster_of: dict[LinkId, int] = {}
     for number, links in enumerate(drawn.motions.clusters):
         cluster_of.update(dict.fromkeys(links, number))
-    found: list[Shape] = []
+    shapes: list[Shape] = []
     for number, face in enumerate(drawn.sheet.faces):
         if number in link_of:
             link = link_of[number]
             fill = colour_of_class(cluster_of[link]) if link in cluster_of else "body"
             opacity = 0.3 if link in cluster_of else 0.6
             row = [drawn.places[v] for v in face]
-            found.append(Polygon(row, fill, None, opacity=opacity, data=(("link", str(link)),)))
-    return found
+            shapes.append(Polygon(row, fill, None, opacity=opacity, data=(("link", str(link)),)))
+    return shapes
 
 
 def _creases(drawn: DrawnPattern, colour: str, faint: bool) -> list[Shape]:
@@ -200,7 +217,8 @@ def _creases(drawn: DrawnPattern, colour: str, faint: bool) -> list[Shape]:
     width = width_of_lines(drawn) * (0.7 if faint else 1.0)
     shrunk = max(width, 0.6)  # dashes of dense patterns are shorter, so that a crease has several
     classes = _class_at(drawn) if colour == "centres" else {}
-    found: list[tuple[int, Shape]] = []
+    outline: list[Shape] = []
+    creases: list[Shape] = []
     for edge, letter in zip(drawn.sheet.edges, drawn.sheet.assignments, strict=True):
         ends = [drawn.places[v] for v in edge]
         name, dash = _LOOKS.get(letter, _LOOKS["U"])
@@ -208,38 +226,19 @@ def _creases(drawn: DrawnPattern, colour: str, faint: bool) -> list[Shape]:
         joint = joint_of.get(frozenset(edge))
         data = () if joint is None else (("joint", str(joint)),)
         if letter in "BC":
-            found.append((1, Line(ends, name, STRONG * width if letter == "B" else NORMAL * width, dash, data)))
+            outline.append(Line(ends, name, STRONG * width if letter == "B" else NORMAL * width, dash, data))
         elif colour == "letters":
-            found.append((0, Line(ends, name, NORMAL * width if letter in "MVU" else FINE, dash, data)))
+            creases.append(Line(ends, name, NORMAL * width if letter in "MVU" else FINE, dash, data))
         elif joint in drawn.motions.of:
             name, thick, dash = _DOINGS[drawn.motions.of[joint]]
-            found.append((0, Line(ends, name, thick * width, tuple(shrunk * length for length in dash), data)))
+            creases.append(Line(ends, name, thick * width, tuple(shrunk * length for length in dash), data))
         elif colour != "centres" or joint is None:
-            found.append((0, Line(ends, "grey" if joint is not None else "faint", FINE, (), data)))
-        else:
-            found += [(0, half) for half in _halves(drawn, edge, classes, width, data)]
-    return [shape for _, shape in sorted(found, key=lambda item: item[0])]
-
-
-def _halves(
-    drawn: DrawnPattern,
-    edge: Sequence[int],
-    classes: Mapping[int, int],
-    width: float,
-    data: tuple[tuple[str, str], ...],
-) -> list[Shape]:
-    """Return the halves of a crease, each in the colour of the class of the centre at its end."""
-    middle = drawn.middle(edge)
-    return [
-        Line(
-            [drawn.places[v], middle],
-            colour_of_class(classes[v]) if v in classes else "grey",
-            1.3 * width,
-            (),
-            data,
-        )
-        for v in edge
-    ]
+            creases.append(Line(ends, "grey" if joint is not None else "faint", FINE, (), data))
+        else:  # each half in the colour of the class of the centre at its end
+            for v in edge:
+                name = colour_of_class(classes[v]) if v in classes else "grey"
+                creases.append(Line([drawn.places[v], drawn.middle(edge)], name, 1.3 * width, (), data))
+    return creases + outline
 
 
 def _class_at(drawn: DrawnPattern) -> dict[int, int]:
@@ -265,16 +264,16 @@ def _graph(drawn: DrawnPattern) -> list[Shape]:
     middles: dict[LinkId, Point] = {
         link: _middle_of_link(drawn, faces) for link, faces in enumerate(drawn.mechanism.panels)
     }
-    found: list[Shape] = []
+    shapes: list[Shape] = []
     for joint, hinge in drawn.mechanism.hinges.items():
         a, b = sc.joints[joint]
         row = [middles[a], drawn.middle(hinge), middles[b]]
-        found.append(Line(row, "ink", 1.1 * size, data=(("joint", str(joint)),)))
+        shapes.append(Line(row, "ink", 1.1 * size, data=(("joint", str(joint)),)))
     for link, at in middles.items():
-        found.append(Disc(at, 2.4 * size, "ink", "paper", 0.6 * size, (("link", str(link)),)))
+        shapes.append(Disc(at, 2.4 * size, "ink", "paper", 0.6 * size, (("link", str(link)),)))
     for vertex, number in _class_at(drawn).items():
-        found += centre_sign(drawn.places[vertex], Centre.FINITE, colour_of_class(number), SIGN * size)
-    return found
+        shapes += centre_sign(drawn.places[vertex], Centre.FINITE, colour_of_class(number), SIGN * size)
+    return shapes
 
 
 def _middle_of_link(drawn: DrawnPattern, faces: Sequence[int]) -> Point:
@@ -283,11 +282,7 @@ def _middle_of_link(drawn: DrawnPattern, faces: Sequence[int]) -> Point:
 
 
 def inside(row: Sequence[Point]) -> Point:
-    """Return a point inside a polygon: the middle of its area if that lies there, else one that does.
-
-    >>> inside([(0, 0), (2, 0), (2, 2), (0, 2)])
-    (1.0, 1.0)
-    """
+    """Return a point inside a polygon: the middle of its area if that lies there, else another."""
     from shapely.geometry import Polygon as Area
 
     area = Area(row)
@@ -333,16 +328,194 @@ def _said(drawn: DrawnPattern, colour: str, graph: bool) -> str:
     counts = ((len(sc), "link"), (len(sc.joints), "joint"), (len(sc.centre_classes()), "centre"))
     said = ", ".join(numbered(number, word) for number, word in counts)
     if colour == "letters":
-        there = [word for letter, word in _WORDS.items() if letter in drawn.sheet.assignments]
-        looks = {
-            "mountain": "red",
-            "valley": "blue, dashed",
-            "cut": "green",
-            "unassigned": "purple",
-            "flat": "grey",
-        }
-        told = [f"{word} {looks[word]}" for word in there if word in looks]
-        said += "; " + ", ".join(told) if told else ""
+        legend = [text for letter, text in _LEGEND.items() if letter in drawn.sheet.assignments]
+        said += "; " + ", ".join(legend) if legend else ""
     if colour == "centres":
         said += "; half-creases in the colour of their centre's class"
     return said + ("; SC graph in black" if graph else "")
+
+
+@dataclass(frozen=True, slots=True)
+class Motions:
+    """The action of each joint, and the clusters of panels that move as one; `said` explains the colours."""
+
+    of: Mapping[JointId, Doing] = field(default_factory=dict)
+    clusters: tuple[tuple[LinkId, ...], ...] = ()
+    said: str = ""
+
+
+def motions_by_verdict(sheet: Sheet | SheetConfiguration) -> Motions:
+    """Return the motions of the joints by the verdict on a sheet: moving on some branch, immobile, or unknown.
+
+    Raise UnsolvableError if the sheet has no coordinates, or its panels do not fit at its configuration.
+    """
+    pattern = configuration_of(sheet)
+    verdict = verdict_of_motion(pattern)
+    immobile = set() if verdict.certainty == "not known" else set(verdict.stiff_joints)
+    branches = [set(way.stiff_joints) for way in verdict.ways if way.certainty != "not known"]
+    of: dict[JointId, Doing] = {}
+    for joint in pattern.linkage.graph.joints:
+        if joint in immobile:
+            of[joint] = "still"
+        else:
+            of[joint] = "moves" if any(joint not in at_rest for at_rest in branches) else "unknown"
+    clusters = verdict.clusters if immobile else ()
+    return Motions(of, clusters, _said_of_verdict(of, verdict.certainty))
+
+
+def _said_of_verdict(of: Mapping[JointId, Doing], certainty: str) -> str:
+    does = list(of.values())
+    moving, still, unknown = (does.count(doing) for doing in ("moves", "still", "unknown"))
+    if moving == len(does):
+        return f"every crease moves (orange; {certainty})"
+    if still == len(does):
+        return f"no crease moves (grey, dotted; {certainty}); panels of one colour move as one"
+    if unknown == len(does):
+        return "which creases move is not known (purple)"
+    parts = [f"{numbered(moving, 'crease')} move{'s' * (moving == 1)} (orange)"] if moving else []
+    if still:
+        parts.append(f"{still} still (grey, dotted; {certainty}), panels of one colour move as one")
+    if unknown:
+        parts.append(f"of {unknown} (purple) it is not known")
+    return "; ".join(parts)
+
+
+def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | None = None) -> Motions:
+    """Return the motions with which joints start on a branch.
+
+    A branch is its number, as `synth fold --branches` lists them, or its signs; by default the one nearest to the
+    assignment. Raise UnsolvableError if the sheet has no coordinates or is rigid, or panels do not fit at its
+    configuration; InvariantError if there is no such branch.
+    """
+    pattern = configuration_of(sheet)
+    branches = pattern.branches
+    number, rates = beginning(pattern, Wanted(branch))
+    chosen = branches.branches[number or 0] if branches is not None else None
+    immobile = set(chosen.still) if chosen is not None else set()
+    of: dict[JointId, Doing] = {}
+    for index, (joint, rate) in enumerate(
+        zip(pattern.linkage.graph.joints, rates / np.abs(rates).max(), strict=True)
+    ):
+        if abs(rate) > DOUBLE.zero_rate:
+            of[joint] = "valley" if rate > 0 else "mountain"
+        else:
+            of[joint] = "still" if index in immobile else "later"
+    which = "one way to move"
+    if branches is not None and chosen is not None:
+        which = f"way {number or 0} of {len(branches.branches)} ({_freedoms_of(chosen)}, {chosen.certainty})"
+    looks = {"mountain": "red", "valley": "blue, dashed", "later": "purple", "still": "grey, dotted"}
+    legend = [f"{doing} {look}" for doing, look in looks.items() if doing in of.values()]
+    return Motions(of, (), f"{which}: {', '.join(legend)}")
+
+
+def _freedoms_of(branch: Branch) -> str:
+    return "freedoms not known" if branch.freedoms is None else numbered(branch.freedoms, "freedom")
+
+
+def overlay_of_marks(sheet: Sheet | SheetConfiguration, branch: int | str | None = None) -> Overlay:
+    """Return bands for the creases that disagree with a branch: its number or signs, by default the nearest.
+
+    Raise UnsolvableError if nothing is assigned, the sheet is not flat, or it is rigid; InvariantError if there
+    is no such branch.
+    """
+    at = configuration_of(sheet)
+    if not at.flat or not isinstance(at, SheetConfiguration) or not _is_assigned(at):
+        raise UnsolvableError("marks require a flat crease pattern with mountains and valleys")
+    number, _ = beginning(at, Wanted(branch))
+    chosen = at.branch(number or 0)
+    near = at.disagreement
+    if chosen is None or near is None:
+        raise UnsolvableError("the crease pattern is too large to find its branches")
+    if branch is not None:
+        near = disagreement_with(number or 0, chosen, at.marks)
+    opposite, immobile = ({at.joints[index] for index in indices} for indices in (near.opposite, near.immobile))
+
+    def shapes(drawn: DrawnPattern) -> list[Shape]:
+        return [*_bands(drawn, opposite, "marked"), *_bands(drawn, immobile, "class5", dotted=True)]
+
+    which = f"branch {near.number} ({_freedoms_of(chosen)})"
+    if not near.size:
+        return Overlay("marks", shapes, (f"all creases are marked as {which} begins",))
+    other, still = len(near.opposite), len(near.immobile)
+    bands = [f"{other} turn{'s' * (other == 1)} the other way (yellow bands)"] if other else []
+    bands += [f"{still} {'does' if still == 1 else 'do'} not move (light blue dots)"] if still else []
+    every = numbered(int(np.count_nonzero(at.marks)), "assigned crease")
+    line = f"{near.size} of {every} disagree{'s' * (near.size == 1)} with {which}: {', '.join(bands)}"
+    return Overlay("marks", shapes, (line,))
+
+
+def _is_assigned(at: SheetConfiguration) -> bool:
+    return any(at.sheet.assignments[joint] in "MV" for joint in at.mechanism.hinges if joint < len(at.sheet.edges))
+
+
+def _bands(drawn: DrawnPattern, joints: Collection[JointId], colour: str, *, dotted: bool = False) -> list[Shape]:
+    """Return a band along each piece of joints; its ends are round, and so are dots."""
+    wide = _BAND * max(width_of_lines(drawn), 0.4)
+    dash = (wide / 10, 1.6 * wide) if dotted else ()
+    return [
+        Line([drawn.places[v] for v in edge], colour, wide, dash, (("joint", str(joint)),))
+        for joint, pieces in drawn.mechanism.pieces.items()
+        if joint in joints
+        for edge in pieces
+    ]
+
+
+def overlay_of_repairs(sheet: Sheet) -> Overlay:
+    """Return signs of the repairs made when a drawing was traced; a sheet that was not traced has none.
+
+    Signs differ in shape as well as in colour, and the lines below the picture name each kind with its sign.
+    """
+    reading = sheet.reading or Reading()
+    repairs = [repair for repair in reading.repairs if repair.places]
+
+    def shapes(drawn: DrawnPattern) -> list[Shape]:
+        signs = [
+            shape
+            for repair in repairs
+            for place in repair.places
+            for shape in _sign_of_repair(repair.kind, drawn.frame.row(place))
+        ]
+        return sorted(signs, key=lambda shape: not isinstance(shape, Line))  # signs of points lie above lines
+
+    said = [f"{repair.what} ({_SIGNS[repair.kind][0]})" for repair in repairs]
+    if reading.left_out:
+        said.append(reading.left_out)
+    beyond = tuple(point for repair in repairs for place in repair.places for point in place)
+    return Overlay("repairs", shapes, tuple(said) or ("nothing was repaired when it was read",), beyond=beyond)
+
+
+_SIGNS: Mapping[RepairKind, tuple[str, str]] = {
+    "crossing split": ("green rings", "class2"),
+    "line split at an end": ("blue triangles", "class0"),
+    "ends welded": ("orange squares", "class1"),
+    "line drawn twice": ("light blue bands", "class5"),
+    "line of no length": ("purple crosses", "class7"),
+    "line pruned": ("pink dotted lines", "class3"),
+    "vertex taken out": ("brown diamonds", "class6"),
+    "hole": ("yellow areas", "class4"),
+}
+"""Kind of a repair to the name of its sign, and its colour."""
+_CORNERS: Mapping[RepairKind, tuple[Point, ...]] = {
+    "ends welded": ((-1, -1), (1, -1), (1, 1), (-1, 1)),
+    "line split at an end": ((0, -1.2), (1.1, 0.8), (-1.1, 0.8)),
+    "vertex taken out": ((0, -1.1), (1.1, 0), (0, 1.1), (-1.1, 0)),
+}
+"""Corners of signs that are polygons, in units of half their size."""
+
+
+def _sign_of_repair(kind: RepairKind, points: list[Point]) -> list[Shape]:
+    """Return the sign of a repair at its points on the page."""
+    colour = _SIGNS[kind][1]
+    if kind == "hole":
+        return [Polygon(points, colour, colour, NORMAL, 0.35)]
+    if kind == "line drawn twice":
+        return [Line(points, colour, 3 * STRONG)]
+    if kind == "line pruned":
+        return [Line(points, colour, 2 * STRONG, (STRONG, 2 * STRONG))]
+    x, y = points[0]
+    if kind == "crossing split":
+        return [Disc((x, y), _SIZE, None, colour, STRONG)]
+    if kind in _CORNERS:
+        return [Polygon([(x + _SIZE * u, y + _SIZE * v) for u, v in _CORNERS[kind]], None, colour, STRONG)]
+    strokes = [[(x - _SIZE, y - _SIZE), (x + _SIZE, y + _SIZE)], [(x - _SIZE, y + _SIZE), (x + _SIZE, y - _SIZE)]]
+    return [Line(stroke, colour, STRONG) for stroke in strokes]

@@ -1,4 +1,4 @@
-"""Places for labels: beside what they name, on nothing else."""
+"""Labels placed beside what they name and on nothing else; signs of the thesis for centres and joints."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from dataclasses import dataclass, replace
 from math import cos, hypot, pi, sin
 from typing import TypeAlias
 
-from synth.drawing.scene.shapes import Label, Point
+from graphs.loops.loop import Centre
+from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Shape
 
-__all__ = ["Obstacles", "beside", "overlaps", "placed"]
+__all__ = ["SIGN", "Obstacles", "beside", "centre_sign", "joint_dot", "placed"]
 
+SIGN = 4.2
+"""Radius of the sign of a centre, points."""
 _WEIGHT_OF_LABEL = 1000.0
 _WEIGHT_OF_POINT = 60.0
 _AIR = 0.6
@@ -21,51 +24,29 @@ _Box: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(slots=True)
 class Obstacles:
-    """What labels should not lie on: points, each (x, y, radius), and lines."""
+    """Points, each (x, y, radius), and lines that labels should not cover."""
 
     points: list[tuple[float, float, float]]
     lines: list[tuple[Point, Point]]
 
 
-def overlaps(one: Label, other: Label) -> bool:
-    """Say whether the boxes of two labels have a point in common."""
-    a, b = one.box, other.box
-    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
-
-
 def beside(at: Point, distance: float, directions: int = 12, first: float = -pi / 2) -> list[Point]:
-    """Return places round a point, nearer ones first.
-
-    >>> [(round(x, 6), round(y, 6)) for x, y in beside((0, 0), 2, 4)[:2]]
-    [(0.0, -2.0), (2.0, 0.0)]
-    """
-    found = []
+    """Return places round a point, nearer ones first."""
+    places = []
     for far in (1.0, 1.35, 1.8, 2.4, 3.2):
         for i in range(directions):
             angle = first + 2 * pi * i / directions
-            found.append((at[0] + far * distance * cos(angle), at[1] + far * distance * sin(angle)))
-    return found
+            places.append((at[0] + far * distance * cos(angle), at[1] + far * distance * sin(angle)))
+    return places
 
 
 def placed(wishes: Iterable[tuple[Label, Sequence[Point]]], obstacles: Obstacles) -> list[Label]:
     """Return labels at the best of the places offered to each: on no label, and on as little else as can be.
 
-    A label for which every place lies on another label is left out.
-
-    Parameters
-    ----------
-    wishes : iterable of (label, places)
-        Places in the order of liking.
-    obstacles : Obstacles
-
-    Examples
-    --------
-    >>> wish = (Label((0, 0), "1"), [(0, 0), (20, 0)])
-    >>> [label.at for label in placed([wish, wish, wish], Obstacles([], []))]
-    [(0, 0), (20, 0)]
+    Places are in order of preference. A label for which every place lies on another label is left out.
     """
-    done: list[Label] = []
-    taken = _Taken()
+    labels: list[Label] = []
+    boxes = _Boxes()
     for label, places in wishes:
         x, y = label.at
         left, top, right, bottom = label.box
@@ -76,24 +57,24 @@ def placed(wishes: Iterable[tuple[Label, Sequence[Point]]], obstacles: Obstacles
                 break
             across, down = place[0] - x, place[1] - y
             box = (left + across, top + down, right + across, bottom + down)
-            if not taken.is_free(box):
+            if not boxes.leave_free(box):
                 continue
             cost += _cost(box, obstacles)
             if cost < least:
                 best, least = (place, box), cost
         if best is not None:
-            done.append(replace(label, at=best[0]))
-            taken.add(best[1])
-    return done
+            labels.append(replace(label, at=best[0]))
+            boxes.add(best[1])
+    return labels
 
 
-class _Taken:
-    """Boxes that are taken, found by the squares that they reach into."""
+class _Boxes:
+    """Boxes of labels, found by the squares of a grid that they reach into."""
 
     def __init__(self) -> None:
         self._squares: dict[tuple[int, int], list[_Box]] = {}
 
-    def is_free(self, box: _Box) -> bool:
+    def leave_free(self, box: _Box) -> bool:
         return not any(
             box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
             for square in _squares_of(box)
@@ -111,7 +92,7 @@ def _squares_of(box: _Box) -> list[tuple[int, int]]:
 
 
 def _cost(box: _Box, obstacles: Obstacles) -> float:
-    """Return how much of what is drawn a label would cover."""
+    """Return a penalty for the points and lines that a label would cover."""
     left, top, right, bottom = box[0] - _AIR, box[1] - _AIR, box[2] + _AIR, box[3] + _AIR
     cost = 0.0
     for x, y, radius in obstacles.points:
@@ -125,15 +106,38 @@ def _cost(box: _Box, obstacles: Obstacles) -> float:
 
 
 def _meets(a: Point, b: Point, left: float, top: float, right: float, bottom: float) -> bool:
-    """Whether a straight piece has a point in a box: what is left of it after cutting at each side."""
+    """Whether a straight piece has a point in a box: whether any of it is left after clipping at each side."""
     start, stop = 0.0, 1.0
     for p, step, low, high in ((a[0], b[0] - a[0], left, right), (a[1], b[1] - a[1], top, bottom)):
         if abs(step) < 1e-12:
             if not low <= p <= high:
                 return False
             continue
-        one, two = sorted(((low - p) / step, (high - p) / step))
-        start, stop = max(start, one), min(stop, two)
+        enters, leaves = sorted(((low - p) / step, (high - p) / step))
+        start, stop = max(start, enters), min(stop, leaves)
         if start > stop:
             return False
     return True
+
+
+def centre_sign(at: Point, centre: Centre, colour: str, size: float = SIGN) -> list[Shape]:
+    """Return the sign of a loop's centre: a circled dot, or a lying eight for one at infinity, or nothing."""
+    if centre is Centre.FINITE:
+        return [Disc(at, size, "paper", colour, 1.1 * NORMAL), Disc(at, 0.32 * size, colour, None)]
+    if centre is Centre.INFINITE:
+        # Bernoulli's lemniscate, stretched upwards a little
+        turns = [2 * pi * i / 48 for i in range(49)]
+        row = [
+            (
+                at[0] + 1.5 * size * cos(a) / (1 + sin(a) ** 2),
+                at[1] + 1.9 * size * sin(a) * cos(a) / (1 + sin(a) ** 2),
+            )
+            for a in turns
+        ]
+        return [Line(row, "paper", 3 * NORMAL), Line(row, colour, 1.2 * NORMAL)]
+    return []
+
+
+def joint_dot(at: Point, joint: object, radius: float = 2.1) -> Disc:
+    """Return a revolute joint: a small circle, empty, as on drawings of mechanisms."""
+    return Disc(at, radius, "paper", "ink", NORMAL if radius > 1.5 else FINE, (("joint", str(joint)),))

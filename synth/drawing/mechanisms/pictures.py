@@ -1,4 +1,4 @@
-"""One picture of any mechanism: which kind suits it."""
+"""One picture of any mechanism, of the kind that suits it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.convert.table import Mechanism, graph_of, to_sc, to_solids
+from graphs.convert.table import Mechanism, graph_of, to_polyhedron, to_sc, to_solids
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.given import check_given
 from graphs.joints.linkage import JointedLinkage
@@ -21,43 +21,45 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene
-from synth.drawing.mechanisms.marks import overlay_of_marks
-from synth.drawing.mechanisms.orders import OrderOnCircle, order_of_linkage, order_scene
-from synth.drawing.mechanisms.repairs import overlay_of_repairs
+from synth.drawing.mechanisms.chains import (
+    ChainLook,
+    OrderOnCircle,
+    chain_scene,
+    order_of_linkage,
+    order_scene,
+    strip_scene,
+)
+from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene, overlay_of_marks, overlay_of_repairs
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
-from synth.drawing.mechanisms.strips import strip_scene
-from synth.drawing.scene.frame import COLUMN
+from synth.drawing.scene.frame import BOX, Box
 from synth.drawing.scene.shapes import Scene
 from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
 from synth.motion.configuration import Configuration
 
-__all__ = ["COLOURINGS", "KINDS", "Drawable", "Look", "draw"]
-
+__all__ = ["COLOURINGS", "KINDS", "Drawable", "PictureOptions", "draw"]
 
 Drawable: TypeAlias = Configuration | Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
 
 _SMALL = 200.0
-"""Points of width and height below which a chain has smaller joints, without numbers."""
+"""Width or height, points, below which a chain has smaller joints, without numbers."""
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
-    """What a picture shows; at most as large as `box`, (width, height) in points.
+class PictureOptions:
+    """Options of a picture, which is at most as large as `box`, (width, height) in points.
 
     `colour` is one of `COLOURINGS`; `branch` goes with ``colour="branch"``: its number or its signs, or None for
-    the one that agrees best with the assignment. `numbers` are those of links and joints; `graph` puts the SC
-    graph over a crease pattern. `caption` is the first line below the picture; with None there are none.
+    the one nearest to the assignment. `numbers` are those of links and joints; `graph` puts the SC graph over a
+    crease pattern. `caption` is the first line below the picture; with None there are none.
     """
 
     colour: str = "letters"
     branch: int | str | None = None
     numbers: bool = True
     graph: bool = False
-    box: tuple[float, float] = (COLUMN, COLUMN)
+    box: Box = BOX
     caption: str | None = ""
 
 
@@ -67,16 +69,16 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     Parameters
     ----------
     thing : Mechanism, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
-        What a file may hold, or where that moves from; a string; an order of joints round a cone; a plain
-        link-joint graph.
+        A mechanism or its configuration, orientations of a body, an R/- string, an order of joints round a cone,
+        or a plain link-joint graph.
     kind : {"pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", ...}, optional
-        One of `KINDS`. A crease pattern in its plane, with the creases whose assignment disagrees with a branch,
-        or with what was repaired when it was read; a folded sheet in space, links as bodies, links as discs with
-        the signs of the centres, vertices and rods, solids in space, a linkage on its circle and surface, the
-        order of joints round a cone, the sphere by the order of orientations. Without it what suits the thing: a
-        sheet is a pattern or folded, as it lies; a graph whose centres nobody gave is a chain.
+        One of `KINDS`: a crease pattern in its plane, with the creases whose assignment disagrees with a branch,
+        or with repairs made when it was read; a folded sheet in space; links as bodies; links as discs with the
+        signs of the centres; vertices and rods; solids in space; a linkage on its circle and surface; the order of
+        joints round a cone; the sphere by the order of orientations. By default a sheet is a pattern or folded, as
+        its coordinates are; a graph with assumed centres is a chain.
     **look
-        Fields of `Look`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
+        Fields of `PictureOptions`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
 
     Returns
     -------
@@ -86,9 +88,9 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     Raises
     ------
     InvariantError
-        If the kind or the colouring is not known.
+        If the kind or the colouring is unknown.
     UnsolvableError
-        If the thing cannot be drawn so, or is to be drawn otherwise than as a pattern and in colours of one.
+        If the thing has no picture of this kind, or the kind has no colourings.
 
     Examples
     --------
@@ -101,12 +103,12 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
         thing = thing.given
     kind = _suiting(thing) if kind is None else kind
     if kind not in KINDS:
-        raise InvariantError("kind", f"the kind {shown(kind)} is not known", ", ".join(KINDS))
-    how = Look(**look)
+        raise InvariantError("kind", f"unknown kind {shown(kind)}", ", ".join(KINDS))
+    how = PictureOptions(**look)
     branched = how.branch is not None and kind != "marks"
     if kind != "pattern" and (how.colour != "letters" or branched or how.graph):
         raise UnsolvableError(
-            f"colourings, branches and the graph over it are of a pattern; this is drawn as {kind}"
+            f"colourings, branches and the SC graph over it require a picture of the kind pattern, not {kind}"
         )
     if isinstance(thing, ChainString):
         return strip_scene(thing, box=how.box, caption=how.caption)
@@ -135,9 +137,19 @@ def _suiting(thing: object) -> str:
     return "chain" if assumed else "graph"
 
 
-def _pattern(thing: Any, look: Look) -> Scene:
+def _unfit(kind: str, expected: str, thing: object) -> UnsolvableError:
+    return UnsolvableError(f"a picture of the kind {kind} requires {expected}, got {repr(thing).strip('<>')}")
+
+
+def _sheet(thing: object, kind: str) -> Sheet | SheetConfiguration:
+    if not isinstance(thing, Sheet | SheetConfiguration):
+        raise _unfit(kind, "a crease pattern or a folded sheet", thing)
+    return thing
+
+
+def _pattern(thing: Any, look: PictureOptions) -> Scene:
     return crease_scene(
-        _sheet(thing),
+        _sheet(thing, "pattern"),
         colour=look.colour,
         branch=look.branch,
         numbers=look.numbers,
@@ -147,75 +159,32 @@ def _pattern(thing: Any, look: Look) -> Scene:
     )
 
 
-def _marks(thing: Any, look: Look) -> Scene:
-    overlay = overlay_of_marks(_sheet(thing), look.branch)
-    return crease_scene(_sheet(thing), numbers=look.numbers, box=look.box, caption=look.caption, overlay=overlay)
+def _marks(thing: Any, look: PictureOptions) -> Scene:
+    sheet = _sheet(thing, "marks")
+    overlay = overlay_of_marks(sheet, look.branch)
+    return crease_scene(sheet, numbers=look.numbers, box=look.box, caption=look.caption, overlay=overlay)
 
 
-def _repairs(thing: Any, look: Look) -> Scene:
-    sheet = _sheet(thing)
+def _repairs(thing: Any, look: PictureOptions) -> Scene:
+    sheet = _sheet(thing, "repairs")
     overlay = overlay_of_repairs(sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet)
     return crease_scene(sheet, numbers=False, box=look.box, caption=look.caption, overlay=overlay)
 
 
-def _folded(thing: Any, look: Look) -> Scene:
-    return folded_scene(_sheet(thing), numbers=look.numbers, box=look.box, caption=look.caption)
+def _folded(thing: Any, look: PictureOptions) -> Scene:
+    return folded_scene(_sheet(thing, "folded"), numbers=look.numbers, box=look.box, caption=look.caption)
 
 
-def _chain(thing: Any, look: Look) -> Scene:
+def _chain(thing: Any, look: PictureOptions) -> Scene:
     how = ChainLook(look.numbers, look.numbers)
     if min(look.box) < _SMALL:
         how = ChainLook(look.numbers, False, size=5.0, dot=1.6)
     return chain_scene(_graph_of(thing), look=how, box=look.box, caption=look.caption)
 
 
-def _sc_graph(thing: Any, look: Look) -> Scene:
-    scene_of = thing if isinstance(thing, SCDGraph) else _graph_of(thing)
-    return sc_scene(scene_of, box=look.box, caption=look.caption)
-
-
-def _surface(kind: str, thing: Any, look: Look) -> Scene:
-    """Return a linkage on the first of its cones or cylinders, or say that it has none."""
-    if not isinstance(thing, SurfaceLinkage) or thing.kind != kind:
-        raise UnsolvableError(
-            f"only a linkage given by its links, or angles round a {kind}, can be drawn so, and this is {thing!r}"
-        )
-    if min(look.box) < _SMALL:
-        raise UnsolvableError(f"a linkage on its {kind} needs a picture of its own: of many, chains can be drawn")
-    from synth.conformed.linkages import linkage_on_surfaces
-    from synth.conformed.rates import ConformedChain
-    from synth.drawing.conformed import draw_conformed
-
-    found = linkage_on_surfaces(thing)
-    if not found or found[0].surface is None:
-        raise UnsolvableError(f"the linkage closes on no {kind}, or on any; its chain can be drawn (--as chain)")
-    chain = ConformedChain.of(thing.chain, thing.chain.ground)
-    title = look.caption or f"first of {numbered(len(found), kind)}"
-    return draw_conformed(chain, found[0].places, found[0].surface, title)
-
-
-def _solids(thing: Any, look: Look) -> Scene:
-    if isinstance(thing, JointedLinkage):
-        thing = to_solids(thing)
-    if not isinstance(thing, HingedSolids):
-        raise UnsolvableError(f"only solids hinged at edges can be drawn so, and this is {thing!r}")
-    return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
-
-
-def _circle(thing: Any, look: Look) -> Scene:
-    if isinstance(thing, SurfaceLinkage) and thing.steps is not None:
-        thing = order_of_linkage(thing)
-    if not isinstance(thing, OrderOnCircle):
-        raise UnsolvableError(f"only joints in their order round a cone can be drawn so, and this is {thing!r}")
-    return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
-
-
-def _sphere(thing: Any, look: Look) -> Scene:
-    if not isinstance(thing, Orientations):
-        raise UnsolvableError(f"only orientations of a body can be drawn so, and this is {thing!r}")
-    from synth.drawing.order_map import draw_map
-
-    return draw_map(thing)
+def _sc_graph(thing: Any, look: PictureOptions) -> Scene:
+    graph = thing if isinstance(thing, SCDGraph) else _graph_of(thing)
+    return sc_scene(graph, box=look.box, caption=look.caption)
 
 
 def _graph_of(thing: Any) -> Any:
@@ -224,21 +193,54 @@ def _graph_of(thing: Any) -> Any:
     return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
 
 
-def _model(thing: Any, look: Look) -> Scene:
-    if not isinstance(thing, PolyhedronModel):
-        from graphs.convert.table import to_polyhedron
-
-        thing = to_polyhedron(thing)
-    return model_scene(thing, box=look.box, caption=look.caption)
+def _model(thing: Any, look: PictureOptions) -> Scene:
+    model = thing if isinstance(thing, PolyhedronModel) else to_polyhedron(thing)
+    return model_scene(model, box=look.box, caption=look.caption)
 
 
-def _sheet(thing: object) -> Sheet | SheetConfiguration:
-    if not isinstance(thing, Sheet | SheetConfiguration):
-        raise UnsolvableError(f"only a crease pattern or a folded sheet can be drawn so, and this is {thing!r}")
-    return thing
+def _solids(thing: Any, look: PictureOptions) -> Scene:
+    if isinstance(thing, JointedLinkage):
+        thing = to_solids(thing)
+    if not isinstance(thing, HingedSolids):
+        raise _unfit("solids", "solids hinged at edges", thing)
+    return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
 
 
-KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
+def _surface(kind: str, thing: Any, look: PictureOptions) -> Scene:
+    """Return a linkage on the first of its cones or cylinders."""
+    if not isinstance(thing, SurfaceLinkage) or thing.kind != kind:
+        raise _unfit(kind, f"a linkage defined by links or angles round a {kind}", thing)
+    if min(look.box) < _SMALL:
+        raise UnsolvableError(f"a linkage on its {kind} is too large for a catalogue; try its chain (--as chain)")
+    from synth.conformed.linkages import linkage_on_surfaces
+    from synth.conformed.rates import ConformedChain
+    from synth.drawing.conformed import draw_conformed
+
+    linkages = linkage_on_surfaces(thing)
+    if not linkages or linkages[0].surface is None:
+        raise UnsolvableError(f"the linkage closes on no {kind}, or on any; try its chain (--as chain)")
+    chain = ConformedChain.of(thing.chain, thing.chain.ground)
+    title = look.caption or f"first of {numbered(len(linkages), kind)}"
+    return draw_conformed(chain, linkages[0].places, linkages[0].surface, title)
+
+
+def _circle(thing: Any, look: PictureOptions) -> Scene:
+    if isinstance(thing, SurfaceLinkage) and thing.steps is not None:
+        thing = order_of_linkage(thing)
+    if not isinstance(thing, OrderOnCircle):
+        raise _unfit("circle", "joints in their order round a cone", thing)
+    return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
+
+
+def _sphere(thing: Any, look: PictureOptions) -> Scene:
+    if not isinstance(thing, Orientations):
+        raise _unfit("sphere", "orientations of a body", thing)
+    from synth.drawing.sphere import draw_map
+
+    return draw_map(thing)
+
+
+KINDS: Mapping[str, Callable[[Any, PictureOptions], Scene]] = MappingProxyType(
     {
         "pattern": _pattern,
         "marks": _marks,
@@ -254,4 +256,4 @@ KINDS: Mapping[str, Callable[[Any, Look], Scene]] = MappingProxyType(
         "sphere": _sphere,
     }
 )
-"""Name of a kind of picture to what makes it."""
+"""Name of a kind of picture to the function that makes it."""

@@ -1,8 +1,8 @@
 """SC and SCD graphs in the notation of the thesis: links as discs, joints as lines, in each loop its sign.
 
 A finite centre is a circled dot, one at infinity a lying eight; loops without a centre are empty. Loops that
-share their centre have signs of one colour and number. Open edges of an SCD graph are stubs. Ride-alongs lie on
-yellow bands. Source: Wiener 2016, 3.3, 3.4 and 4.2.4.
+share their centre have signs of one colour and number. Open edges of an SCD graph are stubs. Ride-alongs, which
+`synth reduce` lists, lie on yellow bands. Source: Wiener 2016, 3.3, 3.4 and 4.2.4.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 from math import atan2, cos, hypot, inf, pi, sin
+from typing import TypeAlias
 
 import numpy as np
 
@@ -21,13 +22,24 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.rotation import trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.reduce.ride_alongs import Reduction, reduce
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.mechanisms.ride_alongs import bands, said_of_ride_alongs, taken_off
-from synth.drawing.mechanisms.signs import SIGN, centre_sign
-from synth.drawing.scene.frame import COLUMN, Frame, captions_of, framed, page_of
-from synth.drawing.scene.palette import NORMAL, SMALL, STRONG, colour_of_class
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape, text_width
+from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
+from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.shapes import (
+    NORMAL,
+    SMALL,
+    STRONG,
+    Disc,
+    Label,
+    Layer,
+    Line,
+    Point,
+    Scene,
+    Shape,
+    colour_of_class,
+    text_width,
+)
 
 __all__ = ["class_numbers", "sc_scene"]
 
@@ -35,26 +47,20 @@ _UNIT = 58.0
 _LINK = 6.6
 _STUB = 10.0
 _LOOSE_LOOPS = 12
-"""Loops that are not faces and are listed below; more are counted."""
+"""Largest number of loops that are not faces and are listed below; more are counted."""
+_BAND = 0.9
+"""Half the width of the band below a removed joint, in units of the radius of a link."""
+_RIM = 1.45
+"""Radius of the disc below a removed link, likewise."""
+_Sign: TypeAlias = tuple[Point, int, list[Shape]]
+"""Place, number and shapes of the sign of a centre class."""
 
 
-def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = "") -> Scene:
-    """Return a picture of an SC or SCD graph.
+def sc_scene(sc: SCGraph, *, box: Box = BOX, caption: str | None = "") -> Scene:
+    """Return a picture of an SC or SCD graph, at most as large as the box (width, height), in points.
 
-    Parameters
-    ----------
-    sc : SCGraph or SCDGraph
-        An SCD graph is drawn by its rotations, with its open edges; the outer face is outside.
-    box : (width, height), optional
-        Points there are at most.
-    caption : str, optional
-        Goes before the lines that say what is seen; None: no lines at all.
-
-    Examples
-    --------
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> [layer.name for layer in sc_scene(four_bar).layers]
-    ['ride-alongs', 'joints', 'links', 'centres', 'labels', 'caption']
+    An SCD graph is drawn by its rotations, with its open edges; the outer face is outside. The caption comes
+    before the lines that describe the picture; with None there are none.
     """
     rotation, outer = _kept_drawing(sc)
     layout = layout_of(sc.nodes, sc.joints, as_bodies=False, rotation=rotation, outer=outer)
@@ -68,28 +74,29 @@ def sc_scene(sc: SCGraph, *, box: tuple[float, float] = (COLUMN, COLUMN), captio
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
     labels = _labels(ways, links, radius, signs, numbers)
-    reduction = taken_off(sc)
+    joints = [Line(row, "ink", 1.2 * NORMAL, data=(("joint", str(joint)),)) for joint, row in drawn.items()]
+    reduction = reduce(sc)
     layers = [
-        Layer("ride-alongs", tuple(bands(reduction, drawn, links, radius))),
-        Layer("joints", (*stubs, *_joints(drawn))),
+        Layer("ride-alongs", tuple(_ride_alongs(reduction, drawn, links, radius))),
+        Layer("joints", (*stubs, *joints)),
         Layer("links", tuple(_links(sc, links, radius))),
         Layer("centres", tuple(shape for shapes in signs.values() for shape in shapes[2])),
         Layer("labels", tuple(labels)),
     ]
-    return page_of(frame, layers, captions_of(caption, *_said(sc, layout, loose), *said_of_ride_alongs(reduction)))
+    said = _said(sc, layout, loose, numbers)
+    if reduction.steps:
+        count = numbered(len(reduction.steps), "ride-along")
+        said.append(f"{count} (yellow band); without, {len(reduction.graph)} links stay")
+    return page_of(frame, layers, captions_of(caption, *said))
 
 
 def class_numbers(sc: SCGraph) -> dict[int, int]:
-    """Return the number of the centre class of each loop: independent loops first, then closing ones.
-
-    >>> class_numbers(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
-    {0: 0}
-    """
-    return {loop: number for number, one in enumerate(sc.centre_classes()) for loop in one.loops}
+    """Return the number of the centre class of each loop: independent loops first, then closing ones."""
+    return {loop: number for number, centre in enumerate(sc.centre_classes()) for loop in centre.loops}
 
 
 def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None, tuple[JointId, ...]]:
-    """Return the rotations and the outer face of the drawing whose faces the loops are, if there is one."""
+    """Return the rotations and the outer face of the drawing whose faces are the loops, if there is one."""
     try:
         rotation, (joint, link) = drawing_of(sc)
     except UnsolvableError:
@@ -100,22 +107,19 @@ def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None
 
 
 def _least_distance(places: Sequence[Point]) -> float:
-    """Return how near two places come to each other; of one place, without end."""
+    """Return the least distance of two places; infinite for one place."""
     if len(places) < 2:
         return inf
-    found = np.asarray(places)
-    apart = np.sqrt(((found[:, None] - found[None]) ** 2).sum(axis=-1))
+    points = np.asarray(places)
+    apart = np.sqrt(((points[:, None] - points[None]) ** 2).sum(axis=-1))
     np.fill_diagonal(apart, inf)
     return float(apart.min())
-
-
-_Sign = tuple[Point, int, list[Shape]]
 
 
 def _signs(
     sc: SCGraph, layout: Layout, frame: Frame, numbers: Mapping[int, int]
 ) -> tuple[dict[int, _Sign], list[Loop]]:
-    """Return the sign of each loop that is a face; and the loops with a centre that are none."""
+    """Return the sign of each loop that is a face; and the loops with a centre that are not."""
     places = {frozenset(face.joints): frame.at(face.at) for face in layout.faces}
     middles = frame.row([*layout.joints.values(), *layout.links.values()])
     signs: dict[int, _Sign] = {}
@@ -131,13 +135,6 @@ def _signs(
         size = max(1.2, min(SIGN, 0.1 * frame.scale, 0.4 * nearest))
         signs[index] = (at, numbers[index], centre_sign(at, loop.centre, colour_of_class(numbers[index]), size))
     return signs, loose
-
-
-def _joints(ways: Mapping[JointId, Sequence[Point]]) -> list[Shape]:
-    found: list[Shape] = []
-    for joint, row in ways.items():
-        found.append(Line(row, "ink", 1.2 * NORMAL, data=(("joint", str(joint)),)))
-    return found
 
 
 def _bent(row: Sequence[Point]) -> list[Point]:
@@ -156,14 +153,14 @@ def _bent(row: Sequence[Point]) -> list[Point]:
 
 
 def _links(sc: SCGraph, links: Mapping[LinkId, Point], radius: float) -> list[Shape]:
-    found: list[Shape] = []
+    shapes: list[Shape] = []
     for link, at in links.items():
         data = (("link", str(link)),)
-        found.append(Disc(at, radius, "ground" if link == sc.ground else "body", "ink", NORMAL, data))
+        shapes.append(Disc(at, radius, "ground" if link == sc.ground else "body", "ink", NORMAL, data))
         size = min(SMALL, 1.9 * radius / max(1.0, text_width(str(link)[:5], 1.0)))
         if size > 2.5:
-            found.append(Label(at, str(link), size, bold=True, halo=False, widest=5, data=data))
-    return found
+            shapes.append(Label(at, str(link), size, bold=True, halo=False, widest=5, data=data))
+    return shapes
 
 
 def _labels(
@@ -192,16 +189,16 @@ def _labels(
 def _stubs(
     scd: SCDGraph, ways: Mapping[JointId, Sequence[Point]], links: Mapping[LinkId, Point], radius: float
 ) -> list[Shape]:
-    """Return a short line for each open edge, between the joints that it lies between."""
-    found: list[Shape] = []
+    """Return a short line for each open edge, between its two neighbouring joints."""
+    shapes: list[Shape] = []
     for link, sides in scd.rotation.items():
         x, y = links[link]
         for angle in _open_angles(sides, partial(_direction, ways, (x, y))):
             ends = [
                 (x + far * cos(angle), y - far * sin(angle)) for far in (radius, radius + _STUB * radius / _LINK)
             ]
-            found.append(Line(ends, "grey", STRONG, data=(("link", str(link)),)))
-    return found
+            shapes.append(Line(ends, "grey", STRONG, data=(("link", str(link)),)))
+    return shapes
 
 
 def _direction(ways: Mapping[JointId, Sequence[Point]], link: Point, joint: JointId) -> float:
@@ -214,28 +211,26 @@ def _direction(ways: Mapping[JointId, Sequence[Point]], link: Point, joint: Join
 def _open_angles(sides: Sequence[JointId | None], angle_of: Callable[[JointId], float]) -> list[float]:
     """Return the angles of the open edges, evenly between those of the joints before and after."""
     size = len(sides)
-    known = [i for i, side in enumerate(sides) if side is not None]
-    if not known:
+    joined = [i for i, side in enumerate(sides) if side is not None]
+    if not joined:
         return [2 * pi * i / size for i in range(size)]
-    found = []
-    for place, i in enumerate(known):
-        after = known[(place + 1) % len(known)]
+    angles = []
+    for place, i in enumerate(joined):
+        after = joined[(place + 1) % len(joined)]
         gap = (after - i) % size or size
         start = angle_of(sides[i])
         wide = (angle_of(sides[after]) - start) % (2 * pi) or 2 * pi
-        found += [start + wide * k / gap for k in range(1, gap)]
-    return found
+        angles += [start + wide * k / gap for k in range(1, gap)]
+    return angles
 
 
-def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop]) -> list[str]:
-    """Return lines that say what is seen, and which loops are not."""
-    classes = sc.centre_classes()
-    counts = [(len(sc), "link"), (len(sc.joints), "joint"), (len(classes), "centre")]
+def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop], numbers: Mapping[int, int]) -> list[str]:
+    """Return lines that count links, joints and centres, and list the loops that are not faces."""
+    counts = [(len(sc), "link"), (len(sc.joints), "joint"), (len(sc.centre_classes()), "centre")]
     if sc.spatial_loops:
         counts.append((sc.spatial_loops, "spatial loop"))
     said = ", ".join(numbered(number, word) for number, word in counts)
     lines = [said + ("" if layout.plane else "; not planar: lines cross")]
-    numbers = class_numbers(sc)
     every = [*sc.loops, *sc.closing]
     for loop in loose[:_LOOSE_LOOPS]:
         where = "at infinity" if loop.centre is Centre.INFINITE else "finite"
@@ -244,3 +239,17 @@ def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop]) -> list[str]:
     if len(loose) > _LOOSE_LOOPS:
         lines.append(f"and {len(loose) - _LOOSE_LOOPS} more loops that are no faces")
     return lines
+
+
+def _ride_alongs(
+    reduction: Reduction, ways: Mapping[JointId, Sequence[Point]], links: Mapping[LinkId, Point], radius: float
+) -> list[Shape]:
+    """Return bands below the joints and links of ride-alongs.
+
+    `ways` are the points of each joint as it is drawn; `radius` is that of a link, points.
+    """
+    shapes: list[Shape] = []
+    for step in reduction.steps:
+        shapes += [Line(ways[joint], "marked", 2 * _BAND * radius) for joint in step.joints]
+        shapes += [Disc(links[link], _RIM * radius, "marked", None) for link in step.removed]
+    return shapes

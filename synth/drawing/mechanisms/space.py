@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
 from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
@@ -19,57 +20,32 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of
-from synth.drawing.scene.palette import NORMAL, SMALL, STRONG
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape
-from synth.drawing.space.bodies import bodies_of
-from synth.drawing.space.panels import Panels, panel_shapes, panels_of
-from synth.drawing.space.view import view_from_above
+from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_shapes, panels_of, view_from_above
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
 
 __all__ = ["folded_scene", "model_scene", "solids_scene"]
 
 _MANY = 60
+"""Number of visible panels above which links are not numbered."""
 
 
 def folded_scene(
-    sheet: Sheet | SheetConfiguration,
-    *,
-    numbers: bool = True,
-    box: tuple[float, float] = (COLUMN, COLUMN),
-    caption: str | None = "",
+    sheet: Sheet | SheetConfiguration, *, numbers: bool = True, box: Box = BOX, caption: str | None = ""
 ) -> Scene:
     """Return a picture of a folded sheet: panels shaded, creases in the colours of their letters.
 
-    Parameters
-    ----------
-    sheet : Sheet or SheetConfiguration
-    numbers : bool, optional
-        Write the numbers of links on panels that are not covered.
-    box : (width, height), optional
-    caption : str, optional
-
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates.
-
-    Examples
-    --------
-    >>> roof = Sheet(4, ((0, 1),), "M", ((0, 1, 2), (1, 0, 3)), ((0, 0, 1), (0, 2, 1), (1, 1, 0), (-1, 1, 0)))
-    >>> [layer.name for layer in folded_scene(roof).layers]
-    ['panels', 'labels', 'caption']
+    `numbers`: write the numbers of links on panels that are not covered. Box and caption are as in `order_scene`.
+    Raise UnsolvableError if the sheet has no coordinates.
     """
-    given = sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet
-    if given.coordinates is None:
-        raise UnsolvableError("a sheet without coordinates has no picture in space")
-    points = in_space(given.coordinates)
-    view, panels = view_from_above(points), panels_of(sheet)
-    seen = view.places(points)
-    extent = float(np.ptp(seen, axis=0).max()) or 1.0
-    frame = framed(seen.tolist(), min(box) / extent, box)
-    shapes, visible = panel_shapes(panels, points, view, frame.row(seen.tolist()))
+    coordinates = (sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet).coordinates
+    if coordinates is None:
+        raise UnsolvableError("a picture in space requires a sheet with coordinates; try `synth realise`")
+    points, panels = in_space(coordinates), panels_of(sheet)
+    frame, view, page = _seen_from_above(points, box)
+    shapes, visible = panel_shapes(panels, points, view, page)
     labels = _numbers(visible, panels.link_of) if numbers and len(visible) <= _MANY else []
     counts = (len(set(panels.link_of.values())), "link"), (len(set(panels.joint_of.values())), "joint")
     said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, seen from above"
@@ -77,31 +53,14 @@ def folded_scene(
     return page_of(frame, layers, captions_of(caption, said))
 
 
-def solids_scene(
-    solids: HingedSolids,
-    *,
-    numbers: bool = True,
-    box: tuple[float, float] = (COLUMN, COLUMN),
-    caption: str | None = "",
-) -> Scene:
+def solids_scene(solids: HingedSolids, *, numbers: bool = True, box: Box = BOX, caption: str | None = "") -> Scene:
     """Return a picture of solids hinged at edges: each the hull of its hinges, these orange.
 
-    `numbers` are those of links, on what is seen of them, and of joints, beside their hinges. Box and caption are
+    `numbers` are those of links, on their visible parts, and of joints, beside their hinges. Box and caption are
     as in `order_scene`. Raise InvariantError if the axes of a loop do not meet in its centre.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> axes = {0: ((0, 0, 0), (0, 0, 1)), 1: ((1, 0, 0), (0, 1, 1)),
-    ...         2: ((1, 1, 0), (1, 0, 1)), 3: ((0, 1, 0), (1, 0, 0))}
-    >>> [layer.name for layer in solids_scene(HingedSolids(ring, axes)).layers]
-    ['solids', 'labels', 'caption']
     """
     panels, points = bodies_of(configuration_of(solids).linkage)
-    view = view_from_above(points)
-    seen = view.places(points)
-    extent = float(np.ptp(seen, axis=0).max()) or 1.0
-    frame = framed(seen.tolist(), min(box) / extent, box)
-    page = frame.row(seen.tolist())
+    frame, view, page = _seen_from_above(points, box)
     shapes, visible = panel_shapes(panels, points, view, page)
     labels = _numbers(visible, panels.link_of) if numbers else []
     if numbers:
@@ -112,10 +71,19 @@ def solids_scene(
     return page_of(frame, layers, captions_of(caption, said))
 
 
+def _seen_from_above(points: Floats, box: Box) -> tuple[Frame, View, list[Point]]:
+    """Return the frame of points in space seen from above, the view, and their places on the page."""
+    view = view_from_above(points)
+    seen = view.places(points)
+    extent = float(np.ptp(seen, axis=0).max()) or 1.0
+    frame = framed(seen.tolist(), min(box) / extent, box)
+    return frame, view, frame.row(seen.tolist())
+
+
 def _numbers_of_hinges(
-    panels: Panels, page: Sequence[Point], visible: Mapping[int, list[Point]], others: Sequence[Label]
+    panels: SpatialPanels, page: Sequence[Point], visible: Mapping[int, list[Point]], others: Sequence[Label]
 ) -> list[Label]:
-    """Return the numbers of joints beside their hinges, of those that are seen, off the numbers of links."""
+    """Return the numbers of joints beside their visible hinges, off the numbers of links."""
     wishes: list[tuple[Label, list[Point]]] = [(label, [label.at]) for label in others]
     lines = []
     for ends, joint in panels.joint_of.items():
@@ -128,8 +96,10 @@ def _numbers_of_hinges(
     return placed(wishes, Obstacles([], lines))[len(others) :]
 
 
-def _is_seen(panels: Panels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]) -> bool:
-    """Tell whether the middle of a hinge is on a face that is drawn, and on none of those drawn later."""
+def _is_seen(
+    panels: SpatialPanels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]
+) -> bool:
+    """Check whether the middle of a hinge is on a face that is drawn, and on none of those drawn later."""
     from shapely.geometry import Point as Spot, Polygon as Area
 
     drawn = list(visible)
@@ -145,36 +115,30 @@ def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, LinkId]) 
 
     wishes: list[tuple[Label, list[Point]]] = []
     above: list[object] = []
-    told: set[LinkId] = set()
+    numbered_links: set[LinkId] = set()
     for face, row in reversed(list(visible.items())):
         area = Area(row).buffer(0)
         free = area.difference(union_all(above)) if above else area
         above.append(area)
         link = link_of.get(face)
-        if link is None or link in told or free.area < max(0.25 * area.area, 30):
+        if link is None or link in numbered_links or free.area < max(0.25 * area.area, 30):
             continue
-        told.add(link)
+        numbered_links.add(link)
         point = free.centroid if free.contains(free.centroid) else free.representative_point()
         label = Label((0, 0), str(link), SMALL, bold=True, halo=False, widest=8, data=(("link", str(link)),))
         wishes.append((label, [(point.x, point.y), *beside((point.x, point.y), 4)]))
     return placed(wishes, Obstacles([], []))
 
 
-def model_scene(
-    model: PolyhedronModel, *, box: tuple[float, float] = (COLUMN, COLUMN), caption: str | None = ""
-) -> Scene:
+def model_scene(model: PolyhedronModel, *, box: Box = BOX, caption: str | None = "") -> Scene:
     """Return a picture of a polyhedron model: vertices, rods, remote centres and what else it has, in words.
 
-    With coordinates it is seen from a little above; without, it is drawn as a graph.
-
-    Examples
-    --------
-    >>> hinge = PolyhedronModel(4, [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)])
-    >>> [layer.name for layer in model_scene(hinge).layers]
-    ['rods', 'vertices', 'labels', 'caption']
+    With coordinates it is seen from a little above; without, it is drawn as a graph. Box and caption are as in
+    `order_scene`.
     """
     vertices = list(model.nodes)
-    pairs = [*model.edges, *_sides_of_scissors(model)]
+    scissors = [(four[i], four[(i + 1) % 4]) for four in model.scissors for i in range(4)]
+    pairs = [*model.edges, *scissors]
     if model.coordinates:
         points = np.array([model.coordinates[v] for v in vertices])
         seen = view_from_above(points).places(points)
@@ -190,17 +154,13 @@ def model_scene(
     for a, b in model.edges:
         fixed = a in ground and b in ground
         rods.append(Line([page[a], page[b]], "grey" if fixed else "ink", STRONG if fixed else NORMAL))
-    rods += [Line([page[a], page[b]], "class1", NORMAL, (3.0, 2.0)) for a, b in _sides_of_scissors(model)]
+    rods += [Line([page[a], page[b]], "class1", NORMAL, (3.0, 2.0)) for a, b in scissors]
     dots = [Disc(page[v], 2.6, "ground" if v in ground else "paper", "ink") for v in vertices]
     lines = [(page[a], page[b]) for a, b in pairs]
     wishes = [(Label((0, 0), str(v), SMALL, widest=10), beside(page[v], 8)) for v in vertices]
     labels = placed(wishes, Obstacles([(*page[v], 3.4) for v in vertices], lines if len(lines) < 200 else []))
     layers = [Layer("rods", tuple(rods)), Layer("vertices", tuple(dots)), Layer("labels", tuple(labels))]
     return page_of(frame, layers, captions_of(caption, *_terms(model)))
-
-
-def _sides_of_scissors(model: PolyhedronModel) -> list[tuple[object, object]]:
-    return [(four[i], four[(i + 1) % 4]) for four in model.scissors for i in range(4)]
 
 
 def _terms(model: PolyhedronModel) -> list[str]:
@@ -211,7 +171,7 @@ def _terms(model: PolyhedronModel) -> list[str]:
         said += f"; ground link grey, {len(model.ground)} vertices"
     lines = [said]
     if model.centres:
-        lines.append("remote centres: " + ", ".join(f"S+{one.k}" for one in model.centres))
+        lines.append("remote centres: " + ", ".join(f"S+{centre.k}" for centre in model.centres))
     if model.on_line or model.on_plane:
         lines.append(f"{len(model.on_line)} points on lines, {len(model.on_plane)} on planes")
     return lines

@@ -1,8 +1,4 @@
-"""Scenes: what a picture shows, in layers, apart from how it is written; writers for SVG, PNG and PDF.
-
-A scene is lines, polygons, discs and labels in typographic points, in colours that have names; the palette of the
-paper, light or dark, says what they are when the scene is written.
-"""
+"""Scenes: shapes of a picture in layers, apart from how it is written; writers for SVG, PNG and PDF."""
 
 from __future__ import annotations
 

@@ -6,5 +6,4 @@ from synth.drawing.scene.shapes import (
     Polygon as Polygon,
     Scene as Scene,
 )
-from synth.drawing.scene.svg import svg_text as svg_text
-from synth.drawing.scene.writing import save_scene as save_scene
+from synth.drawing.scene.writing import save_scene as save_scene, svg_text as svg_text

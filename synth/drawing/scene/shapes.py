@@ -1,16 +1,101 @@
-"""What a picture shows: shapes in layers, in typographic points, y downwards from the upper left corner."""
+"""Scenes: shapes in layers, in typographic points, y downwards from the upper left corner; colours by name.
+
+The palette has colours for light and for dark paper, for all kinds of sight: the eight colours of classes are
+those of Okabe and Ito, but for yellow, which is too light on paper; on dark paper the darker ones are lightened.
+Whatever a colour shows is shown by a dash, a sign or a number too.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from math import cos, pi, sin
+from types import MappingProxyType
 from typing import TypeAlias
 
+from graphs.errors import InvariantError, shown
 from graphs.plain_text import plain
-from synth.drawing.scene.palette import NORMAL, SMALL
 
-__all__ = ["Disc", "Label", "Layer", "Line", "Point", "Polygon", "Scene", "Shape", "arc_points", "text_width"]
+__all__ = [
+    "FINE",
+    "LARGE",
+    "NORMAL",
+    "SMALL",
+    "STRONG",
+    "Disc",
+    "Label",
+    "Layer",
+    "Line",
+    "Point",
+    "Polygon",
+    "Scene",
+    "Shape",
+    "arc_points",
+    "colour_of",
+    "colour_of_class",
+    "moved",
+    "put",
+    "text_width",
+]
+
+FINE, NORMAL, STRONG = 0.5, 1.0, 1.6
+"""Widths of lines in points: for secondary lines, for the mechanism, for what should be seen first."""
+
+SMALL, LARGE = 6.5, 9.0
+"""Sizes of letters in points: numbers in a picture, titles."""
+
+_CLASSES = 8
+"""Number of colours of classes; further classes repeat them, and are told apart by their numbers."""
+
+_COLOURS = {
+    "paper": ("#ffffff", "#14171a"),
+    "ink": ("#1a1a1a", "#ececec"),
+    "grey": ("#767676", "#9d9d9d"),
+    "faint": ("#d4d4d4", "#42474c"),
+    "body": ("#e8ecf0", "#2b3238"),
+    "ground": ("#b9bec4", "#59626b"),
+    "front": ("#f4f5f6", "#a5adb5"),
+    "back": ("#a9d4ef", "#5b9cc7"),
+    "shadow": ("#4a535c", "#101316"),
+    "marked": ("#f5e27a", "#6b5c12"),
+    "mountain": ("#c8242b", "#ff6f6a"),
+    "valley": ("#0a64ad", "#6cb4f5"),
+    "cut": ("#00795a", "#3fcf9f"),
+    "unassigned": ("#9a4f7c", "#e3a0c8"),
+    "flat": ("#b0b0b0", "#6a6f75"),
+    "class0": ("#0072b2", "#4aa8e0"),
+    "class1": ("#d55e00", "#ff9147"),
+    "class2": ("#009e73", "#35c79c"),
+    "class3": ("#cc79a7", "#e3a0c8"),
+    "class4": ("#b8860b", "#e6b84a"),
+    "class5": ("#56b4e9", "#8ccff5"),
+    "class6": ("#8c564b", "#c4938a"),
+    "class7": ("#6a3d9a", "#b08ee0"),
+}
+"""Name of a colour to its value on light and on dark paper."""
+_PAPERS: Mapping[str, Mapping[str, str]] = MappingProxyType(
+    {
+        paper: {name: values[place] for name, values in _COLOURS.items()}
+        for place, paper in enumerate(("light", "dark"))
+    }
+)
+"""Name of a paper to its colours."""
+
+
+def colour_of(name: str, paper: str) -> str:
+    """Return a colour as ``#rrggbb``; raise InvariantError if the colour or the paper is unknown."""
+    if paper not in _PAPERS:
+        raise InvariantError("paper", f"unknown paper {shown(paper)}", " or ".join(_PAPERS))
+    colours = _PAPERS[paper]
+    if name not in colours:
+        raise InvariantError("colour", f"unknown colour {shown(name)}", ", ".join(colours))
+    return colours[name]
+
+
+def colour_of_class(number: int) -> str:
+    """Return the name of the colour of a class of joints, loops or links."""
+    return f"class{number % _CLASSES}"
+
 
 Point: TypeAlias = tuple[float, float]
 Data: TypeAlias = tuple[tuple[str, str], ...]
@@ -22,19 +107,10 @@ _STEP = pi / 60
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A row of straight pieces.
+    """A row of straight pieces, (x, y).
 
-    Parameters
-    ----------
-    points : sequence of (x, y)
-    colour : str, optional
-        A name of the palette.
-    width : float, optional
-        Points.
-    dash : tuple of float, optional
-        Lengths of strokes and gaps, points.
-    data : tuple of (key, value), optional
-        What it stands for: ``("joint", id)``, ``("link", id)``.
+    The colour is a name of the palette, width and dash (lengths of strokes and gaps) are in points. `data` are
+    pairs of key and value that say what it stands for: ``("joint", id)``, ``("link", id)``.
     """
 
     points: Sequence[Point]
@@ -48,16 +124,8 @@ class Line:
 class Polygon:
     """A closed row of straight pieces, filled, outlined or both; corners are round.
 
-    Parameters
-    ----------
-    points : sequence of (x, y)
-    fill, colour : str or None, optional
-        Names of the palette: inside and outline.
-    width : float, optional
-        Of the outline.
-    opacity : float, optional
-        Of the inside, 0 to 1.
-    data : tuple of (key, value), optional
+    `fill` and `colour` are names of the palette, for the inside and the outline, or None; `opacity`, 0 to 1, is
+    that of the inside.
     """
 
     points: Sequence[Point]
@@ -70,16 +138,7 @@ class Polygon:
 
 @dataclass(frozen=True, slots=True)
 class Disc:
-    """A disc or a circle.
-
-    Parameters
-    ----------
-    centre : (x, y)
-    radius : float
-    fill, colour : str or None, optional
-    width : float, optional
-    data : tuple of (key, value), optional
-    """
+    """A disc or a circle; `fill` and `colour`, inside and outline, are names of the palette or None."""
 
     centre: Point
     radius: float
@@ -91,29 +150,10 @@ class Disc:
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    r"""A line of text; its middle, or its left end, is at a point.
+    """A line of text; its middle, or its left end (`anchor` is "start"), is at a point.
 
-    What is not printable is escaped, and long text is cut: names come from files.
-
-    Parameters
-    ----------
-    at : (x, y)
-    text : str
-    size : float, optional
-        Height of the letters, points.
-    colour : str, optional
-    anchor : {"middle", "start"}, optional
-    bold : bool, optional
-    halo : bool, optional
-        A rim in the colour of the paper, where it lies on lines.
-    widest : int, optional
-        Most letters.
-    data : tuple of (key, value), optional
-
-    Examples
-    --------
-    >>> Label((0, 0), "a\x1b[2J").text
-    'a\\x1b[2J'
+    Unprintable letters are escaped, and text of more than `widest` letters is cut: names come from files. `size`
+    is the height of the letters in points. A halo is a rim in the colour of the paper, for text on lines.
     """
 
     at: Point
@@ -131,7 +171,7 @@ class Label:
 
     @property
     def box(self) -> tuple[float, float, float, float]:
-        """Return left, top, right, bottom: what the letters need at most."""
+        """Left, top, right, bottom: the largest space that the letters take."""
         x, y = self.at
         wide, high = text_width(self.text, self.size), self.size
         left = x - wide / 2 if self.anchor == "middle" else x
@@ -153,14 +193,14 @@ class Layer:
 class Scene:
     """A picture before it is written.
 
-    Parameters
+    Attributes
     ----------
     width, height : float
         Points, 72 to an inch.
     layers : tuple of Layer
         From below to above.
-    title : str, optional
-        What is seen, for who cannot see it; it is not drawn.
+    title : str
+        Description for those who cannot see the picture; it is not drawn.
 
     Examples
     --------
@@ -187,11 +227,7 @@ class Scene:
 
 
 def text_width(text: str, size: float) -> float:
-    """Return the largest width of text, in points: fonts differ, and the widest in use counts.
-
-    >>> text_width("12", 10)
-    12.4
-    """
+    """Return the largest width of text, in points: fonts differ, and the widest in use counts."""
     return size * sum(_LETTER if ord(letter) < 0x2000 else _WIDE_LETTER for letter in text)
 
 
@@ -199,10 +235,25 @@ def arc_points(centre: Point, radius: float, start: float, stop: float) -> list[
     """Return points along an arc, close enough to each other to look round.
 
     Angles are in radians, from the x axis towards the y axis.
-
-    >>> [round(x, 3) for x, _ in arc_points((0, 0), 1, 0, pi)][::30]
-    [1.0, 0.0, -1.0]
     """
     pieces = max(1, round(abs(stop - start) / _STEP))
     angles = [start + (stop - start) * i / pieces for i in range(pieces + 1)]
     return [(centre[0] + radius * cos(a), centre[1] + radius * sin(a)) for a in angles]
+
+
+def moved(layer: Layer, right: float, down: float) -> Layer:
+    """Return a layer at another place on the page."""
+    return put(layer, lambda place: (place[0] + right, place[1] + down))
+
+
+def put(layer: Layer, there: Callable[[Point], Point]) -> Layer:
+    """Return a layer with its places mapped by a function; letters stay upright, discs keep their size."""
+
+    def shape_there(shape: Shape) -> Shape:
+        if isinstance(shape, Label):
+            return replace(shape, at=there(shape.at))
+        if isinstance(shape, Disc):
+            return replace(shape, centre=there(shape.centre))
+        return replace(shape, points=[there(point) for point in shape.points])
+
+    return Layer(layer.name, tuple(map(shape_there, layer.shapes)))

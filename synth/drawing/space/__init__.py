@@ -1,4 +1,4 @@
-"""Panels in space: from where they are seen, which hide others, light and sides; strips and moving pictures."""
+"""Panels and solids in space: views, hidden panels, light and sides; strips and moving pictures."""
 
 from __future__ import annotations
 

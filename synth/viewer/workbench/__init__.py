@@ -1,5 +1,5 @@
-"""The workbench: the page served on this machine, with Python behind it that reads and judges what is dropped.
+"""The workbench: the page served on this machine, with Python behind it that reads the files dropped on it.
 
-`guard` lets nobody else in, `app` has what is served, `asking` reads a file in a process of its own (`reading`),
-which can be stopped, `serving` begins and ends. Theory: docs/theory/viewer.md.
+`app` serves the page and lets nobody else in, `asking` runs `reading` on a file, in a process of its own that can
+be stopped. Theory: docs/theory/viewer.md.
 """

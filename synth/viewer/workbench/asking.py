@@ -1,4 +1,4 @@
-"""Files read, judged and printed in processes of their own, a few at a time, which end with who asked.
+"""Files read, answered about and printed in processes of their own, which end with the request.
 
 Theory: docs/theory/viewer.md.
 """
@@ -10,7 +10,7 @@ import json
 import re
 import sys
 from collections.abc import AsyncIterator, Sequence
-from contextlib import suppress
+from contextlib import asynccontextmanager, suppress
 
 __all__ = ["Engine", "beating", "file_name"]
 
@@ -18,56 +18,41 @@ _LONGEST = 120
 """Bytes of a name: file systems take 255 bytes, whatever the letters."""
 _SECONDS = 120.0
 _BEAT = 1.0
-"""Seconds after which a blank line is sent, so that it is seen whether somebody still waits."""
+"""Seconds after which a blank line is sent, which shows whether anybody still waits."""
 _CHUNK = 1 << 16
 _AT_ONCE = 2
 _WAITING = b'{"doing": "waiting until others are done", "step": 0, "of": 4}\n'
-"""What is said while as many processes run as may; four is the number of steps of `reading`."""
-_FAILED = "it could not be read: the engine failed"
+"""Sent while as many processes run as may; four is the number of steps of `reading`."""
+_FAILED = "the file could not be read: the engine failed"
 
 
-def file_name(given: str) -> str:
+def file_name(text: str) -> str:
     r"""Return a name that is safe for a file: its last part, its extension kept.
 
     >>> file_name("../../etc/pass\x00wd.fold"), file_name("C:\\a b.cp"), file_name("..")
     ('pass_wd.fold', 'a b.cp', 'file')
     """
-    last = re.split(r"[/\\]", given)[-1]
-    made = re.sub(r"[^\w. ()+-]", "_", last).encode()[-_LONGEST:].decode(errors="ignore")
-    return made.lstrip(".- ") or "file"
+    last = re.split(r"[/\\]", text)[-1]
+    name = re.sub(r"[^\w. ()+-]", "_", last).encode()[-_LONGEST:].decode(errors="ignore")
+    return name.lstrip(".- ") or "file"
 
 
 class Engine:
-    """Modules of this package run on files, each in a process of its own."""
+    """Tasks of `reading` run on files, each in a process of its own, a few at a time."""
 
     def __init__(self) -> None:
         self._free = asyncio.Semaphore(_AT_ONCE)
 
-    async def lines(self, module: str, words: Sequence[str], content: bytes) -> AsyncIterator[bytes]:
-        """Yield what a module prints about a file, as it comes, and blank lines while there is nothing.
+    async def lines(self, task: str, words: Sequence[str], content: bytes) -> AsyncIterator[bytes]:
+        """Yield what a task prints about a file, as it comes, and blank lines while there is nothing.
 
-        Where as many processes run as may, the first line says that it waits.
-
+        The words are a safe name and options of the task. If too many processes run already, the first line says
+        that it waits. The pieces are those of lines of JSON; the last line has ``error`` if the process failed.
         The process ends when nobody takes what is yielded any more, or it took too long.
-
-        Parameters
-        ----------
-        module : str
-            Its name in this package.
-        words : sequence of str
-            A safe name, and what else the module is told.
-        content : bytes
-
-        Yields
-        ------
-        bytes
-            Lines of JSON, in pieces; the last has ``error`` if the process did not end well.
         """
         if self._free.locked():
             yield _WAITING
-        async with self._free:
-            process = await _begun(module, words)
-            feeding = asyncio.create_task(_fed(process, content))
+        async with self._running(task, words, content) as process:
             try:
                 async for piece in beating(_taken(process)):
                     yield piece
@@ -75,36 +60,32 @@ class Engine:
                     yield _error(words[0], _FAILED)
             except TimeoutError:
                 yield _error(words[0], f"stopped after {_SECONDS:g} seconds; `synth mobility` has no such limit")
-            finally:
-                await _ended(process, feeding)
 
-    async def whole(self, module: str, words: Sequence[str], content: bytes) -> tuple[int, bytes]:
-        """Return the status of a module run on a file, and all that it wrote.
-
-        Parameters
-        ----------
-        module, words, content
-            As of `lines`.
-        """
-        async with self._free:
-            process = await _begun(module, words)
-            feeding = asyncio.create_task(_fed(process, content))
+    async def whole(self, task: str, words: Sequence[str], content: bytes) -> tuple[int, bytes]:
+        """Return the status of a task run on a file, and all that it wrote."""
+        async with self._running(task, words, content) as process:
             try:
                 pieces = [piece async for piece in _taken(process)]
                 return await process.wait(), b"".join(pieces)
             except TimeoutError:
                 return 1, b""
+
+    @asynccontextmanager
+    async def _running(
+        self, task: str, words: Sequence[str], content: bytes
+    ) -> AsyncIterator[asyncio.subprocess.Process]:
+        """Start a process when one may run, feed it the content, and end it at last."""
+        async with self._free:
+            process = await _begun(task, words)
+            feeding = asyncio.create_task(_fed(process, content))
+            try:
+                yield process
             finally:
                 await _ended(process, feeding)
 
 
 async def beating(pieces: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
-    """Yield pieces of lines, and a blank line for each that is empty, but none within a line.
-
-    Parameters
-    ----------
-    pieces : asynchronous iterator of bytes
-    """
+    """Yield pieces of lines, and a blank line for each that is empty, but none within a line."""
     between = True
     async for piece in pieces:
         if piece:
@@ -114,9 +95,9 @@ async def beating(pieces: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
             yield b"\n"
 
 
-async def _begun(module: str, words: Sequence[str]) -> asyncio.subprocess.Process:
+async def _begun(task: str, words: Sequence[str]) -> asyncio.subprocess.Process:
     pipe = asyncio.subprocess.PIPE
-    command = (sys.executable, "-m", f"{__package__}.{module}", *words)
+    command = (sys.executable, "-m", f"{__package__}.reading", task, *words)
     return await asyncio.create_subprocess_exec(
         *command, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
     )

@@ -1,31 +1,107 @@
-"""One file read and judged, in a process of its own: what hangs, or needs too much, is ended with it.
+"""One file read, edited and answered about, in a process of its own, which ends with it if it takes too long.
 
-    python -m synth.viewer.workbench.reading NAME [--motion] [EDIT...] < file
+    python -m synth.viewer.workbench.reading show NAME [--motion] [EDIT...] < file
 
-prints lines of JSON: how far it is, and last what a page shows, or in what words the file is refused.
+prints lines of JSON: the steps, and last what a page shows, or why the file is refused.
+
+    python -m synth.viewer.workbench.reading template NAME SIZE KIND [EDIT...] < file
+
+writes the template, its longer side SIZE millimetres, as ``pdf``, ``svg`` or ``dxf``; several SVG pages in a
+``zip``. If the file is refused it prints why, as a line of JSON, and ends with status 2.
+
+An EDIT is ``lock:JOINT``, ``remove:JOINT``, ``ride-alongs``, or ``crease:END~END``, where an END is the number of
+a vertex, or ``x,y`` or ``x,y,z``. Theory: docs/theory/viewer.md, docs/theory/edits.md.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
+from zipfile import ZipFile
 
 from graphs.convert.table import Mechanism
-from graphs.errors import FileError, InvariantError, SynthedraError
+from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
+from graphs.creasing.panels import take_off_panels
+from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read
+from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+from graphs.reduce.ride_alongs import reduce
+from synth.moving.made import sheet_of
 from synth.viewer.shown import Report, shown_of
-from synth.viewer.workbench.editing import edited
 
-__all__ = ["MOTION", "answered", "read_and_edited", "refusal"]
+__all__ = ["KINDS", "MOTION", "REFUSED", "answered", "are_edits", "edited", "printed"]
 
+KINDS = ("pdf", "svg", "dxf")
 MOTION = "--motion"
-"""The word that asks for the motion of what is so large that it is looked for on request only."""
+"""Option that asks for the motion of a mechanism so large that it is looked for on request only."""
+REFUSED = 2
+"""Status of the process if the file is refused."""
+
+_MOST_EDITS = 200
+_NUMBER = r"-?[0-9]{1,20}(?:\.[0-9]{0,20})?(?:e[+-]?[0-9]{1,2})?"
+_END = rf"(?:[0-9]{{1,9}}|{_NUMBER},{_NUMBER}(?:,{_NUMBER})?)"
+_EDIT = re.compile(rf"(?:lock|remove):[0-9]{{1,9}}|crease:{_END}~{_END}|ride-alongs")
+
+
+def are_edits(words: Sequence[str]) -> bool:
+    """Check that edits are of known kinds, and not too many.
+
+    >>> are_edits(["lock:3", "crease:12~0.5,-1e-3", "ride-alongs"]), are_edits(["lock:-1"]), are_edits(["rm:1"])
+    (True, False, False)
+    """
+    return len(words) <= _MOST_EDITS and all(_EDIT.fullmatch(word) for word in words)
+
+
+def edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
+    """Return a mechanism after edits, one after the other, each with the ids that the last one left.
+
+    The edits pass `are_edits`. Of a sheet with several frames the first that has coordinates is edited. Raise
+    InvariantError if there is no such joint, vertex or point; UnsolvableError if an edit is impossible, also for
+    mechanisms of this kind.
+    """
+    for edit in edits:
+        if isinstance(thing, Sheet) and thing.frames is not None:
+            thing = thing.frames.first_placed()
+        if edit == "ride-alongs":
+            thing = _without_ride_alongs(thing)
+            continue
+        if not isinstance(thing, Sheet):
+            raise UnsolvableError("only crease patterns can be edited here; try `synth edit`")
+        kind, _, place = edit.partition(":")
+        if kind == "crease":
+            start, end = map(_end, place.split("~"))
+            thing = crease_sheet(thing, start, end).sheet
+        else:
+            thing = (lock_crease if kind == "lock" else remove_crease)(thing, int(place)).sheet
+    return thing
+
+
+def _end(text: str) -> int | tuple[float, ...]:
+    return tuple(map(float, text.split(","))) if "," in text else int(text)
+
+
+def _without_ride_alongs(thing: Mechanism) -> Mechanism:
+    """Return a mechanism without ride-alongs: a sheet without their panels, solids, or else a graph."""
+    reduction = reduce(thing)
+    if not reduction.steps:
+        raise UnsolvableError("the mechanism has no ride-alongs that can be removed")
+    if isinstance(thing, Sheet):
+        panels = {int(str(link)) for step in reduction.steps for link in step.removed}
+        return take_off_panels(thing, panels).sheet
+    if isinstance(thing, HingedSolids):
+        axes = {joint: thing.axes[joint] for joint in reduction.graph.joints}
+        return HingedSolids(reduction.graph, axes)
+    return reduction.graph
 
 
 def answered(
@@ -36,46 +112,61 @@ def answered(
     motion: bool | None = None,
     report: Report = lambda _what, _step, _of: None,
 ) -> dict[str, Any]:
-    """Return what a page shows of a file after edits.
+    """Return what a page shows of a file after edits: ``shown``, or ``error``, a line as commands print it.
 
-    It is ``shown``, the data of the page, or ``error``, a line as commands print it. The name is without folders.
-    With `motion` the motion is computed however large the mechanism is; `report` is called before each step.
+    The name is without folders. With `motion` the motion is computed however large the mechanism is; `report` is
+    called before each step.
     """
     report("reading", 0, 4)
-    return refusal(
+    return _or_error(
         name,
         lambda: {
-            "shown": shown_of(read_and_edited(name, content, edits), name, motion=motion, report=report).to_json()
+            "shown": shown_of(_mechanism(name, content, edits), name, motion=motion, report=report).to_json()
         },
     )
 
 
-def read_and_edited(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
+def printed(name: str, content: bytes, size: float, kind: str, edits: Sequence[str] = ()) -> tuple[str, bytes]:
+    """Return the template of a file after edits: its extension, and its content.
+
+    The name is without folders; `size` is the longer side in millimetres. Raise SynthedraError if the file cannot
+    be read or edited, has no panels, or would need too many pages.
+    """
+    from synth.templates.template import template_of
+    from synth.templates.writing import write_template
+
+    sheet = sheet_of(_mechanism(name, content, edits))
+    if sheet is not None and sheet.frames is not None:
+        sheet = sheet.frames.first_placed()
+    if sheet is None or sheet.coordinates is None:
+        raise UnsolvableError("a template requires panels with coordinates; for a type, try `synth realise`")
+    template = template_of(sheet, size=size, title=sheet.title or name)
+    if kind == "svg":
+        template = replace(template, steps=())  # a page of assembly would be a second file
+    with TemporaryDirectory() as folder:
+        places = write_template(template, Path(folder) / f"template.{kind}")
+        if len(places) == 1:
+            return kind, places[0].read_bytes()
+        packed = BytesIO()
+        with ZipFile(packed, "w") as archive:
+            for place in places:
+                archive.write(place, place.name)
+    return "zip", packed.getvalue()
+
+
+def _mechanism(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
     """Return the mechanism of a file after edits.
 
-    Readers take files by their names: it is put into a private folder. The SynthedraErrors of readers and edits
-    name the file alone.
+    Readers take files by their names: it is put into a private folder, so that errors name the file alone.
     """
     with _private_folder():
         Path(name).write_bytes(content)
         return edited(read(name), edits)
 
 
-def refusal(name: str, made: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """Return what is made, or ``error``: why it was refused, in one line that names the file."""
-    try:
-        return made()
-    except FileError as error:
-        return {"error": str(error)}
-    except InvariantError as error:
-        return {"error": str(FileError(name, "", error.offender, error.expected))}
-    except SynthedraError as error:
-        return {"error": str(FileError(name, "", str(error)))}
-
-
 @contextmanager
 def _private_folder() -> Iterator[None]:
-    """Work in a folder of one's own, which goes again."""
+    """Work in a temporary folder."""
     before = Path.cwd()
     with TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -85,18 +176,50 @@ def _private_folder() -> Iterator[None]:
             os.chdir(before)
 
 
-def _report(what: str, step: int, of: int) -> None:
-    print(json.dumps({"doing": what, "step": step, "of": of}), flush=True)
+def _or_error(name: str, answer: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """Return an answer, or ``error``: why the file was refused, in one line that names it."""
+    try:
+        return answer()
+    except FileError as error:
+        return {"error": str(error)}
+    except InvariantError as error:
+        return {"error": str(FileError(name, "", error.offender, error.expected))}
+    except SynthedraError as error:
+        return {"error": str(FileError(name, "", str(error)))}
 
 
-def main() -> None:
-    """Answer about the file on standard input."""
-    name, *words = sys.argv[1:]
+def _show(name: str, *words: str) -> None:
+    """Print what a page shows of the file on standard input."""
+
+    def report(doing: str, step: int, of: int) -> None:
+        print(json.dumps({"doing": doing, "step": step, "of": of}), flush=True)
+
     motion = True if MOTION in words else None
     edits = [word for word in words if word != MOTION]
-    told = answered(name, sys.stdin.buffer.read(), edits, motion=motion, report=_report)
-    print(json.dumps(told, allow_nan=False))
+    print(
+        json.dumps(answered(name, sys.stdin.buffer.read(), edits, motion=motion, report=report), allow_nan=False)
+    )
+
+
+def _print_template(name: str, size: str, kind: str, *edits: str) -> None:
+    """Write the template of the file on standard input."""
+    template = b""
+
+    def answer() -> dict[str, str]:
+        nonlocal template
+        _, template = printed(name, sys.stdin.buffer.read(), float(size), kind, edits)
+        return {}
+
+    error = _or_error(name, answer)
+    sys.stdout.buffer.write(json.dumps(error).encode() if error else template)
+    sys.stdout.buffer.flush()
+    raise SystemExit(REFUSED if error else 0)
 
 
 if __name__ == "__main__":
-    main()
+    if sys.argv[1] == "show":
+        _show(*sys.argv[2:])
+    elif sys.argv[1] == "template":
+        _print_template(*sys.argv[2:])
+    else:
+        raise SystemExit(1)

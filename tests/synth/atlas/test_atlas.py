@@ -301,7 +301,7 @@ def test_what_a_statement_selects_is_written_whatever_it_is(small_atlas: Atlas, 
         write_rows(small_atlas.sql(statement), tmp_path / "rows.csv", force=True)
     with pytest.raises(InvariantError, match="kind 1, id 2; expected texts"):
         write_rows(small_atlas.sql("SELECT 1 AS kind, 2 AS id"), tmp_path / "rows.svg")
-    with pytest.raises(InvariantError, match="'k1:Cr:0-0' is no order of the joints of its chain"):
+    with pytest.raises(InvariantError, match="'k1:Cr:0-0' is not an order of the joints of its chain"):
         write_rows(small_atlas.sql("SELECT 'order' AS kind, 'k1:Cr:0-0' AS id"), tmp_path / "rows.svg")
 
 

@@ -10,8 +10,7 @@ from graphs.mechanism.surfaces import Cone
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
 from synth.drawing.scene.shapes import Label, Polygon
-from synth.drawing.scene.svg import svg_text
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.writing import save_scene, svg_text
 
 
 def four_bar(names="OABC"):

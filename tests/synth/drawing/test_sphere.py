@@ -10,11 +10,8 @@ from cranks import random_orientations
 from shapely.geometry import Point, Polygon
 
 from graphs.errors import UnsolvableError
-from synth.drawing.hammer import hammer, hammer_inverse
-from synth.drawing.labels import spread
-from synth.drawing.order_map import CCW, CW, NEITHER, draw_map
 from synth.drawing.scene import shapes
-from synth.drawing.sphere import draw_hoop
+from synth.drawing.sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, hammer_inverse, spread
 from synth.guidance.dyads import dyads_of_three
 from synth.guidance.four import centre_axes
 from synth.guidance.hoop_method import hoop
@@ -138,7 +135,7 @@ def test_many_orientations_are_drawn_without_their_pairs():
     assert "S34" not in written
     assert layer(draw_map(given, width=60), "axes") == ()
     many = random_orientations(16, np.random.default_rng(65))
-    with pytest.raises(UnsolvableError, match="a picture of 16 orientations shows nothing; 15 at most"):
+    with pytest.raises(UnsolvableError, match="16 orientations are too many for a picture; at most 15"):
         draw_hoop(many, (1, 2, 3), hoop(many, (1, 2, 3)))
 
 

@@ -11,9 +11,9 @@ from real_patterns import folder_of_patterns
 from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read_all
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.catalogue.entries import catalogue_entries
+from synth.drawing.catalogue import catalogue_entries
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.svg import svg_text
+from synth.drawing.scene.writing import svg_text
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 FILES = [*sorted(DATA.rglob("*.fold")), *sorted(DATA.rglob("*.json"))]

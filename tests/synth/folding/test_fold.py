@@ -17,7 +17,7 @@ from graphs.files.formats import read, read_all
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from synth.drawing.foldings import write_motion
+from synth.drawing.space.poses import write_motion
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
 from synth.motion.closure import ClosureEquations

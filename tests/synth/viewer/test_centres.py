@@ -9,7 +9,7 @@ from synth.folding.motion import fold
 from synth.motion.linkage import link_motions
 from synth.moving.made import configuration_of
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.centres import centres_of
+from synth.viewer.linkage import centres_of
 
 
 @pytest.mark.parametrize(

@@ -18,13 +18,13 @@ from synth.folding.collisions import Panels
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import driven_path
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.shown import Moving, shown_of
+from synth.viewer.shown import MovingLinkage, shown_of
 
 SAME_RESIDUAL, SAME_POSE, SAME_PATH = 1e-12, 1e-9, 1e-9
 """Paths of several freedoms depend on the steps: both solvers take the same ones."""
 
 
-def compare(things: list[Moving], *, panels: bool = True) -> int:
+def compare(things: list[MovingLinkage], *, panels: bool = True) -> int:
     """Compare both solvers on everything that moves; return how many paths were compared to their ends."""
     asked = [
         asked_of(moving, np.random.default_rng(number), panels=panels) for number, moving in enumerate(things)
@@ -132,7 +132,7 @@ def test_panels_that_cross():
     assert (1, 2) in expected
 
 
-def moving_of(thing) -> Moving | None:
+def moving_of(thing) -> MovingLinkage | None:
     moving = shown_of(thing).moving
     return moving if moving is not None and moving.ways is not None else None
 

@@ -10,9 +10,8 @@ from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.motion.linkage import linkage_of_sheet
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.bodies import hull_faces
+from synth.viewer.linkage import factor_order, hull_faces, solver_data
 from synth.viewer.shown import shown_of
-from synth.viewer.solver_data import factor_order, solver_data
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +25,7 @@ def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(bird_base):
     ways = told["moving"]["ways"]
     assert len(ways["all"]) == 16
     assert ways["singular"]
-    assert ways["all"][ways["taken"]]["told"] == f"way {ways['taken']}: 5 freedoms, numerical"
+    assert ways["all"][ways["taken"]]["told"] == f"branch {ways['taken']}: 5 degrees of freedom, numerical"
     assert told["verdict"] in told["report"]
     assert {"light", "dark"} == set(told["pictures"])
     assert len(told["moving"]["between"]) == len(told["moving"]["joints"]) == 20

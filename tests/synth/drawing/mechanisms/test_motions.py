@@ -8,10 +8,10 @@ from commands import run
 from graphs.errors import InvariantError
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.mechanisms import motions
-from synth.drawing.mechanisms.motions import motions_by_verdict, motions_on_branch
+from synth.drawing.mechanisms.creases import motions_by_verdict, motions_on_branch
 from synth.drawing.mechanisms.pictures import draw
 from synth.folding.configuration import configuration_of_sheet
+from synth.verdict.of_motion import verdict_of_motion
 
 CORNERS = ((0, 0), (1, 0), (0.5, 1), (-1, 0), (0.5, -1))
 VERTEX = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), CORNERS)
@@ -42,11 +42,11 @@ def test_panels_that_move_as_one():
 
 def test_what_is_not_known_is_neither_still_nor_moving(monkeypatch):
     """Of creases that no known way moves nothing is told, where the verdict does not know either."""
-    known = motions.verdict_of_motion
     monkeypatch.setattr(
-        motions,
-        "verdict_of_motion",
-        lambda pattern: replace(known(pattern), ways=(), certainty="not known", stiff_joints=(0, 1, 2, 3)),
+        "synth.drawing.mechanisms.creases.verdict_of_motion",
+        lambda pattern: replace(
+            verdict_of_motion(pattern), ways=(), certainty="not known", stiff_joints=(0, 1, 2, 3)
+        ),
     )
     assert set(motions_by_verdict(VERTEX).of.values()) == {"unknown"}
     scene = draw(VERTEX, colour="verdict")
@@ -74,7 +74,7 @@ def test_the_branch_of_the_marks_comes_by_itself():
 def test_branches_that_are_none():
     with pytest.raises(InvariantError, match="no branch 9; expected one from 0 to 1"):
         draw(VERTEX, colour="branch", branch=9)
-    with pytest.raises(InvariantError, match="the colouring 'letters' shows none"):
+    with pytest.raises(InvariantError, match="the colouring 'letters' shows no branch"):
         draw(VERTEX, branch=0)
 
 

@@ -17,8 +17,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.reduce import reduce
 from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
 from synth.drawing.scene.shapes import Disc, Line
-from synth.drawing.scene.svg import svg_text
-from synth.drawing.space.view import drawn_order
+from synth.drawing.scene.writing import svg_text
+from synth.drawing.space.panels import drawn_order
 
 DATA = Path(__file__).resolve().parents[4] / "data"
 
@@ -172,20 +172,20 @@ def test_a_slanted_panel_in_front_though_its_middle_is_behind():
 
 @pytest.mark.parametrize("kind", ["pattern", "folded"])
 def test_only_sheets_are_patterns(kind):
-    with pytest.raises(UnsolvableError, match="only a crease pattern"):
+    with pytest.raises(UnsolvableError, match="requires a crease pattern"):
         draw(read("k1:Cr"), kind)
 
 
 def test_kinds_and_colourings_that_are_none():
-    with pytest.raises(InvariantError, match="kind 'x' is not known; expected pattern, marks, repairs, folded"):
+    with pytest.raises(InvariantError, match="unknown kind 'x'; expected pattern, marks, repairs, folded"):
         draw(read("k1:Cr"), "x")
-    with pytest.raises(InvariantError, match="colouring 'x' is not known; expected letters"):
+    with pytest.raises(InvariantError, match="unknown colouring 'x'; expected letters"):
         draw(read(DATA / "patterns" / "bird-base.fold"), colour="x")
 
 
 @pytest.mark.parametrize("look", [{"colour": "verdict"}, {"graph": True}])
 def test_colours_of_a_pattern_are_not_left_out_in_silence(look):
-    with pytest.raises(UnsolvableError, match="are of a pattern; this is drawn as chain"):
+    with pytest.raises(UnsolvableError, match="require a picture of the kind pattern, not chain"):
         draw(read("k1:Cr"), **look)
 
 
@@ -201,7 +201,7 @@ def test_a_linkage_round_a_cone_lies_on_it():
     scene = draw(linkage, "cone")
     assert {"circle", "cone"} <= {layer.name for layer in scene.layers}
     assert values(drawn(linkage, "cone"), "data-joint") == set(map(str, linkage.chain.joints))
-    with pytest.raises(UnsolvableError, match="only a linkage given by its links, or angles round a cone"):
+    with pytest.raises(UnsolvableError, match="requires a linkage defined by links or angles round a cone"):
         draw(read("k1:Cr"), "cone")
 
 
@@ -210,7 +210,7 @@ def test_files_of_orientations_are_drawn_as_maps_of_the_sphere(tmp_path, name):
     run("draw", DATA / "orientations" / f"{name}.json", "-o", tmp_path / "a.svg")
     root = ElementTree.parse(tmp_path / "a.svg").getroot()
     assert {"regions", "axes"} <= values(root, "class")
-    with pytest.raises(UnsolvableError, match="only orientations"):
+    with pytest.raises(UnsolvableError, match="requires orientations"):
         draw(read("k1:Cr"), "sphere")
 
 

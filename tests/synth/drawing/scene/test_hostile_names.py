@@ -12,10 +12,9 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.solids import HingedSolids
-from synth.drawing.catalogue.entries import catalogue_entries
-from synth.drawing.catalogue.pages import catalogue_pages
+from synth.drawing.catalogue import catalogue_entries, catalogue_pages
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.svg import svg_text
+from synth.drawing.scene.writing import svg_text
 
 HOSTILE = [
     '<script>alert("x")</script>',

@@ -14,7 +14,7 @@ pytest.importorskip("reportlab")
 
 def test_pages_are_kept_packed():
     """Memory grows by what the file grows, not by the text of the pages."""
-    from synth.drawing.scene.pdf import write_pdf
+    from synth.drawing.scene.writing import write_pdf
 
     row = [(i % 97, i % 89) for i in range(2500)]
     scene = Scene(100, 100, (Layer("a", (Line(row),)),))
@@ -40,11 +40,13 @@ def test_pages_are_kept_packed():
 
 def test_what_is_under_a_shadow_shows_through():
     """The state in which a polygon is filled is the last one that the page sets before it."""
-    from synth.drawing.scene.pdf import pdf_bytes
+    from synth.drawing.scene.writing import write_pdf
 
     corners = [(10, 10), (90, 10), (90, 90)]
     shapes = (Polygon(corners, "front"), Polygon(corners, "shadow", opacity=0.25), Polygon(corners, "back"))
-    data = pdf_bytes(Scene(100, 100, (Layer("a", shapes),)))
+    stream = BytesIO()
+    write_pdf([Scene(100, 100, (Layer("a", shapes),))], stream)
+    data = stream.getvalue()
     opacities = dict(re.findall(rb"/(gRLs\d+) <<\s*/ca ([\d.]+)", data))
     (stream,) = re.findall(rb"stream\r?\n(.*?)endstream", data, re.DOTALL)
     filled, now = [], 1.0

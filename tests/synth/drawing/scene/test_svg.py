@@ -11,7 +11,7 @@ from graphs.errors import InvariantError
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon, Scene
-from synth.drawing.scene.svg import svg_text
+from synth.drawing.scene.writing import svg_text
 
 
 def test_joints_and_links_can_be_found():
@@ -58,10 +58,10 @@ def test_places_that_are_none(shape):
     "shape", [Label((0, 0), "a", colour="no"), Polygon([(0, 0)], "no"), Disc((0, 0), 1, "no")]
 )
 def test_colours_that_are_none(shape):
-    with pytest.raises(InvariantError, match="colour 'no' is not known"):
+    with pytest.raises(InvariantError, match="unknown colour 'no'"):
         svg_text(Scene(9, 9, (Layer("a", (shape,)),)))
 
 
 def test_a_paper_that_is_none():
-    with pytest.raises(InvariantError, match="paper 'blue' is not known; expected light or dark"):
+    with pytest.raises(InvariantError, match="unknown paper 'blue'; expected light or dark"):
         svg_text(Scene(9, 9, ()), paper="blue")

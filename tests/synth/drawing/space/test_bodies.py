@@ -12,10 +12,8 @@ from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.svg import svg_text
-from synth.drawing.space.bodies import bodies_of, hinge_ends, places_of_hinges
-from synth.drawing.space.panels import panel_shapes
-from synth.drawing.space.view import view_from_above
+from synth.drawing.scene.writing import svg_text
+from synth.drawing.space.panels import bodies_of, hinge_ends, panel_shapes, places_of_hinges, view_from_above
 from synth.moving.made import configuration_of
 from synth.moving.motion import move
 

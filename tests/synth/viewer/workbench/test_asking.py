@@ -50,7 +50,7 @@ def test_two_run_side_by_side_and_a_third_says_that_it_waits(monkeypatch):
 
     async def three():
         engine = Engine()
-        first, second, third = (engine.lines("reading", [name], b"") for name in "abc")
+        first, second, third = (engine.lines("show", [name], b"") for name in "abc")
         tasks = [asyncio.create_task(gathered(lines)) for lines in (first, second)]
         await asyncio.sleep(0)
         assert running == ["a", "b"]
@@ -72,7 +72,7 @@ def test_two_run_side_by_side_and_a_third_says_that_it_waits(monkeypatch):
 @pytest.mark.slow
 def test_the_last_line_is_the_answer(data):
     place = data / "patterns" / "four-bar-vertex.fold"
-    lines = asyncio.run(gathered(Engine().lines("reading", [place.name], place.read_bytes()))).splitlines()
+    lines = asyncio.run(gathered(Engine().lines("show", [place.name], place.read_bytes()))).splitlines()
     told = [json.loads(line) for line in lines if line]
     assert [one["step"] for one in told[:-1]] == [0, 1, 2, 3]
     assert told[-1]["shown"]["verdict"] == "Rigid-foldable from this configuration: 1 degree of freedom."
@@ -82,6 +82,6 @@ def test_the_last_line_is_the_answer(data):
 def test_what_ends_badly_is_told():
     lines = asyncio.run(gathered(Engine().lines("nowhere", ["a.fold"], b""))).splitlines()
     assert [json.loads(line) for line in lines if line] == [
-        {"error": "a.fold: it could not be read: the engine failed"}
+        {"error": "a.fold: the file could not be read: the engine failed"}
     ]
     assert asyncio.run(Engine().whole("nowhere", ["a.fold"], b""))[0] == 1

@@ -6,7 +6,7 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.creasing.edits import crease_sheet
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
-from synth.viewer.workbench.editing import are_edits, edited
+from synth.viewer.workbench.reading import are_edits, edited
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def test_a_locked_crease_is_free_again_when_it_is_creased(square_twist):
 
 
 def test_what_cannot_be_edited_is_told(data, square_twist):
-    with pytest.raises(UnsolvableError, match="only crease patterns are edited here"):
+    with pytest.raises(UnsolvableError, match="only crease patterns can be edited here"):
         edited(read(data / "linkages" / "bennett.json"), ["lock:0"])
     with pytest.raises(UnsolvableError, match="no ride-alongs"):
         edited(square_twist, ["ride-alongs"])

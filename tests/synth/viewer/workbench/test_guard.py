@@ -9,9 +9,8 @@ pytest.importorskip("starlette", reason="the workbench is not installed")
 
 from starlette.responses import PlainTextResponse
 
-from synth.viewer.workbench.app import Presence, application
+from synth.viewer.workbench.app import MOST_BYTES, Guard, Place, Presence, application
 from synth.viewer.workbench.asking import file_name
-from synth.viewer.workbench.guard import MOST_BYTES, Guard, Place
 
 PLACE = Place(8123, "T0ken-of-this_one")
 OWN = [(b"host", b"127.0.0.1:8123")]
@@ -67,7 +66,7 @@ def test_its_own_page_gets_in():
     ],
 )
 def test_another_host_or_origin_does_not(headers):
-    assert asked(headers=headers) == (403, "this page is for itself alone")
+    assert asked(headers=headers) == (403, "only the page of this workbench may send requests")
 
 
 @pytest.mark.parametrize(

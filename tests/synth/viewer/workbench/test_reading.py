@@ -14,8 +14,7 @@ from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
 from synth.patterns.creases.tessellations import miura
 from synth.viewer.shown import shown_of
-from synth.viewer.workbench.printing import printed
-from synth.viewer.workbench.reading import answered
+from synth.viewer.workbench.reading import answered, printed
 from tests.support.commands import run
 
 
@@ -63,7 +62,7 @@ def test_it_is_told_how_far_it_is(data):
     answered(place.name, place.read_bytes(), report=lambda what, step, of: told.append((what, step, of)))
     assert [step for _, step, _ in told] == [0, 1, 2, 3]
     assert {of for _, _, of in told} == {4}
-    assert told[1][0] == "looking for ways to move"
+    assert told[1][0] == "finding motion branches"
 
 
 @pytest.mark.slow
@@ -99,7 +98,7 @@ def test_templates_are_printed(data, kind, size, begins):
 
 def test_what_has_no_panels_has_no_template(data):
     place = data / "wiener" / "six-bar.json"
-    with pytest.raises(UnsolvableError, match="a template needs panels"):
+    with pytest.raises(UnsolvableError, match="a template requires panels"):
         printed(place.name, place.read_bytes(), 150.0, "svg")
 
 

@@ -14,7 +14,7 @@ from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.patterns.creases.tessellations import miura
-from synth.viewer.workbench.editing import edited
+from synth.viewer.workbench.reading import edited
 
 pytestmark = pytest.mark.web
 
@@ -116,7 +116,7 @@ def test_ride_alongs_are_taken_off_and_put_back(served, tab, data):
     verdict_is(tab, edited(read(place), ["ride-alongs"]))  # it may read as before
     panels_are(tab, 8)
     tab.get_by_role("button", name="Ride-alongs off").click()
-    tab.locator(".bench", has_text="it has no ride-alongs that could be taken off").wait_for(timeout=WAIT)
+    tab.locator(".bench", has_text="the mechanism has no ride-alongs that can be removed").wait_for(timeout=WAIT)
     tab.get_by_role("button", name="Undo").click()
     verdict_is(tab, read(place))
     panels_are(tab, 16)
@@ -186,7 +186,7 @@ def test_what_claims_too_much_is_refused_and_what_hangs_nobody(served, tab):
     }
     for name, text in hostile.items():
         tab.evaluate(DROP, [name, text])
-        refused = re.compile(rf"\.{name.rpartition('.')[2]}: (?!waiting|reading|looking|counting|drawing)")
+        refused = re.compile(rf"\.{name.rpartition('.')[2]}: (?!waiting|reading|finding|drawing)")
         tab.locator(".bench [role=status]", has_text=refused).wait_for(timeout=WAIT)
         assert tab.locator(".verdict").text_content() == ""
     names = {"edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], "edges_assignment": [*"BBBBV"]}

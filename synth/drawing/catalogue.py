@@ -1,0 +1,370 @@
+"""Catalogues: every mechanism of a store, a list or a folder, numbered, on pages.
+
+Rows of an enumeration (a store, JSON lines, Parquet), graph6 files and folders are read one by one; pages are
+written as a PDF, or one picture per page.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain, count, islice
+from math import pi, radians
+from pathlib import Path
+from typing import Any
+
+from enumerate.chains.names import name_of
+from enumerate.runner.columns import row_as_dict
+from enumerate.runner.limits import Limits
+from enumerate.runner.store import read_meta, read_rows
+from enumerate.strings.panel_strings import ChainString
+from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.files.formats import read_all
+from graphs.files.ids import is_id, mechanism_of_id
+from graphs.mechanism.sc import SCGraph
+from synth.conformed.cycles import loops_of_chain
+from synth.drawing.mechanisms.chains import OrderOnCircle
+from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.shapes import LARGE, Label, Layer, Scene, moved, text_width
+from synth.drawing.scene.writing import check_picture, save_scene, whole_file, write_pdf
+
+__all__ = [
+    "CatalogueEntry",
+    "catalogue_entries",
+    "catalogue_pages",
+    "drawable_of_type",
+    "entry_numbered",
+    "is_catalogue",
+    "write_catalogue",
+]
+
+Row = Mapping[str, Any]
+"""Column to value."""
+
+_STORES = (".sqlite", ".db")
+_ROW_FILES = (*_STORES, ".jsonl", ".parquet")
+"""Extensions of files that hold rows."""
+_AT_ONCE = 1024
+"""Rows of a Parquet file that are in memory."""
+_CATALOGUES = (*_ROW_FILES, ".g6")
+_IDS = ("code", "mechanism", "chain")
+"""Columns that may hold an id, the most informative first."""
+_WIDE, _HIGH = 595.0, 842.0
+"""A4, points."""
+_EDGE, _HEAD = 30.0, 26.0
+_COLUMNS, _ROWS = 4, 6
+_LETTERS = 5.0
+_LINES = 3
+"""Lines of text below a picture: number, id, properties."""
+_AIR = 6.0
+
+
+def _rows_of_file(place: Path) -> Iterator[Row]:
+    """Yield the rows of a file with an extension of `_ROW_FILES`, in order; none is kept in memory.
+
+    Raise FileError if the file cannot be read, UnsolvableError if it is Parquet and pyarrow is not installed.
+    """
+    suffix = place.suffix.lower()
+    if suffix in _STORES:
+        columns = read_meta(place)["columns"]
+        return (row_as_dict(columns, row) for row in read_rows(place))
+    return _rows_of_parquet(place) if suffix == ".parquet" else _rows_of_lines(place)
+
+
+def _rows_of_lines(place: Path) -> Iterator[Row]:
+    try:
+        with place.open(encoding="utf-8") as lines:
+            for number, line in enumerate(lines, start=1):
+                row = json.loads(line)
+                if not isinstance(row, dict):
+                    raise FileError(
+                        place, f"line {number}", f"{shown(row)} is not an object", "one object per line"
+                    )
+                yield row
+    except OSError as error:
+        raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
+    except (ValueError, RecursionError) as error:
+        raise FileError(place, "", f"is not JSON: {error}", "one object per line") from None
+
+
+def _rows_of_parquet(place: Path) -> Iterator[Row]:
+    try:
+        from pyarrow import ArrowException
+        from pyarrow.parquet import ParquetFile
+    except ImportError:
+        raise UnsolvableError("Parquet requires pyarrow; try pip install 'synthedra[parquet]'") from None
+    try:
+        with place.open("rb") as stream, ParquetFile(stream) as file:
+            for batch in file.iter_batches(_AT_ONCE):
+                yield from batch.to_pylist()
+    except ArrowException as error:
+        raise FileError(place, "", f"is not Parquet: {error}", "rows that an enumeration wrote") from None
+    except OSError as error:
+        raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
+
+
+def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
+    """Return the order of joints of a row of conical candidates, at its azimuths, or evenly spaced.
+
+    Names of joints are those of the file of the chain, which the id does not know: neighbours on a link are read
+    from the loops. The row has ``order``, ``loops``, and ``azimuths_deg`` or ``slots``: azimuths are in the order
+    of the joints of the chain (that of the row's id), and ``order`` names joints as they follow each other; a
+    point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another row.
+
+    >>> from graphs.files.ids import mechanism_of_id
+    >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
+    >>> order = _order_of_row(row, mechanism_of_id("k1:Cr"))
+    >>> order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs
+    (['0', '1', '2', '3'], [0.0, 1.25, 0.75, 0.5], [(0, 1), (0, 2), (1, 3), (2, 3)])
+    """
+    # slots go round half a turn where orders name opposite points too; rows of other orders count the layers
+    primed = "azimuths_deg" not in row and "most_layers" not in row
+    turn = pi if primed else 2 * pi
+    if "azimuths_deg" in row:
+        azimuths = [radians(angle) for angle in row["azimuths_deg"]]
+    else:
+        azimuths = [slot * pi / len(row["slots"]) * (1 if primed else 2) for slot in row["slots"]]
+    names = [""] * len(azimuths)
+    ranked = sorted(range(len(azimuths)), key=lambda joint: azimuths[joint] % turn)
+    for joint, name in zip(ranked, row["order"], strict=True):
+        names[joint] = str(name).removesuffix("'") if primed else str(name)
+    place = {name: joint for joint, name in enumerate(names)}
+    pairs = {
+        (min(place[a], place[b]), max(place[a], place[b]))
+        for loop in row["loops"]
+        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True)
+    }
+    return OrderOnCircle(chain, names, azimuths, sorted(pairs))
+
+
+def drawable_of_type(kind: str, code: str) -> Any:
+    """Return the mechanism of a type of an atlas, or its order of joints, by its kind and its id there.
+
+    Raise InvariantError if there can be no such type.
+
+    >>> drawable_of_type("sc", "m1:ab.ac.bd.cd")
+    <SCGraph: 4 links, 4 joints, 1 centre>
+    >>> drawable_of_type("order", "k1:Cr:0-2-1-3").names
+    ['0', '1', '2', '3']
+    """
+    if not (isinstance(kind, str) and isinstance(code, str)):
+        raise InvariantError("type", f"kind {shown(kind)}, id {shown(code)}", "texts")
+    if kind == "string":
+        return ChainString.parse(code)
+    chain_code, _, joints = code.rpartition(":") if kind == "order" else (code, "", "")
+    if not is_id(chain_code):
+        raise InvariantError("type", f"{shown(code)} is not an id", "k1:... or m1:...")
+    mechanism = mechanism_of_id(chain_code)
+    if kind != "order":
+        return mechanism
+    order = joints.split("-")
+    if sorted(order) != sorted(map(str, range(len(mechanism.joints)))):
+        raise InvariantError(
+            "type", f"{shown(code)} is not an order of the joints of its chain", "each joint once"
+        )
+    loops = [list(map(str, loop)) for loop in loops_of_chain(mechanism)]
+    slots = [order.index(str(joint)) for joint in range(len(order))]
+    row = {"order": order, "slots": slots, "loops": loops, "most_layers": None}  # as of a conical candidate
+    return _order_of_row(row, mechanism)
+
+
+@dataclass(frozen=True, slots=True)
+class CatalogueEntry:
+    """One mechanism of a catalogue, by its number among all, from 1: those that a filter leaves out are counted.
+
+    The mechanism is an SC graph, or whatever else can be drawn; `name` is its id or its origin, `said` its
+    degrees of freedom, centres and symmetry, where known; `mode` is that of an R/- string that is listed by its
+    modes.
+    """
+
+    number: int
+    mechanism: Any
+    name: str
+    said: str
+    mode: str | None = None
+
+
+def is_catalogue(path: str | Path) -> bool:
+    """Check whether a path names many mechanisms: a store, a list or a folder.
+
+    >>> is_catalogue("chains.sqlite"), is_catalogue("watt.json")
+    (True, False)
+    """
+    return not is_id(path) and (Path(path).suffix.lower() in _CATALOGUES or Path(path).is_dir())
+
+
+def catalogue_entries(
+    path: str | Path, where: Mapping[str, Limits | str] | None = None, failures: list[str] | None = None
+) -> Iterator[CatalogueEntry]:
+    """Yield the mechanisms of rows (.sqlite, .jsonl, .parquet), of a graph6 file or of a folder, in order.
+
+    `where` selects rows: it maps columns to limits of numbers, or to text. Errors of files of a folder are added
+    to `failures`; without it, they are raised. Raise FileError if the file cannot be read, or a row has no
+    mechanism; InvariantError if there is no such column.
+    """
+    place = Path(path)
+    if place.suffix.lower() in _ROW_FILES and not place.is_dir():
+        for number, row in enumerate(_rows_of_file(place), start=1):
+            if all(_admits(row, column, condition) for column, condition in (where or {}).items()):
+                yield _entry_of_row(place, number, row)
+        return
+    if where:
+        raise InvariantError("filter", f"{shown(str(path))} has no columns", f"rows: {', '.join(_ROW_FILES)}")
+    files = sorted(file for file in place.iterdir() if file.is_file()) if place.is_dir() else [place]
+    number = 0
+    for file in files:
+        try:
+            for entry in read_all(file):
+                number += 1
+                yield CatalogueEntry(number, entry.mechanism, Path(entry.label).name, repr(entry.mechanism)[1:-1])
+        except SynthedraError as error:
+            if failures is None or not place.is_dir():
+                raise
+            failures.append(str(error))
+
+
+def entry_numbered(path: str | Path, number: int) -> CatalogueEntry:
+    """Return one mechanism of a catalogue by its number among all, from 1.
+
+    Raise FileError if the file cannot be read, or holds fewer.
+    """
+    entry = None
+    for entry in catalogue_entries(path):
+        if entry.number == number:
+            return entry
+    largest = "none" if entry is None else str(entry.number)
+    raise FileError(path, "", f"there is no mechanism {number}", f"a number up to {largest}")
+
+
+def _admits(row: Row, column: str, condition: Limits | str) -> bool:
+    if column not in row:
+        raise InvariantError("filter", f"there is no column {shown(column)}", ", ".join(map(str, row)))
+    value = row[column]
+    if isinstance(condition, Limits):
+        return isinstance(value, int) and value in condition
+    text = ",".join(map(str, value)) if isinstance(value, list) else str(value)
+    return text == condition
+
+
+def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
+    if isinstance(row.get("string"), str):
+        mode = row["mode"] if isinstance(row.get("mode"), str) else None
+        name = f"{row['string']} {mode}" if mode else row["string"]
+        return CatalogueEntry(number, ChainString.parse(row["string"]), name, _said(row), mode)
+    if "id" in row and "kind" in row:  # of an atlas
+        name = row.get("name")
+        said = ", ".join(filter(None, [name if isinstance(name, str) else "", _said(row)]))
+        return CatalogueEntry(number, drawable_of_type(row["kind"], row["id"]), row["id"], said)
+    for column in _IDS:
+        code = row.get(column)
+        if isinstance(code, str) and is_id(code):
+            name = row.get("name") or name_of(str(row.get("chain", code)))
+            said = f"{name}, {_said(row)}" if name else _said(row)
+            mechanism: Any = mechanism_of_id(code)
+            if "order" in row:
+                try:
+                    mechanism = _order_of_row(row, mechanism)
+                except (KeyError, TypeError, ValueError) as error:
+                    problem = f"the order of the joints is invalid: {type(error).__name__} {error}"
+                    columns = "columns order, loops, and slots or azimuths_deg"
+                    raise FileError(place, f"row {number}", problem, columns) from None
+            return CatalogueEntry(number, mechanism, code, said)
+    raise FileError(
+        place, f"row {number}", "has no id", f"an id in one of the columns {', '.join(_IDS)}, or id and kind"
+    )
+
+
+def _said(row: Row) -> str:
+    """Return the degrees of freedom, centres and symmetry of a row, where it has them."""
+    words = []
+    if isinstance(row.get("order"), list):  # of the joints round a cone
+        words.append("order " + " ".join(map(str, row["order"])))
+    freedoms = row.get("exact_dof", row.get("dof"))
+    if freedoms is not None:
+        words.append(f"M = {freedoms}")
+    if "centres" in row:
+        words.append(numbered(row["centres"], "centre"))
+    if "symmetry" in row:
+        words.append(f"symmetry {row['symmetry']}")
+    if row.get("joints") and isinstance(row["joints"], str):
+        words.append(row["joints"])
+    return ", ".join(words)
+
+
+def catalogue_pages(
+    entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None
+) -> Iterator[Scene]:
+    """Yield pages of 24 pictures, with a title above each; an entry is released when its page is made.
+
+    `kind` is as for `synth.draw`.
+    """
+    rest = iter(entries)
+    for number in count(1):
+        on_page = list(islice(rest, _COLUMNS * _ROWS))
+        if not on_page:
+            return
+        layers: list[Layer] = []
+        head = [Label((_EDGE, _EDGE), title, LARGE, anchor="start", bold=True, halo=False, widest=90)]
+        head.append(Label((_WIDE - _EDGE - 40, _EDGE), f"page {number}", 7.0, "grey", "start", halo=False))
+        texts: list[Label] = []
+        for place, entry in enumerate(on_page):
+            layers += _picture(entry, place, kind)
+            texts += _text(entry, place)
+        yield Scene(_WIDE, _HIGH, (*layers, Layer("text", (*head, *texts))), title)
+
+
+def _cell(place: int) -> tuple[float, float, float, float]:
+    """Return left, top, width and height of a cell of the page."""
+    wide = (_WIDE - 2 * _EDGE) / _COLUMNS
+    high = (_HIGH - 2 * _EDGE - _HEAD) / _ROWS
+    return _EDGE + place % _COLUMNS * wide, _EDGE + _HEAD + place // _COLUMNS * high, wide, high
+
+
+def _picture(entry: CatalogueEntry, place: int, kind: str | None) -> list[Layer]:
+    left, top, wide, high = _cell(place)
+    box = wide - _AIR, high - _LINES * 1.4 * _LETTERS - _AIR
+    scene = draw(entry.mechanism, kind, box=box, caption=None)
+    right, down = left + (wide - scene.width) / 2, top + (box[1] - scene.height) / 2
+    return [moved(layer, right, down) for layer in scene.layers if layer.shapes]
+
+
+def _text(entry: CatalogueEntry, place: int) -> list[Label]:
+    left, top, wide, high = _cell(place)
+    first = top + high - _LINES * 1.4 * _LETTERS
+    most = int((wide - _AIR) / text_width("0", _LETTERS))
+    labels = []
+    for i, text in enumerate((str(entry.number), entry.name, entry.said)):
+        at, colour = (left + _AIR, first + i * 1.35 * _LETTERS), "grey" if i else "ink"
+        labels.append(Label(at, text, _LETTERS, colour, "start", bold=i == 0, halo=False, widest=most))
+    return labels
+
+
+def write_catalogue(
+    pages: Iterable[Scene], path: str | Path, *, paper: str = "light", force: bool = False
+) -> list[Path]:
+    """Write pages, taken one by one; return the files, in order: none if there are no pages.
+
+    A path that ends in .pdf is one file; for .svg or .png there is a file per page, ``name-1.svg``, ..., or for
+    one page the path itself. `paper` is "light" or "dark"; `force` overwrites existing files. Raise FileError if
+    the extension is another, or a file exists or cannot be written; UnsolvableError if the library that writes PNG
+    (matplotlib) or PDF (reportlab) is not installed.
+    """
+    check_picture(path, force=force)
+    place, rest = Path(path), iter(pages)
+    first = next(rest, None)
+    if first is None:
+        return []
+    if place.suffix.lower() == ".pdf":
+        with whole_file(place, force=force) as beside:
+            write_pdf(chain([first], rest), beside.stream, paper=paper)
+        return [place]
+    second = next(rest, None)
+    if second is None:
+        save_scene(first, place, paper=paper, force=force)
+        return [place]
+    places = []
+    for number, page in enumerate(chain((first, second), rest), start=1):
+        places.append(place.with_name(f"{place.stem}-{number}{place.suffix}"))
+        save_scene(page, places[-1], paper=paper, force=force)
+    return places
