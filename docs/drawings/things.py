@@ -22,7 +22,7 @@ from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.plot import signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Shape
 from synth.drawing.space.poses import pose_scenes
-from synth.templates.lines import Kind, Piece
+from synth.templates.pieces import Kind, Piece
 from synth.templates.template import template_of
 
 __all__ = ["DRAWINGS"]

@@ -1,32 +1,245 @@
-"""A thing with panels as pieces to cut out and fold, at true scale.
+"""Anything with panels as pieces to cut out and fold, at true scale.
 
 Theory: docs/theory/templates.md.
 """
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from math import isfinite
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
-from graphs.errors import SynthedraError, UnsolvableError, numbered
-from graphs.mechanism.plane import flattened, in_space
+import numpy as np
+
+from enumerate.strings.panel_strings import ChainString
+from graphs.arrays import Floats
+from graphs.convert.table import Mechanism
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.mechanism.on_surface import SurfaceLinkage
+from graphs.mechanism.plane import flattened, in_space, lies_flat
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from synth.conformed.linkages import OnSurface
+from graphs.mechanism.surfaces import Surface
+from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
+from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.drawing.mechanisms.space import folded_scene
 from synth.drawing.scene.shapes import Scene
+from synth.drawing.space.panels import same_side_up
+from synth.folding.motion import fold
 from synth.motion.configuration import Configuration
-from synth.moving.made import configuration_of
-from synth.templates.lines import Piece
-from synth.templates.note.folded import folded_picture
-from synth.templates.note.steps import steps_of_folds, steps_of_hinges, steps_of_joins
-from synth.templates.pieces.flat import is_laid_out, piece_of_flat_sheet
-from synth.templates.pieces.hinges import Hinges, with_hinges
-from synth.templates.pieces.nets import CutNets, pieces_of_panels
-from synth.templates.pieces.tabs import Joins
-from synth.templates.scale import millimetres, scale_of
+from synth.moving.made import configuration_of, sheet_of
+from synth.templates.hinges import Hinges, with_hinges
+from synth.templates.nets import CutNets, Joins, pieces_of_panels
+from synth.templates.pieces import Kind, Piece, Text, is_laid_out, piece_of_flat_sheet
 
-__all__ = ["TABS", "Template", "pictured", "template_of"]
+if TYPE_CHECKING:
+    from synth.realisation.realised import Kind as RealisedKind
+
+__all__ = [
+    "GREATEST",
+    "PRINTING",
+    "TABS",
+    "TILES",
+    "Template",
+    "folded_picture",
+    "folded_pose",
+    "linkage_on_a_surface",
+    "millimetres",
+    "panels_of_thing",
+    "pictured",
+    "scale_of",
+    "steps_of_folds",
+    "steps_of_hinges",
+    "steps_of_joins",
+    "template_of",
+    "unit_of",
+    "written_steps",
+]
+
+
+_UNITS = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "pt": 25.4 / 72}
+"""Units that FOLD names, in millimetres; its ``unit`` is none of a length."""
+
+_LEAST = 10.0
+"""Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
+GREATEST = 1e6
+"""Millimetres: what is larger than a kilometre is not cut out; its curves would be millions of lines."""
+
+
+def unit_of(sheet: Sheet) -> float | None:
+    """Return the millimetres of the unit that the file of a sheet names; None if it names none.
+
+    Raise UnsolvableError if FOLD does not know the unit.
+    """
+    name = None if sheet.frames is None else sheet.frames.unit
+    if name is None or name == "unit":
+        return None
+    if name not in _UNITS:
+        known = ", ".join(_UNITS)
+        raise UnsolvableError(f"the file's unit {shown(name)} is none of {known}: expected --scale or --size")
+    return _UNITS[name]
+
+
+def scale_of(sheet: Sheet, scale: float | None, size: float | None) -> float | None:
+    """Return the scale that is asked for, or else that of the unit that the file of a sheet names."""
+    return unit_of(sheet) if scale is None and size is None else scale
+
+
+def millimetres(places: Floats, scale: float | None = None, size: float | None = None) -> float:
+    """Return millimetres per unit of places float[vertices, 2 or 3]: the scale (1 by default), or that of a size.
+
+    `size` is the longest side of the box round the places, in millimetres. Raise InvariantError if scale or size
+    is not positive, or both are given; UnsolvableError if the box would be smaller than 10 mm, which nobody could
+    fold, or larger than 1e6 mm.
+
+    >>> millimetres(np.array([[0, 0], [2, 1.0]]), size=100)
+    50.0
+    """
+    if scale is not None and size is not None:
+        raise InvariantError("scale", "a scale and a size", "one of them")
+    for name, value in (("scale", scale), ("size", size)):
+        if value is not None and not (isfinite(value) and value > 0):
+            raise InvariantError(name, f"{name} {value!r}", "a positive number")
+    extent = np.ptp(places, axis=0)
+    longest = float(extent.max())
+    factor = size / longest if size is not None and longest > 0 else 1.0 if scale is None else scale
+    if not _LEAST <= longest * factor <= GREATEST:
+        found = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
+        way = "larger" if longest * factor < _LEAST else "smaller"
+        raise UnsolvableError(f"the thing would be {found} mm: expected a {way} scale or a size (--scale, --size)")
+    return factor
+
+
+PRINTING = "Print at 100 %, not fitted to the page, and measure the gauge: it is 100 mm long."
+TILES = "Lay the pages of a piece together, crosses of one name over each other, and tape them."
+_FOLDS: dict[Kind, tuple[str, str, str]] = {
+    "MOUNTAIN": ("mountain", "mountains", "red, dash and dot: away from you"),
+    "VALLEY": ("valley", "valleys", "blue, dashes: towards you"),
+    "CREASE": ("other crease", "other creases", "magenta, dots: either way"),
+}
+_SIZE, _LINE = 3.6, 5.2
+"""Height of letters, and from line to line, millimetres."""
+_LETTER = 0.5
+"""Width of a letter in the mean, in units of its height."""
+
+
+def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
+    """Return the steps that cut and fold.
+
+    >>> from synth.templates.pieces import Stroke
+    >>> steps_of_folds([Piece((Stroke("CUT", (0, 0), (9, 0)), Stroke("VALLEY", (0, 5), (9, 5))), (), None)])[1]
+    'Fold 1 valley (blue, dashes: towards you). You see the printed side.'
+    """
+    counts = Counter(stroke.kind for piece in pieces for stroke in piece.strokes)
+    cut = f"Cut out {numbered(len(pieces), 'piece')} along the full black lines. Score the folds first."
+    folds = [f"{numbered(counts[kind], *name)} ({how})" for kind, (*name, how) in _FOLDS.items() if counts[kind]]
+    return [cut] + ([f"Fold {', '.join(folds)}. You see the printed side."] if folds else [])
+
+
+def steps_of_joins(edges: int, without: int, *, slotted: bool = False) -> list[str]:
+    """Return the steps that join edges: how many meet another, and how many of these have no tab.
+
+    Tabs are glued unless slotted.
+    """
+    if not edges:
+        return []
+    steps = []
+    if edges > without and slotted:
+        steps.append(
+            f"Put {numbered(edges - without, 'tab')} through slots: each into the panel at whose edge its number "
+            "stands again, from the side to which it is folded, until its fold lies along that edge."
+        )
+    elif edges > without:
+        steps.append(
+            f"Glue {numbered(edges - without, 'tab')}: each to the panel at whose edge its number stands again, "
+            "on the side to which it is folded, its fold along that edge."
+        )
+    if without:
+        steps.append(f"Tape {numbered(without, 'pair')} of edges of one number that have no tab, edge to edge.")
+    return steps
+
+
+def steps_of_hinges(hinges: Hinges | None) -> list[str]:
+    """Return the steps for folds in thick material."""
+    if hinges is None:
+        return []
+    wide = f"{hinges.width:g} mm"
+    told = {
+        "offset": f"Each fold is two, {wide} apart: bend each half way; thick panels then have room between.",
+        "living": f"Rows of cuts, {wide} wide, are the folds: bend them gently, M away from you, V towards you.",
+        "gap": f"Panels stay {wide} apart where they hinge: join them with tape or cloth as they lie on the page, "
+        "M to be folded away from you, V towards you.",
+    }
+    return [told[hinges.kind]]
+
+
+def written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
+    """Return steps as lines of text, and the height that they take.
+
+    `corner` is (left, top) and `width` the longest line; all in millimetres.
+    """
+    letters = int(width / (_LETTER * _SIZE))
+    lines: list[str] = []
+    for number, step in enumerate(steps, start=1):
+        first, rest = f"{number}. ", " " * 5
+        lines += wrap(step, letters, initial_indent=first, subsequent_indent=rest)
+    left, top = corner
+    texts = [
+        Text((left, top - (number + 0.5) * _LINE), line, _SIZE, middle=False) for number, line in enumerate(lines)
+    ]
+    return texts, len(lines) * _LINE
+
+
+_MOST = 60
+"""Panels that are folded for a picture: more take longer than all the pages."""
+_FRAMES = 2
+"""Of a folding, the one half way is drawn: at its end panels lie on each other."""
+_BOX = (420.0, 420.0)
+"""Points of width and height that the picture takes at most."""
+
+
+def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
+    """Return a picture of a folded sheet and its caption, or None and why there is no picture.
+
+    The sheet has coordinates; it may have frames.
+    """
+    pose, seen = folded_pose(sheet)
+    if pose is None:
+        return None, seen
+    sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
+    return folded_scene(pose, numbers=False, box=_BOX, caption=None), seen + sides
+
+
+def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
+    """Return a pose that shows what a thing becomes, and which it is; None, and why, where there is none.
+
+    A thing that stands in space is such a pose, as is the middle one of the frames of its file that stand; else it
+    is folded as its letters say.
+    """
+    placed = sheet if sheet.frames is None else sheet.frames.first_placed()
+    if not lies_flat(placed):
+        return placed, "as it stands"
+    frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
+    standing = [one for one in frames if one.coordinates is not None and one.faces and not lies_flat(one)]
+    if standing:
+        return standing[len(standing) // 2], "in a frame of its file"
+    if len(placed.faces) > _MOST:
+        return None, f"{numbered(len(placed.faces), 'panel')}: more than {_MOST} are not folded for a picture"
+    try:
+        folding = fold(replace(placed, title=""), frames=_FRAMES)
+    except SynthedraError as error:
+        return None, f"it was not folded: {error}"
+    half_way = len(folding.places) // 2
+    if not np.abs(folding.path.angles[half_way]).max() > 0:
+        return None, "it was not folded: nothing turns"
+    return folding.frames()[half_way], "folded half way"
+
 
 TABS = 8.0
 """Depth of tabs, millimetres."""
@@ -176,3 +389,59 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
     if picture is None:
         return template, seen
     return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}.")), ""
+
+
+def panels_of_thing(
+    thing: Mechanism | ChainString, *, kind: RealisedKind | None = None, mode: str | None = None
+) -> tuple[Sheet, str]:
+    """Return the panels of a thing with coordinates, and what was done to have them.
+
+    Parameters
+    ----------
+    thing : Mechanism or ChainString
+        A sheet, or a model of panels; or a type, which is realised.
+    kind : {"sheet", "space"}, optional
+        How a type is realised; a flat sheet without it.
+    mode : str, optional
+        Of an R/- string.
+
+    Returns
+    -------
+    sheet : Sheet
+    told : str
+        Empty for what has coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no panels, or cannot be realised; or if it has coordinates, and a kind or a mode is asked for.
+
+    Examples
+    --------
+    >>> panels_of_thing(ChainString((2, 1)))
+    (<Sheet: 4 faces, 3 creases, 9 vertices, flat>, 'no coordinates: realised as a flat sheet')
+    """
+    sheet = sheet_of(thing) if not isinstance(thing, ChainString) else None
+    if sheet is not None:
+        if kind is not None or mode is not None:
+            raise UnsolvableError("the thing has coordinates: only a type is realised, as a sheet or in space")
+        return sheet, ""
+    if not isinstance(thing, SCGraph | SCDGraph | ChainString):
+        raise UnsolvableError(f"a template needs panels, and {thing!r} has none")
+    from synth.realisation.realised import realise  # it loads numba, which a thing with coordinates does without
+
+    how = "a flat sheet" if kind != "space" else "a pose in space"
+    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {how}"
+
+
+def linkage_on_a_surface(
+    thing: SurfaceLinkage | OrderOnCircle, *, surface: Surface | None = None, number: int | None = None
+) -> OnSurface:
+    """Return a linkage on one of its surfaces; a row of conical candidates is an order.
+
+    `surface` is that of azimuths; `number` chooses, from 1, among those of given link angles or lengths. Raise
+    UnsolvableError if the linkage lies on none, on several without a choice, or the chosen one does not exist.
+    """
+    if isinstance(thing, OrderOnCircle):
+        return OnSurface(thing.chain, list(thing.azimuths), surface)
+    return surface_of_number(linkage_on_surfaces(thing, surface), number, thing.kind)

@@ -17,10 +17,9 @@ from synth.atlas.site.document import document
 from synth.drawing.catalogue.atlas_types import drawable_of_type
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text
-from synth.templates.formats.svg import svg_of_page
-from synth.templates.pages import pages_of
-from synth.templates.paper import paper_named
+from synth.templates.pages import pages_of, paper_named
 from synth.templates.template import template_of
+from synth.templates.writing import svg_of_page
 from synth.viewer.pages import json_in_html
 from synth.viewer.shown import shown_of
 

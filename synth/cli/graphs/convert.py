@@ -175,10 +175,9 @@ def _write_solids(
 def _write_on_surface(
     linkage: SurfaceLinkage, target: str, thickness: float, solid: Mapping[str, float | None], *, force: bool
 ) -> tuple[str, ...]:
-    from synth.templates.developed.layered import Dimensions
-    from synth.templates.developed.template import surface_of
+    from synth.templates.on_surface import Dimensions, surface_of
     from synth.templates.solids import write_linkage_on_surface
-    from synth.templates.things import linkage_on_a_surface
+    from synth.templates.template import linkage_on_a_surface
 
     if solid["scale"] is not None:
         raise click.UsageError("--scale is of panels: --size says how long the ruling lines are")

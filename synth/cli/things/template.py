@@ -141,7 +141,7 @@ def template(
     from graphs.errors import InvariantError
     from graphs.mechanism.on_surface import SurfaceLinkage
     from synth.drawing.mechanisms.orders import OrderOnCircle
-    from synth.templates.paper import paper_named
+    from synth.templates.pages import paper_named
     from synth.templates.writing import check_template, write_template
 
     try:
@@ -178,10 +178,8 @@ def _refuse(look: Mapping[str, Any], options: Mapping[str, Any], whose: str) -> 
 
 def _of_panels(asked: Given, kind: Any, look: Mapping[str, Any], *, note: bool) -> tuple[Template, list[str]]:
     """Return the template of panels, and what is to be told of it."""
-    from synth.templates.pieces.hinges import Hinges
-    from synth.templates.scale import unit_of
-    from synth.templates.template import pictured, template_of
-    from synth.templates.things import panels_of_thing
+    from synth.templates.hinges import Hinges
+    from synth.templates.template import panels_of_thing, pictured, template_of, unit_of
 
     if (look["hinge_kind"] == "fold") != (look["hinge_width"] is None):
         raise click.UsageError("--hinges offset, living or gap and --hinge-width go together")
@@ -205,9 +203,8 @@ def _of_panels(asked: Given, kind: Any, look: Mapping[str, Any], *, note: bool) 
 
 def _of_surface(asked: Given, kind: Any, look: Mapping[str, Any]) -> Template:
     """Return the template of a linkage on a cone or a cylinder."""
-    from synth.templates.developed.layered import Dimensions
-    from synth.templates.developed.template import surface_of, template_on_surface
-    from synth.templates.things import linkage_on_a_surface
+    from synth.templates.on_surface import Dimensions, surface_of, template_on_surface
+    from synth.templates.template import linkage_on_a_surface
 
     if asked.mode is not None or kind is not None:
         raise click.UsageError("--mode and --as: of types that are realised only")

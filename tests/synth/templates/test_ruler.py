@@ -12,8 +12,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.patterns.generated import generate
-from synth.templates.pages import pages_of
-from synth.templates.paper import Paper, paper_named
+from synth.templates.pages import Paper, pages_of, paper_named
 from synth.templates.template import template_of
 
 NEAR = 0.01

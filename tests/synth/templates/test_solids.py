@@ -16,8 +16,7 @@ from graphs.files.formats import read
 from graphs.files.solids.mesh import is_watertight
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
-from synth.templates.solids import poses_of, write_solids
-from synth.templates.thick import plates_in_space, plates_of
+from synth.templates.solids import plates_in_space, plates_of, poses_of, write_solids
 
 FOLDED = {
     "miura": 1.0,

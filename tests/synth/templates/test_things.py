@@ -13,9 +13,8 @@ from graphs.convert.table import to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.surfaces import Cylinder
-from synth.templates.developed.template import template_on_surface
-from synth.templates.template import template_of
-from synth.templates.things import linkage_on_a_surface, panels_of_thing
+from synth.templates.on_surface import template_on_surface
+from synth.templates.template import linkage_on_a_surface, panels_of_thing, template_of
 
 FOUR_BAR = "m1:a-b.ac-.b-d.cd-"
 LISTED = [(chain, mode) for creases in range(1, 7) for chain in strings(creases) for mode in chain.modes()]

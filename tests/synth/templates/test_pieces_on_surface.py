@@ -15,11 +15,9 @@ from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.templates.developed.layered import Dimensions, layered
-from synth.templates.developed.template import surface_of, template_on_surface
-from synth.templates.pages import pages_of
-from synth.templates.paper import Paper
-from synth.templates.things import linkage_on_a_surface
+from synth.templates.on_surface import Dimensions, layered, surface_of, template_on_surface
+from synth.templates.pages import Paper, pages_of
+from synth.templates.template import linkage_on_a_surface
 
 LAMBDA = np.radians(28)
 SIZES = Dimensions(size=90, thickness=0.4)

@@ -18,9 +18,19 @@ import shapely
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
-from synth.templates.lines import Kind, Piece, Point, Stroke, Text
-from synth.templates.pieces.cuts import common_spans, cut_once, spans_on, uncovered
-from synth.templates.pieces.overlaps import GRID, united
+from synth.templates.pieces import (
+    GRID,
+    Kind,
+    Piece,
+    Point,
+    Stroke,
+    Text,
+    common_spans,
+    cut_once,
+    spans_on,
+    uncovered,
+    united,
+)
 
 __all__ = ["HingeKind", "Hinges", "with_hinges"]
 

@@ -15,8 +15,8 @@ from graphs.mechanism.sheet import with_all_edges
 from synth.folding.motion import fold
 from synth.patterns.generated import generate
 from synth.realisation.realised import realise
-from synth.templates.pieces.unfolding import panels_of
 from synth.templates.template import template_of
+from synth.templates.unfolding import panels_of
 
 SIZE = 200
 SIX_LINKS = ("m1:a-b.ac-.bde.cef.d-g.fg-", "m1:a---b.ac--.bde.cef-.d--g.fg--")

@@ -12,8 +12,7 @@ from graphs.files.solids.mesh import is_watertight
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.templates.developed.layered import Dimensions, layered
-from synth.templates.developed.solids import solids_on_surface
+from synth.templates.on_surface import Dimensions, layered, solids_on_surface
 
 LAMBDA = np.radians(28)
 SIZES = Dimensions(size=90, thickness=1.0)

@@ -11,7 +11,7 @@ from measured import lines_of_svg
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from synth.patterns.generated import generate
-from synth.templates.pieces.hinges import Hinges
+from synth.templates.hinges import Hinges
 from synth.templates.template import template_of
 
 WIDTH = 4.0

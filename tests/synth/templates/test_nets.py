@@ -17,11 +17,10 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate
 from synth.realisation.realised import realise
-from synth.templates.pieces.flat import put_together
-from synth.templates.pieces.overlaps import united
-from synth.templates.pieces.tabs import tab_at
-from synth.templates.pieces.unfolding import nets_of, panels_of
+from synth.templates.nets import tab_at
+from synth.templates.pieces import put_together, united
 from synth.templates.template import template_of
+from synth.templates.unfolding import nets_of, panels_of
 
 CUBE = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CORNERS = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))

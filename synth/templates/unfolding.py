@@ -16,14 +16,61 @@ import numpy as np
 import shapely
 
 from graphs.arrays import Floats
-from graphs.canonical import leading
+from graphs.canonical import leading, trailing
 from graphs.errors import UnsolvableError
-from graphs.geometry import unit
-from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
-from synth.templates.pieces.overlaps import lies_over
-from synth.templates.pieces.planes import Plane, plane_of_panel
+from graphs.geometry import across, area_vector, unit
+from graphs.mechanism.sheet import COLLINEAR, FLAT, Edge, Sheet, sides_of_face
+from graphs.tolerances import DOUBLE
+from synth.templates.pieces import lies_over
 
-__all__ = ["Net", "Panels", "across", "nets_of", "panels_of"]
+__all__ = ["Net", "Panels", "Plane", "laid_across", "nets_of", "panels_of", "plane_of_panel"]
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A frame in the plane of a panel; its origin is the mean of the corners.
+
+    The columns of `axes`, float[3, 3], are two axes in the plane and the normal, round which the corners go
+    counter-clockwise; `flat`, float[corners, 2], are the corners in the frame.
+    """
+
+    origin: Floats
+    axes: Floats
+    flat: Floats
+
+    @property
+    def normal(self) -> Floats:
+        """The unit normal, float[3]."""
+        column: Floats = self.axes[:, 2]
+        return column
+
+
+def plane_of_panel(corners: Floats, face: int) -> Plane:
+    """Return the plane of a panel with corners float[corners, 3]; messages name its number, the face.
+
+    Raise UnsolvableError if the corners lie in no plane or in a line, a side has no length, or sides cross.
+
+    >>> plane_of_panel(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist()
+    [0.0, 0.0, 1.0]
+    """
+    origin: Floats = corners.mean(axis=0)
+    arms = corners - origin
+    area = 2 * area_vector(corners)
+    size = float(np.abs(arms).max())
+    if np.linalg.norm(area) <= COLLINEAR * size**2:
+        raise UnsolvableError(f"panel {face} has no area")
+    normal = unit(area)
+    if float(np.abs(arms @ normal).max()) > DOUBLE.flat * size:
+        raise UnsolvableError(f"panel {face} is not plane, and cannot be cut of a sheet")
+    along = unit(across(np.eye(3)[trailing(np.abs(normal))], normal))
+    axes = np.column_stack([along, np.cross(normal, along), normal])
+    flat = arms @ axes[:, :2]
+    if np.linalg.norm(flat - np.roll(flat, -1, axis=0), axis=1).min() <= DOUBLE.same_point * size:
+        raise UnsolvableError(f"panel {face} has a side without length")
+    if not shapely.Polygon(flat).is_valid:
+        raise UnsolvableError(f"the border of panel {face} crosses or touches itself, so it cannot be cut out")
+    return Plane(origin, axes, flat)
+
 
 _CUT = "BC"
 
@@ -156,7 +203,7 @@ def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Seq
         other = _other(panels.joins[edge], face)
         if other not in left or other in corners:
             continue
-        laid, flipped = across(panels, edge, face, corners[face], turned=turned[face])
+        laid, flipped = laid_across(panels, edge, face, corners[face], turned=turned[face])
         polygon = shapely.Polygon(laid)
         if lies_over(polygon, polygons):
             continue
@@ -177,7 +224,7 @@ def _other(pair: Edge, face: int) -> int:
     return pair[1] if pair[0] == face else pair[0]
 
 
-def across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
+def laid_across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
     """Return where the panel across an edge comes to lie, and whether it is seen from behind.
 
     `face` is the panel already laid, `laid` its corners, float[corners, 2]; `turned`: it is seen from behind.

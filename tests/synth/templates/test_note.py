@@ -14,10 +14,8 @@ from graphs.mechanism.sheet import Sheet
 from synth.drawing.scene.shapes import Polygon
 from synth.folding.motion import fold
 from synth.patterns.generated import generate
-from synth.templates.note.folded import folded_pose
-from synth.templates.pages import pages_of
-from synth.templates.paper import Paper
-from synth.templates.template import pictured, template_of
+from synth.templates.pages import Paper, pages_of
+from synth.templates.template import folded_pose, pictured, template_of
 
 A4 = Paper(210, 297)
 
