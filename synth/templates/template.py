@@ -170,13 +170,13 @@ def steps_of_hinges(hinges: Hinges | None) -> list[str]:
     if hinges is None:
         return []
     wide = f"{hinges.width:g} mm"
-    told = {
+    steps = {
         "offset": f"Each fold is two, {wide} apart: bend each half way; thick panels then have room between.",
         "living": f"Rows of cuts, {wide} wide, are the folds: bend them gently, M away from you, V towards you.",
         "gap": f"Panels stay {wide} apart where they hinge: join them with tape or cloth as they lie on the page, "
         "M to be folded away from you, V towards you.",
     }
-    return [told[hinges.kind]]
+    return [steps[hinges.kind]]
 
 
 def written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
@@ -259,7 +259,7 @@ class Template:
     mechanism : Sheet, OnSurface or Configuration
         What it is made of.
     title : str
-    told : tuple of str
+    not_shown : tuple of str
         What the lines do not show, by kind and number.
     steps : tuple of str
         How it is put together, once it is printed.
@@ -271,7 +271,7 @@ class Template:
     scale: float | None
     mechanism: Sheet | OnSurface | Configuration
     title: str = ""
-    told: tuple[str, ...] = ()
+    not_shown: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()
     picture: Scene | None = None
 
@@ -289,7 +289,7 @@ class Template:
             "configuration": None if at is None else at.to_json(other_question=_OTHER_QUESTION),
             "pieces": len(self.pieces),
             "mm_per_unit": self.scale,
-            "not_shown": list(self.told),
+            "not_shown": list(self.not_shown),
             "steps": list(self.steps),
         }
 
@@ -353,17 +353,17 @@ def template_of(
     factor = millimetres(places, scale_of(sheet, scale, size), size)
     title = title or placed.title
     if flat is not None and is_laid_out(whole, flat.places):
-        piece, told = piece_of_flat_sheet(whole, flat.places * factor)
+        piece, not_shown = piece_of_flat_sheet(whole, flat.places * factor)
         nets = CutNets((piece,), ((),), 0, 0)
     else:
         nets = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, joins)
-        told = _without_tab(nets.without_tab) if joins.depth else ()
+        not_shown = _without_tab(nets.without_tab) if joins.depth else ()
     pieces = nets.pieces
     if hinges is not None:
         pieces = tuple(with_hinges(*one, hinges) for one in zip(pieces, nets.met, strict=True))
     meeting = steps_of_joins(nets.numbers, nets.without_tab, slotted=slots)
     steps = (*steps_of_folds(pieces), *steps_of_hinges(hinges), *meeting)
-    return Template(pieces, factor, placed, title, told, steps)
+    return Template(pieces, factor, placed, title, not_shown, steps)
 
 
 def _without_tab(edges: int) -> tuple[str, ...]:

@@ -26,7 +26,7 @@ def test_query(atlas):
     assert row["n"] == 12
     assert "[linsk]" in run("atlas", "query", atlas, "linsk = 4", code=2).output
     assert "not authorized" in run("atlas", "query", atlas, "--sql", "DELETE FROM type", code=2).output
-    assert "there are more than 2" in run("atlas", "query", atlas, "--limit", 2).output
+    assert "more than 2 rows" in run("atlas", "query", atlas, "--limit", 2).output
     assert "what it is" in run("atlas", "query", atlas, "--columns", "help").output
 
 

@@ -155,8 +155,8 @@ def test_hinges_are_of_a_kind_and_a_width(data, tmp_path):
         with pytest.raises(InvariantError):
             Hinges(kind, width)
     words = ("template", data / "patterns" / "bird-base.fold", "--size", 150, "-o", tmp_path / "a.svg")
-    assert "go together" in run(*words, "--hinges", "gap", code=2).stderr
-    assert "go together" in run(*words, "--hinge-width", 3, code=2).stderr
+    assert "require each other" in run(*words, "--hinges", "gap", code=2).stderr
+    assert "require each other" in run(*words, "--hinge-width", 3, code=2).stderr
     run(*words, "--hinges", "gap", "--hinge-width", 3, "--no-note")
     lines, words_there, _ = lines_of_svg(tmp_path / "a.svg")
     assert lines.keys() == {"CUT", "MARKS"}

@@ -89,7 +89,7 @@ def test_cuts_are_the_outline_and_the_panels_are_all_there_with_tabs_beside_them
         found.remove(nearest)
     numbers = Counter(text.words for piece in made.pieces for text in piece.texts)
     assert set(numbers.values()) <= {2}
-    without = sum(int(told.split()[2]) for told in made.told)
+    without = sum(int(told.split()[2]) for told in made.not_shown)
     assert len(found) == len(numbers) - without
 
 
@@ -136,7 +136,7 @@ def test_a_closed_surface_has_one_net_of_mountains_seen_from_outside():
         and np.cross(*(np.subtract(CORNERS[CUBE[0][k]], CORNERS[CUBE[0][0]]) for k in (1, 2)))[0] > 0
     )
     assert kinds == {("VALLEY" if inward else "MOUNTAIN"): 12, "CUT": 7 + 3 * 7}
-    assert made.told == ()
+    assert made.not_shown == ()
 
 
 @pytest.mark.parametrize("other_way", range(6))

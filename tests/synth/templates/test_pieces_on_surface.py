@@ -160,7 +160,7 @@ def test_a_row_of_candidates_prints_with_the_angle_that_is_asked_for(tmp_path, d
     assert "of linkages on cones only" not in run(*words, "--lambda", 25).stderr
     assert (tmp_path / "a-note.svg").exists()
     assert "--as: of types" in run(*words, "--as", "space", "--force", code=2).stderr
-    assert "--slots: of panels only" in run(*words, "--slots", "--force", code=2).stderr
+    assert "--slots: for panels only" in run(*words, "--slots", "--force", code=2).stderr
 
 
 def test_of_several_cones_one_has_to_be_asked_for():

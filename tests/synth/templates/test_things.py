@@ -58,9 +58,9 @@ def test_which_one_of_many_has_to_be_said_and_be_there(tmp_path):
     rows = tmp_path / "types.jsonl"
     rows.write_text(json.dumps({"code": FOUR_BAR}) + "\n")
     place = tmp_path / "a.svg"
-    assert "--row N says which" in run("template", rows, "-o", place, code=2).stderr
+    assert "requires --row N" in run("template", rows, "-o", place, code=2).stderr
     assert "a number up to 1" in run("template", rows, "--row", 2, "-o", place, code=2).stderr
-    assert "--row is of many" in run("template", FOUR_BAR, "--row", 1, "-o", place, code=2).stderr
+    assert "--row requires a store" in run("template", FOUR_BAR, "--row", 1, "-o", place, code=2).stderr
     assert not place.exists()
 
 
@@ -79,7 +79,7 @@ def test_modes_and_ways_to_realise_are_of_types(data):
 
 def test_a_type_gets_a_size(tmp_path):
     done = run("template", "RR-R-RRR", "-o", tmp_path / "ups.svg")
-    assert "its longer side is 150 mm; --size says another" in done.stderr
+    assert "its longer side is 150 mm; --size changes it" in done.stderr
     assert (tmp_path / "ups.svg").is_file()
 
 

@@ -53,7 +53,7 @@ def test_that_no_unit_is_given_is_told(unit, square, tmp_path):
     large = {**SQUARE, "vertices_coords": (10 * np.array(SQUARE["vertices_coords"])).tolist()}
     (tmp_path / "b.fold").write_text(json.dumps(large))
     told = run("template", tmp_path / "b.fold", "--no-note", "-o", tmp_path / "b.svg").stderr
-    assert told == "no unit is given: a unit of the coordinates is 1 mm\n"
+    assert told == "the file names no unit: a unit of the coordinates is 1 mm\n"
 
 
 def test_a_unit_that_nobody_knows_asks_for_a_size(square, tmp_path):

@@ -1,4 +1,4 @@
-"""``synth edit``: change a mechanism, and say what that does to its mobility."""
+"""``synth edit`` and ``synth reduce``: mechanisms changed, with the change of mobility."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.lengths import BRANCH
+from graphs.errors import numbered
+from synth.cli.options import BRANCH, FORCE, LOSSY
 from synth.cli.output import (
-    FORCE,
-    LOSSY,
     about,
     check_output,
     console,
     plain,
+    print_answer,
     print_json,
     table,
     tell_lost,
@@ -26,11 +26,15 @@ if TYPE_CHECKING:
     from graphs.creasing.edits import SheetEdit
     from graphs.edit.sc import Edit
     from graphs.mechanism.sc import SCGraph
+    from graphs.mechanism.sheet import Sheet
+    from graphs.reduce.assur import AssurReduction
+    from graphs.reduce.ride_alongs import Reduction
 
-__all__ = ["edit"]
+__all__ = ["edit", "reduce_command"]
+
 
 _OF_PATTERNS = ("lock", "add_crease", "remove_crease")
-"""The edits that leave a crease pattern one."""
+"""The edits whose result is a crease pattern again."""
 
 
 def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[..., object]]:
@@ -88,7 +92,7 @@ def edit(
     force: bool,
     lossy: bool,
     as_json: bool,
-    **wanted: tuple[str, ...],
+    **words: tuple[str, ...],
 ) -> None:
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
@@ -112,47 +116,40 @@ def edit(
     from graphs.errors import UnsolvableError
     from graphs.files.formats import write
     from graphs.mechanism.sheet import Sheet
-    from synth.cli.graphs.patterns import pattern_edits
 
     check_output(output, force=force)
-    thing = read(file)
+    mechanism = read(file)
     with about(file):
         edits: list[Edit] | list[SheetEdit]
-        if isinstance(thing, Sheet) and not any(wanted[name] for name in wanted if name not in _OF_PATTERNS):
-            edits = list(pattern_edits(thing, wanted, assign_branch))
-        elif wanted["remove_crease"] or assign_branch is not None:
-            option = "--remove-crease" if wanted["remove_crease"] else "--assign-branch"
-            raise UnsolvableError(f"{option} is for crease patterns, without edits that add links")
+        if isinstance(mechanism, Sheet) and not any(words[name] for name in words if name not in _OF_PATTERNS):
+            edits = list(_pattern_edits(mechanism, words, assign_branch))
+        elif words["remove_crease"] or assign_branch is not None:
+            option = "--remove-crease" if words["remove_crease"] else "--assign-branch"
+            raise UnsolvableError(f"{option} requires a crease pattern, and no edits that add links")
         else:
-            edits = _edited(graph_of(thing), wanted)
+            edits = _edited(graph_of(mechanism), words)
         if not edits:
-            raise click.UsageError("name an edit, such as --add-ride-along A,B")
+            raise click.UsageError("no edit; try --add-ride-along A,B or another")
         last = edits[-1]
         result = last.graph if isinstance(last, EditOfGraph) else last.sheet
         lost = () if output is None else write(result, output, force=force, lossy=lossy)
     if as_json:
-        print_json({"file": file, "output": output, "lost": list(lost), "edits": [one.to_json() for one in edits]})
+        print_json(
+            {"file": file, "output": output, "lost": list(lost), "edits": [each.to_json() for each in edits]}
+        )
         return
     rows = table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
-    for one in edits:
-        told = one.to_json()
-        rows.add_row(plain(one.what), one.equation, *map(plain, (one.predicted, one.counted, told["mobility"])))
+    for each in edits:
+        mobilities = (each.predicted, each.counted, each.to_json()["mobility"])
+        rows.add_row(plain(each.what), each.equation, *map(plain, mobilities))
     console().print(rows)
     if output is not None:
         tell_written(output)
         tell_lost(lost)
 
 
-def _edited(sc: SCGraph, wanted: dict[str, tuple[str, ...]]) -> list[Edit]:
-    """Make the edits that were asked for, each to the result of the last."""
-    edits: list[Edit] = []
-    for make in _edits(wanted):
-        edits.append(make(edits[-1].graph if edits else sc))
-    return edits
-
-
-def _edits(wanted: dict[str, tuple[str, ...]]) -> Iterator[Callable[[SCGraph], Edit]]:
-    """Yield the edits that were asked for, in the order of the options."""
+def _edited(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> list[Edit]:
+    """Make the edits of an SC graph in the order of the options, each to the result of the last."""
     kinds: dict[str, Callable[[SCGraph, str], Edit]] = {
         "add_crease": _crease,
         "add_loop": lambda sc, text: _loop(sc, text, "finite", "--add-loop"),
@@ -162,15 +159,18 @@ def _edits(wanted: dict[str, tuple[str, ...]]) -> Iterator[Callable[[SCGraph], E
         "explicit": lambda sc, text: _centre(sc, text, "--explicit"),
         "lock": _lock,
     }
+    edits: list[Edit] = []
     for name, make in kinds.items():
-        for text in wanted[name]:
-            yield lambda sc, make=make, text=text: make(sc, text)  # type: ignore[misc]
+        for text in words[name]:
+            edits.append(make(edits[-1].graph if edits else sc, text))
+    return edits
 
 
 def _words(text: str, number: int, option: str) -> list[str]:
     words = [word.strip() for word in text.split(",")]
     if len(words) != number:
-        raise click.BadParameter(f"{plain(text)!r} has {len(words)} part(s), not {number}", param_hint=option)
+        parts = numbered(len(words), "part")
+        raise click.BadParameter(f"{plain(text)!r} has {parts}; expected {number}", param_hint=option)
     return words
 
 
@@ -191,7 +191,9 @@ def _crease(sc: SCGraph, text: str) -> Edit:
     if not isinstance(sc, SCDGraph):
         return add_crease(sc, link, [joint_named(sc, word) for word in words])
     if len(words) not in (1, 2):
-        raise click.BadParameter("an SCD graph needs LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease")
+        raise click.BadParameter(
+            f"{plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease"
+        )
     return crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
 
 
@@ -226,7 +228,7 @@ def _centre(sc: SCGraph, text: str, option: str) -> Edit:
     from graphs.mechanism.scd import SCDGraph
 
     if not isinstance(sc, SCDGraph):
-        raise UnsolvableError(f"{option} needs the sides of the links: an SCD graph")
+        raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
     return (make_implicit if option == "--implicit" else make_explicit)(sc, _whole(text, option))
 
 
@@ -238,3 +240,145 @@ def _lock(sc: SCGraph, text: str) -> Edit:
 
     joint = joint_named(sc, text)
     return lock_hinge(sc, joint) if isinstance(sc, SCDGraph) else lock_joint(sc, joint)
+
+
+def _pattern_edits(
+    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None = None
+) -> Iterator[SheetEdit]:
+    """Yield the edits of a pattern: assigned as a branch, creases locked, added, removed, each to the last result.
+
+    Edges keep their numbers until creases are removed; those are named before.
+    """
+    from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
+    from graphs.creasing.named import joint_of_sheet_named
+    from graphs.mechanism.sheet import with_all_edges
+
+    if branch is not None:
+        from synth.folding.assigned import assign_branch
+
+        edit = assign_branch(sheet, branch)
+        sheet = edit.sheet
+        yield edit
+    for text in words["lock"]:
+        edit = lock_crease(sheet, joint_of_sheet_named(sheet, text))
+        sheet = edit.sheet
+        yield edit
+    for text in words["add_crease"]:
+        edit = crease_sheet(sheet, *_ends(text))
+        sheet = edit.sheet
+        yield edit
+    whole = with_all_edges(sheet)
+    leaving = [whole.edges[joint_of_sheet_named(sheet, text)] for text in words["remove_crease"]]
+    for ends in leaving:
+        number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == set(ends)), -1)
+        edit = remove_crease(sheet, joint_of_sheet_named(sheet, str(number)))
+        sheet = edit.sheet
+        yield edit
+
+
+def _ends(text: str) -> tuple[int | tuple[float, ...], int | tuple[float, ...]]:
+    """Read ``A:B``, each a vertex, or a point ``X,Y``."""
+    ends = text.split(":")
+    if len(ends) != 2:
+        raise click.BadParameter(
+            f"{plain(text)!r} is not A:B, two vertices or points X,Y of the pattern", param_hint="--add-crease"
+        )
+    return _end(ends[0].strip()), _end(ends[1].strip())
+
+
+def _end(word: str) -> int | tuple[float, ...]:
+    if word.isascii() and word.isdigit() and len(word) < 10:
+        return int(word)
+    try:
+        point = tuple(float(part) for part in word.split(","))
+    except ValueError:
+        point = ()
+    if len(point) not in (2, 3) or not all(abs(x) < 1e12 for x in point):
+        raise click.BadParameter(f"{plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease")
+    return point
+
+
+@click.command("reduce", short_help="Remove ride-alongs and adjunct addenda.")
+@click.argument("file", metavar="FILE")
+@DRAWN
+@click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism to this file.")
+@click.option(
+    "--rule",
+    type=click.Choice(["ride-along", "dyad", "assur"]),
+    default="ride-along",
+    show_default=True,
+    help="Rule of reduction.",
+)
+@click.option("--fully", is_flag=True, help="Reduce a block even if no loop of it is left.")
+@click.option(
+    "--keep",
+    multiple=True,
+    metavar="LINK",
+    help="Link that must not be removed, such as an input link; may be repeated.",
+)
+@click.option(
+    "--ground", metavar="LINK", help="Fixed link, for --rule assur. By default the one that the file names."
+)
+@click.option(
+    "--input", "inputs", multiple=True, metavar="JOINT", help="Input joint, for --rule assur; may be repeated."
+)
+@FORCE
+@LOSSY
+@click.option("--json", "as_json", is_flag=True, help="Print counts and steps as JSON.")
+def reduce_command(
+    file: str,
+    output: str | None,
+    rule: str,
+    fully: bool,
+    keep: tuple[str, ...],
+    ground: str | None,
+    inputs: tuple[str, ...],
+    force: bool,
+    lossy: bool,
+    as_json: bool,
+) -> None:
+    """Remove the ride-alongs of a mechanism one by one, until none is left. The mobility does not change.
+
+    A ride-along is two binary links u, v on two adjacent links a, b, all four about one centre. Chains of them,
+    adjunct addenda, are shown as trees. The rule "dyad" removes such pairs even if a and b are not adjacent.
+
+    The rule "assur" divides a mechanism whose loops have one centre into its Assur groups, given a ground link and
+    one input for each degree of freedom, and removes the groups that no other group is attached to.
+
+    \b
+    Examples:
+      synth reduce data/wiener/fortune-teller.json -o eight-bar.json
+      synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
+    """
+    from graphs.convert.table import to_sc
+    from graphs.edit.named import link_named
+    from graphs.files.formats import write
+    from graphs.reduce.ride_alongs import reduce
+
+    if (rule != "assur") and (ground is not None or inputs):
+        raise click.UsageError("--ground and --input require --rule assur")
+    check_output(output, force=force)
+    with about(file):
+        sc = to_sc(read(file))
+        if rule == "assur":
+            reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
+        else:
+            reduction = reduce(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
+        lost = () if output is None else write(reduction.graph, output, force=force, lossy=lossy)
+    if as_json:
+        print_json({"file": file, "output": output, "lost": list(lost), **reduction.to_json()})
+        return
+    print_answer(reduction)
+    if output is not None:
+        tell_written(output)
+        tell_lost(lost)
+
+
+def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
+    from graphs.edit.named import joint_named, link_named
+    from graphs.reduce.assur import reduce_assur
+
+    fixed = sc.ground if ground is None else link_named(sc, ground)
+    if fixed is None or not inputs:
+        raise click.UsageError("--rule assur requires --ground LINK, and an --input JOINT per degree of freedom")
+    return reduce_assur(sc, fixed, [joint_named(sc, name) for name in inputs])

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from synth.cli.output import about, console, entries, plain, print_json, table
-from synth.cli.precision import PRECISION, precise
-from synth.cli.reading import DRAWN
+from synth.cli.reading import DRAWN, PRECISION, precise
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from synth.verdict.judged import JudgedMobility
 
 __all__ = ["mobility"]
+
 
 _LONGEST_PATH = 4096
 
@@ -96,22 +96,22 @@ def mobility(
       synth mobility data/patterns/bird-base.fold
     """
     from graphs.errors import FileError
-    from synth.verdict.judged import mobility as asked
+    from synth.verdict.judged import mobility as mobility_of
 
     if no_pose and pose is not None:
-        raise click.UsageError("--pose names a pose that --no-pose leaves out")
-    lies: int | Literal[False] | None = False if no_pose else pose
+        raise click.UsageError("--pose and --no-pose exclude each other")
+    frame: int | Literal[False] | None = False if no_pose else pose
     failures: list[str] = []
     answers: list[tuple[str, JudgedMobility]] = []
-    with _objects_stay():
+    with _no_collection():
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
-                    answer = asked(
+                    answer = mobility_of(
                         precise(entry.mechanism),
                         exact=exact,
                         hinge_flat=hinge_flat,
-                        pose=lies,
+                        pose=frame,
                         geometry=not no_geometry,
                         motion=look_for_motion,
                         more=more,
@@ -132,8 +132,8 @@ def mobility(
 
 
 @contextmanager
-def _objects_stay() -> Iterator[None]:
-    """Pause the garbage collector: to look through what was read again and again takes as long as the rest."""
+def _no_collection() -> Iterator[None]:
+    """Pause the garbage collector, whose passes over all that was read take as long as the rest."""
     gc.disable()
     try:
         yield
@@ -142,7 +142,7 @@ def _objects_stay() -> Iterator[None]:
 
 
 def _in_number_order(label: str) -> list[str | int]:
-    """Return what sorts names as people do: chains.g6:2 before chains.g6:10."""
+    """Return a key that sorts numbers in names by value: chains.g6:2 before chains.g6:10."""
     return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
 
 
@@ -180,4 +180,4 @@ def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed
     for note in sorted(common):
         out.print(f"note, for all: {note}")
     if any(answer.repairs or set(answer.warnings) - common for _, answer in answers):
-        out.print("give one file alone to read its notes")
+        out.print("for the notes of a file, try that file alone")

@@ -1,4 +1,4 @@
-"""``synth enumerate conical``: all ways a chain can lie on one cone."""
+"""``synth enumerate conical``: the ways a chain can lie on one cone."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from synth.cli.options import LimitsType, surface_from_options
 from synth.cli.output import about, plain
-from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
-from synth.cli.surfaces.circles import surface_asked
+from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Sink
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from synth.candidates.job import CandidateJob, Filter
 
 __all__ = ["conical"]
+
 
 _LIMITS = {
     "open_loops": "open_loops",
@@ -173,13 +174,13 @@ def conical(
     filters = _filters(rest)
     job = CandidateJob(
         chain, grounds, rest["slots"], rest["opposites"], rest["samples"], rest["seed"],
-        surface_asked(cone_angle, radius), filters,
+        surface_from_options(cone_angle, radius), filters,
     )  # fmt: skip
     if not only_count:
         run_rows(job, options, lambda sink: _around(sink, job, sort, pictures))
     elif filters or rest["samples"] is not None:
         if method is not None:
-            raise click.UsageError("--method counts all candidates; leave out filters and --sample")
+            raise click.UsageError("--method counts all candidates, without filters and --sample")
         run_count(CandidateCountJob(job), options)
     else:
         from enumerate.conical.query import ConicalCountJob
@@ -190,12 +191,11 @@ def conical(
 def _check_usage(
     options: RunOptions, only_count: bool, method: str | None, sort: str | None, pictures: str | None
 ) -> None:
-    if method is not None and not only_count:
-        raise click.UsageError("--method says how --count counts; add --count")
+    check_method(method, only_count)
     if only_count and (sort is not None or pictures is not None):
-        raise click.UsageError("--count lists nothing: leave out --sort and --pictures")
+        raise click.UsageError("--count excludes --sort and --pictures: it lists no candidates")
     if options.resume and (sort is not None or pictures is not None):
-        raise click.UsageError("--resume does not go with --sort or --pictures, which need all rows at once")
+        raise click.UsageError("--resume excludes --sort and --pictures, which require all rows at once")
 
 
 def _chain(name: str) -> SCGraph:
@@ -210,15 +210,14 @@ def _chain(name: str) -> SCGraph:
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name
     if not is_id(code) and not Path(code).exists() and not Path(code).suffix:
-        raise FileError(name, "", "no chain and no file", f"{' '.join(known)}, an id k1:..., or a file")
+        raise FileError(name, "", "neither a chain nor a file", f"{' '.join(known)}, an id k1:..., or a file")
     with about(name):
-        thing = read(code)
-        sc = graph_of(thing)
+        sc = graph_of(read(code))
         return sc if sc.loops else sc_from_link_joint_graph(sc)
 
 
 def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
-    """Return the fixed links that an option asks for; without it the chain's own."""
+    """Return the fixed links of --ground; without it that of the chain."""
     from enumerate.conical.symmetries import links_apart
     from graphs.edit.named import link_named
 
@@ -232,16 +231,16 @@ def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
 def _filters(rest: dict[str, Any]) -> tuple[Filter, ...]:
     from synth.candidates.job import Filter
 
-    found = [
+    filters = [
         Filter(column, least=rest[option].least, most=rest[option].most)
         for option, column in _LIMITS.items()
         if rest[option] is not None
     ]
     if rest["singular"] is not None:
-        found.append(Filter("singular", rest["singular"]))
+        filters.append(Filter("singular", rest["singular"]))
     if rest["linkage"] is not None:
-        found.append(Filter("linkage", rest["linkage"].replace("-", " ")))
-    return tuple(found)
+        filters.append(Filter("linkage", rest["linkage"].replace("-", " ")))
+    return tuple(filters)
 
 
 def _around(sink: Sink, job: CandidateJob, sort: str | None, pictures: str | None) -> Sink:
@@ -265,9 +264,9 @@ def _print_formulas(chain: SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
     click.echo("A link can go one way if all its joints have one sign and lie on half the circle.")
     for ground in grounds:
         if ground is None:
-            raise click.UsageError("--formulas needs a fixed link: --ground LINK, or all")
+            raise click.UsageError("--formulas requires --ground LINK, or --ground all")
         conformed = ConformedChain.of(chain, ground)
         click.echo(f"link {plain(ground)} fixed, joint: outward rate, to one common scale")
-        for joint, found in zip(conformed.joints, outward_rates(conformed), strict=True):
-            if found:
-                click.echo(f"  {plain(joint)}: {plain(found[0].text(conformed.joints), 2000)}")
+        for joint, rates in zip(conformed.joints, outward_rates(conformed), strict=True):
+            if rates:
+                click.echo(f"  {plain(joint)}: {plain(rates[0].text(conformed.joints), 2000)}")

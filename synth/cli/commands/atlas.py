@@ -1,4 +1,4 @@
-"""``synth atlas``: all types up to a size in one file, asked in plain words."""
+"""``synth atlas``: all types up to a size in one file."""
 
 from __future__ import annotations
 
@@ -8,17 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from synth.cli.output import (
-    FORCE,
-    about,
-    check_output,
-    console,
-    entries,
-    plain,
-    print_answer,
-    print_json,
-    tell_written,
-)
+from graphs.errors import numbered
+from synth.cli.options import FORCE
+from synth.cli.output import about, check_output, console, entries, plain, print_answer, print_json, tell_written
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 if TYPE_CHECKING:
@@ -26,8 +18,9 @@ if TYPE_CHECKING:
 
 __all__ = ["atlas_group"]
 
-JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
-ATLAS = click.argument("atlas", metavar="ATLAS.sqlite")
+
+_JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+_ATLAS = click.argument("atlas", metavar="ATLAS.sqlite")
 
 
 @click.group("atlas", short_help="Build, query, show and find all types up to a size, in one file.")
@@ -108,22 +101,22 @@ def build(**options: Any) -> None:
 
     running = RunOptions.taken_from(options, counting=True)
     if running.output is None:
-        raise click.UsageError("an atlas needs a place: -o FILE.sqlite")
+        raise click.UsageError("an atlas requires -o FILE.sqlite")
     orders = tuple(name for name in options.pop("orders_of") if name != "none")
     plan = AtlasPlan(orders_of=orders, **options)
     sink = partial(AtlasSink, running.output, plan.command, resume=running.resume, force=running.force)
     run_resumable(AtlasJob(plan), sink, running)
-    told = open_atlas(str(running.output)).about()
+    summary = open_atlas(str(running.output)).about()
     if running.as_json:
-        print_json({"output": running.output, **told})
+        print_json({"output": running.output, **summary})
         return
-    for kind, number in told["types"].items():
+    for kind, number in summary["types"].items():
         click.echo(f"{number:>9}  {kind}")
     tell_written(running.output)
 
 
 @atlas_group.command()
-@ATLAS
+@_ATLAS
 @click.argument("condition", required=False, default="")
 @click.option("--sql", "statement", metavar="SELECT", help="SQL statement to use instead of a condition.")
 @click.option("--columns", metavar="A,B,...", help="Columns to show; `help` lists all of them.")
@@ -153,7 +146,7 @@ def build(**options: Any) -> None:
     help="Write .csv, .json, .jsonl, .parquet, a picture (.svg, .png, .pdf), or a folder of mechanisms.",
 )
 @FORCE
-@JSON
+@_JSON
 def query(
     atlas: str,
     condition: str,
@@ -162,7 +155,7 @@ def query(
     output: str | None,
     force: bool,
     as_json: bool,
-    **how: Any,
+    **search: Any,
 ) -> None:
     """List the types that fulfil a condition.
 
@@ -179,17 +172,17 @@ def query(
     if columns == "help":
         _print_columns()
         return
-    if statement is not None and (condition or columns or how["sort"]):
-        raise click.UsageError("--sql says all: no condition, --columns or --sort beside it")
+    if statement is not None and (condition or columns or search["sort"]):
+        raise click.UsageError("--sql excludes a condition, --columns and --sort")
     if output is not None and as_json:
-        raise click.UsageError("give -o or --json, not both")
+        raise click.UsageError("-o and --json exclude each other; try one of them")
     check_output(output if output is None or Path(output).suffix else None, force=force)
     opened = open_atlas(atlas)
     if statement is not None:
-        rows = opened.sql(statement, limit=how["limit"], seconds=how["seconds"])
+        rows = opened.sql(statement, limit=search["limit"], seconds=search["seconds"])
     else:
         names = [name.strip() for name in columns.split(",")] if columns else []
-        rows = opened.query(condition, columns=names, **how)
+        rows = opened.query(condition, columns=names, **search)
     if output is not None:
         _write(rows, output, force)
     elif as_json:
@@ -197,7 +190,7 @@ def query(
     else:
         _print(rows)
     if rows.more:
-        click.echo(f"there are more than {len(rows)}: --limit", err=True)
+        click.echo(f"more than {numbered(len(rows), 'row')}; try a larger --limit", err=True)
 
 
 def _print(rows: AtlasRows) -> None:
@@ -211,7 +204,7 @@ def _print_columns() -> None:
     from synth.atlas.columns import COLUMNS
 
     rows = [(name, " ".join(column.kinds), column.says) for name, column in COLUMNS.items()]
-    console().print(TableBlock(("column", "of kinds", "what it is"), rows))
+    console().print(TableBlock(("column", "kinds", "meaning"), rows))
 
 
 def _write(rows: AtlasRows, output: str, force: bool) -> None:
@@ -221,11 +214,11 @@ def _write(rows: AtlasRows, output: str, force: bool) -> None:
 
 
 @atlas_group.command()
-@ATLAS
+@_ATLAS
 @click.argument("type_id", metavar="ID")
 @click.option("-o", "--output", metavar="FILE.fold", help="Write the realised type to this file.")
 @FORCE
-@JSON
+@_JSON
 def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
     """Show the properties of a type, given its id or its name, and the types related to it."""
     from synth.atlas.asked.opened import open_atlas
@@ -239,8 +232,8 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
 
         text = report.values.get("fold_file")
         if text is None:
-            raise UnsolvableError(f"{plain(type_id)}: the atlas holds no coordinates of it")
-        sheet_of_type(report.values)  # what is damaged is not written
+            raise UnsolvableError(f"{plain(type_id)}: the atlas has no coordinates of this type")
+        sheet_of_type(report.values)  # raises an error for a damaged file, which is not written
         write_text(Path(output), text, force=force)
     if as_json:
         print_json(report.to_json())
@@ -250,7 +243,7 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
 
 
 @atlas_group.command()
-@ATLAS
+@_ATLAS
 @click.argument("condition", required=False, default="")
 @click.option("-o", "--output", "folder", required=True, metavar="FOLDER", help="New folder to write the site to.")
 @click.option("--title", default="", help="Title of the site.")
@@ -273,9 +266,9 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 
 
 @atlas_group.command()
-@ATLAS
+@_ATLAS
 @click.argument("files", metavar="FILE...", nargs=-1, required=True)
-@JSON
+@_JSON
 def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
     """Find the types of mechanisms in the atlas, and the types one edit away."""
     from synth.atlas.asked.finding import find_type
@@ -283,16 +276,16 @@ def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
 
     opened = open_atlas(atlas)
     failures: list[str] = []
-    found_all = []
+    answers = []
     for entry in entries(files, failures):
         with about(entry.label):
-            found = find_type(opened, entry.mechanism)
-        found_all.append({"file": entry.label, **found.to_json()})
+            answer = find_type(opened, entry.mechanism)
+        answers.append({"file": entry.label, **answer.to_json()})
         if not as_json:
             click.echo(plain(entry.label, 4096))
-            print_answer(found)
+            print_answer(answer)
     if as_json:
-        print_json(found_all)
+        print_json(answers)
     for failure in failures:
         click.echo(failure, err=True)
     if failures:

@@ -1,4 +1,4 @@
-"""``synth convert``: from one kind of file to another."""
+"""``synth convert``, ``synth reconstruct`` and ``synth id``."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.lengths import LENGTH, LENGTH_OR_NONE
-from synth.cli.output import FORCE, LOSSY, about, check_output, plain, print_json, tell_lost
+from synth.cli.options import FORCE, LENGTH, LENGTH_OR_NONE, LOSSY
+from synth.cli.output import about, check_output, plain, print_answer, print_json, tell_lost, tell_written
 from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
     from graphs.mechanism.on_surface import SurfaceLinkage
 
-__all__ = ["convert"]
+__all__ = ["convert", "id_command", "reconstruct"]
+
 
 _SOLIDS = (".stl", ".3mf", ".gltf")
 
@@ -116,17 +117,17 @@ def convert(
 
     check_output(target, force=force)
     if (Path(target).suffix.lower() == ".csv") != (table is not None):
-        raise click.UsageError("--table says what a .csv holds: the one goes with the other")
+        raise click.UsageError("--table and an output .csv require each other")
     of_solids = _is_of_solids(target, solid)
-    given = read(source)
+    original = read(source)
     with about(source):
-        mechanism = converted(given, kind, form=form)
+        mechanism = converted(original, kind, form=form)
         if table is not None:
             lost = _write_table(mechanism, target, table, force=force)
         elif of_solids:
             lost = _write_solids(mechanism, target, solid, force=force)
         else:
-            made_of = given if kind == "sheet" and form is None else None  # a sheet holds less than others
+            made_of = original if kind == "sheet" and form is None else None  # a sheet holds less than others
             lost = write(mechanism, target, lossy=lossy, force=force, made_of=made_of)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
@@ -145,12 +146,12 @@ def _write_table(mechanism: Mechanism, target: str, table: str, *, force: bool) 
 
 
 def _is_of_solids(target: str, solid: Mapping[str, float | None]) -> bool:
-    """Tell whether a file is one of solids, and refuse what is asked of solids where it is not."""
+    """Check whether a file is written as solids, and refuse options of solids for any other."""
     suffix = Path(target).suffix.lower()
-    asked = [f"--{name}" for name, value in solid.items() if value is not None]
-    if asked and suffix not in (*_SOLIDS, ".obj"):
-        raise click.UsageError(f"{', '.join(asked)}: of solids only, {', '.join(_SOLIDS)} and .obj")
-    return suffix in _SOLIDS or bool(asked)
+    options = [f"--{name}" for name, value in solid.items() if value is not None]
+    if options and suffix not in (*_SOLIDS, ".obj"):
+        raise click.UsageError(f"{', '.join(options)}: for solids only ({', '.join(_SOLIDS)} and .obj)")
+    return suffix in _SOLIDS or bool(options)
 
 
 def _write_solids(
@@ -166,7 +167,7 @@ def _write_solids(
         return _write_on_surface(mechanism, target, thickness, solid, force=force)
     sheet = sheet_of(mechanism)
     if sheet is None:
-        raise UnsolvableError(f"solids need panels, and {mechanism!r} has none")
+        raise UnsolvableError(f"solids require panels, and {mechanism!r} has none")
     return write_solids(
         sheet, target, thickness=thickness, gap=solid["gap"], scale=solid["scale"], size=solid["size"], force=force
     )
@@ -180,8 +181,69 @@ def _write_on_surface(
     from synth.templates.template import linkage_on_a_surface
 
     if solid["scale"] is not None:
-        raise click.UsageError("--scale is of panels: --size says how long the ruling lines are")
-    one = linkage_on_a_surface(linkage, number=None if solid["cone"] is None else int(solid["cone"]))
+        raise click.UsageError("--scale is for panels; try --size, the length of the ruling lines")
+    chosen = linkage_on_a_surface(linkage, number=None if solid["cone"] is None else int(solid["cone"]))
     sizes = Dimensions(thickness=thickness, **({} if solid["size"] is None else {"size": solid["size"]}))
     gap = 2 * thickness if solid["gap"] is None else solid["gap"]
-    return write_linkage_on_surface(one, surface_of(one), target, dimensions=sizes, gap=gap, force=force)
+    return write_linkage_on_surface(chosen, surface_of(chosen), target, dimensions=sizes, gap=gap, force=force)
+
+
+@click.command(short_help="Reconstruct the polyhedron model, vertex by vertex.")
+@click.argument("file", metavar="FILE")
+@DRAWN
+@click.option("-o", "--output", metavar="OUT", help="Write the model to this file (.json or .fold).")
+@FORCE
+@LOSSY
+@click.option("--json", "as_json", is_flag=True, help="Print the vertices and the counts as JSON.")
+def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json: bool) -> None:
+    """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
+
+    FILE holds an SCD graph, or a crease pattern without flat edges, cuts and split hinges (.fold). The table lists
+    the links that meet in each vertex, and the kind of face of the graph in which it lies.
+
+    \b
+    Example:
+      synth reconstruct data/wiener/six-bar.json -o model.json
+    """
+    from graphs.answer.reconstruction import reconstruct as reconstructed
+    from graphs.files.formats import write
+
+    check_output(output, force=force)
+    mechanism = read(file)
+    with about(file):
+        reconstruction = reconstructed(mechanism)
+        lost = () if output is None else write(reconstruction.model, output, force=force, lossy=lossy)
+    if as_json:
+        print_json({"file": file, "output": output, "lost": list(lost), **reconstruction.to_json()})
+        return
+    print_answer(reconstruction)
+    if output is not None:
+        tell_written(output)
+        tell_lost(lost)
+
+
+@click.command("id", short_help="Print the canonical ids of a mechanism.")
+@click.argument("file", metavar="FILE")
+@DRAWN
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def id_command(file: str, as_json: bool) -> None:
+    """Print the canonical ids of a mechanism: equal for mechanisms of one type, different for all others.
+
+    k1:... is the id of the link-joint graph, a chain without centres. m1:... is the id of the mechanism drawn on
+    the sphere, with its centres, and with the sides of its links where they are known. Every command that takes a
+    FILE takes an id too; write ./k1:... for a file of that name.
+
+    \b
+    Examples:
+      synth id data/wiener/six-bar.json
+      synth id k1:Cr
+    """
+    from graphs.answer.identity import identify
+
+    mechanism = read(file)
+    with about(file):
+        identity = identify(mechanism)
+    if as_json:
+        print_json(identity.to_json())
+        return
+    print_answer(identity)
