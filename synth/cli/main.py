@@ -90,7 +90,7 @@ class NamedGroup(click.Group):
         unknown = not name.startswith("-") and self.get_command(ctx, name) is None
         if unknown and not ctx.resilient_parsing:
             near = get_close_matches(name, self.list_commands(ctx), 1)
-            ctx.fail(f"No such command {plain(name)!r}." + (f" Did you mean {near[0]!r}?" if near else ""))
+            ctx.fail(f"No such command {plain(name)!r}" + (f". Did you mean {near[0]!r}?" if near else ""))
         return super().resolve_command(ctx, args)
 
 
@@ -178,13 +178,9 @@ def _print_version(ctx: click.Context, _parameter: click.Parameter, requested: b
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.option(
-    "--version",
-    is_flag=True,
-    is_eager=True,
-    expose_value=False,
-    callback=_print_version,
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
     help="Show the versions of synth and of the packages that results depend on, and exit.",
-)
+)  # fmt: skip
 @click.option(
     "--debug", is_flag=True, help="Print the traceback if the program itself fails (or set SYNTHEDRA_DEBUG=1)."
 )

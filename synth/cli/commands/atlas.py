@@ -38,52 +38,33 @@ def atlas_group() -> None:
 
 @atlas_group.command()
 @click.option(
-    "--max-links",
-    type=int,
-    default=8,
-    show_default=True,
-    metavar="N",
+    "--max-links", type=int, default=8, show_default=True, metavar="N",
     help="Largest number of links of SC and SCD graphs.",
-)
+)  # fmt: skip
 @click.option(
-    "--dof",
-    "dofs",
-    type=int,
-    multiple=True,
-    default=(1,),
-    metavar="M",
+    "--dof", "dofs", type=int, multiple=True, default=(1,), metavar="M",
     help="Degrees of freedom, 1 by default; may be repeated.",
-)
+)  # fmt: skip
 @click.option(
     "--max-degree", type=int, default=4, show_default=True, metavar="D", help="Largest number of sides of a link."
 )
 @click.option(
-    "--chain-links",
-    type=int,
-    metavar="N",
+    "--chain-links", type=int, metavar="N",
     help="Largest number of links of chains. By default that of --max-links.",
-)
+)  # fmt: skip
 @click.option(
-    "--creases",
-    type=int,
-    default=6,
-    show_default=True,
-    metavar="N",
+    "--creases", type=int, default=6, show_default=True, metavar="N",
     help="Largest number of creases of R/- strings; 0 leaves strings out.",
-)
+)  # fmt: skip
 @click.option(
     "--orders-of", multiple=True, default=("watt", "stephenson"), show_default=True, metavar="CHAIN",
     help="Chain (a name or an id k1:...) whose joints are placed round a cone in every order; "
     "none leaves conical orders out. May be repeated.",
 )  # fmt: skip
 @click.option(
-    "--spatial",
-    type=int,
-    default=0,
-    show_default=True,
-    metavar="S",
+    "--spatial", type=int, default=0, show_default=True, metavar="S",
     help="Include hybrids of 1 to S spatial loops.",
-)
+)  # fmt: skip
 @click.option("--infinite", is_flag=True, help="Include centres at infinity.")
 @click.option(
     "--realise/--no-realise", "realised", default=True, show_default=True, help="Realise the types, and fold them."
@@ -124,27 +105,17 @@ def build(**options: Any) -> None:
     "--sort", default="", metavar="[-]COLUMN", help="Sort by a column; a leading - sorts in descending order."
 )
 @click.option(
-    "--limit",
-    type=click.IntRange(min=1),
-    default=1000,
-    show_default=True,
-    metavar="N",
+    "--limit", type=click.IntRange(min=1), default=1000, show_default=True, metavar="N",
     help="Largest number of rows.",
-)
+)  # fmt: skip
 @click.option(
-    "--seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="SECONDS",
-    default=30.0,
-    show_default=True,
+    "--seconds", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", default=30.0, show_default=True,
     help="Time limit in seconds.",
-)
+)  # fmt: skip
 @click.option(
-    "-o",
-    "--output",
-    metavar="OUT",
+    "-o", "--output", metavar="OUT",
     help="Write .csv, .json, .jsonl, .parquet, a picture (.svg, .png, .pdf), or a folder of mechanisms.",
-)
+)  # fmt: skip
 @FORCE
 @_JSON
 def query(

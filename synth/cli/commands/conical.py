@@ -34,62 +34,42 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 
 @click.command(short_help="List or count the ways a chain can lie on one cone.")
 @click.option(
-    "--chain",
-    "name",
-    required=True,
-    metavar="CHAIN",
+    "--chain", "name", required=True, metavar="CHAIN",
     help="Chain: a name such as watt or stephenson, an id k1:..., or a FILE.",
-)
+)  # fmt: skip
 @click.option(
     "--ground", metavar="LINK", help="Fixed link: an id; all, for one row per distinct ground link; or none."
 )
 @click.option(
-    "--slots",
-    type=click.IntRange(min=3, max=720),
-    metavar="K",
+    "--slots", type=click.IntRange(min=3, max=720), metavar="K",
     help="Place the joints on K equal slots round the cone.",
-)
+)  # fmt: skip
 @click.option(
     "--opposites", is_flag=True, help="Tell apart the orders of the joints and of the points opposite to them."
 )
 @click.option(
-    "--sample",
-    "samples",
-    type=click.IntRange(min=1),
-    metavar="N",
+    "--sample", "samples", type=click.IntRange(min=1), metavar="N",
     help="Number of random sets of angles per order.",
-)
+)  # fmt: skip
 @click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    metavar="N",
-    default=0,
-    show_default=True,
+    "--seed", type=click.IntRange(min=0), metavar="N", default=0, show_default=True,
     help="Random seed for --sample.",
-)
+)  # fmt: skip
 @click.option(
-    "--lambda",
-    "cone_angle",
-    type=float,
-    metavar="DEGREES",
+    "--lambda", "cone_angle", type=float, metavar="DEGREES",
     help="Cone angle, for link angles and Grashof classes.",
-)
+)  # fmt: skip
 @click.option(
-    "--radius",
-    type=float,
-    metavar="R",
+    "--radius", type=float, metavar="R",
     help="Radius of a cylinder instead of a cone, for link lengths and Grashof classes.",
-)
+)  # fmt: skip
 @click.option(
     "--linkage", type=click.Choice(_LINKAGE), help="Directions in which all moving links can go together."
 )
 @click.option(
-    "--open",
-    "open_loops",
-    type=LimitsType(),
-    metavar="K",
+    "--open", "open_loops", type=LimitsType(), metavar="K",
     help="Number of open loops, as a number or range: 2, 1..2 or 2..",
-)
+)  # fmt: skip
 @click.option(
     "--layers", type=LimitsType(), metavar="K", help="Smallest number of layers, as a number or range: 2 or ..3."
 )
@@ -97,24 +77,18 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
     "--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries, as a number or range: 1 or 2.."
 )
 @click.option(
-    "--grashof",
-    type=LimitsType(),
-    metavar="K",
+    "--grashof", type=LimitsType(), metavar="K",
     help="Number of four-bar loops that are Grashof, as a number or range.",
-)
+)  # fmt: skip
 @click.option(
-    "--rank",
-    type=LimitsType(),
-    metavar="K",
+    "--rank", type=LimitsType(), metavar="K",
     help="Rank of the closure equations at the conformed position, as a number or range.",
-)
+)  # fmt: skip
 @click.option("--singular/--regular", default=None, help="List only candidates with, or without, rank deficiency.")
 @click.option(
-    "--half-turns",
-    type=LimitsType(),
-    metavar="K",
+    "--half-turns", type=LimitsType(), metavar="K",
     help="Number of steps of exactly 180 degrees, as a number or range.",
-)
+)  # fmt: skip
 @click.option("--sort", metavar="[-]COLUMN", help="Sort by a column; a leading - sorts in descending order.")
 @click.option(
     "--pictures", metavar="FOLDER", help="Draw each candidate, as a circle and on its cone, to a new folder."
@@ -122,10 +96,9 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 @click.option("--formulas", is_flag=True, help="Print only the outward rate of each joint, as a formula.")
 @click.option("--count", "only_count", is_flag=True, help="Print only the number; without filters, by formula.")
 @click.option(
-    "--method",
-    type=click.Choice(["burnside", "orbits"]),
+    "--method", type=click.Choice(["burnside", "orbits"]),
     help="Counting method for --count; both give the same number.",
-)
+)  # fmt: skip
 @runner_options
 def conical(
     name: str,

@@ -27,43 +27,31 @@ _SOLIDS = (".stl", ".3mf", ".gltf")
 @click.argument("target", metavar="OUT")
 @DRAWN
 @click.option(
-    "--to",
-    "kind",
-    type=click.Choice(["sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"]),
+    "--to", "kind", type=click.Choice(["sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"]),
     help="Kind of mechanism to convert to first. By default the kind that IN holds.",
-)
+)  # fmt: skip
 @click.option(
-    "--form",
-    type=click.Choice(["planar", "spherical", "general"]),
+    "--form", type=click.Choice(["planar", "spherical", "general"]),
     help="Change the centres: planar analogue, spherical analogue, or most general form.",
-)
+)  # fmt: skip
 @click.option(
-    "--table",
-    type=click.Choice(["axes", "vertices"]),
+    "--table", type=click.Choice(["axes", "vertices"]),
     help="Table for a .csv file: joint axes or vertices, in every frame.",
-)
+)  # fmt: skip
 @click.option("--thickness", type=LENGTH, metavar="MM", help="Thickness of panels as solids.  [default: 1]")
 @click.option(
-    "--gap",
-    type=LENGTH_OR_NONE,
-    metavar="MM",
+    "--gap", type=LENGTH_OR_NONE, metavar="MM",
     help="Gap between solids at a hinge.  [default: twice the thickness]",
-)
+)  # fmt: skip
 @click.option("--scale", type=LENGTH, help="For solids: millimetres per unit of the coordinates.  [default: 1]")
 @click.option(
-    "--size",
-    type=LENGTH,
-    metavar="MM",
+    "--size", type=LENGTH, metavar="MM",
     help="For solids: longest side; for a linkage on a cone or cylinder, length of the ruling lines.",
-)
+)  # fmt: skip
 @click.option(
-    "--cone",
-    "--cylinder",
-    "cone",
-    type=click.IntRange(min=1),
-    metavar="K",
+    "--cone", "--cylinder", "cone", type=click.IntRange(min=1), metavar="K",
     help="For a linkage that lies on several cones or cylinders: number of the one to take.",
-)
+)  # fmt: skip
 @FORCE
 @LOSSY
 @click.option("--json", "as_json", is_flag=True, help="Print the conversion and its notes as JSON.")

@@ -62,12 +62,9 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
 @click.argument("file", metavar="FILE")
 @click.option("-o", "--output", required=True, metavar="OUT", help="Picture to write: .svg, .png or .pdf.")
 @click.option(
-    "--as",
-    "kind",
-    type=click.Choice(_KINDS),
+    "--as", "kind", type=click.Choice(_KINDS), metavar="KIND",
     help="Kind of picture. By default the one that suits the file.",
-    metavar="KIND",
-)
+)  # fmt: skip
 @click.option(
     "--colour", multiple=True, metavar="WHAT|" + LOOK, callback=_colouring,
     help="Colouring of a crease pattern: letters (the assignment in the file; the default), verdict (mobile and "
@@ -77,22 +74,17 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
 )  # fmt: skip
 @LAYER
 @click.option(
-    "--branch",
-    type=BRANCH,
-    metavar="K",
+    "--branch", type=BRANCH, metavar="K",
     help="Branch to show with --colour branch or --as marks, by its number or its signs.",
-)
+)  # fmt: skip
 @click.option("--graph", is_flag=True, help="Draw the SC graph on top of a crease pattern.")
 @click.option(
     "--numbers/--no-numbers", default=True, show_default=True, help="Label links and joints with their numbers."
 )
 @click.option(
-    "--paper",
-    type=click.Choice(["light", "dark"]),
-    default="light",
-    show_default=True,
+    "--paper", type=click.Choice(["light", "dark"]), default="light", show_default=True,
     help="Background of the picture.",
-)
+)  # fmt: skip
 @click.option(
     "--where", multiple=True, metavar="COLUMN=VALUE",
     help="For a catalogue: draw only rows with this number (2, 2..4, 2..) or text in a column; "
@@ -289,36 +281,24 @@ _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--
 @ROW
 @MODE
 @click.option(
-    "--as",
-    "kind",
-    type=click.Choice(["sheet", "space"]),
+    "--as", "kind", type=click.Choice(["sheet", "space"]),
     help="Kind of realisation, for a type without coordinates.  [default: sheet]",
-)
+)  # fmt: skip
 @click.option(
-    "--page",
-    "page",
-    metavar="PAPER",
-    default="A4",
-    show_default=True,
+    "--page", "page", metavar="PAPER", default="A4", show_default=True,
     help="Paper size: A4, A3, Letter, or WIDTHxHEIGHT in mm.",
-)
+)  # fmt: skip
 @click.option(
     "--scale", type=LENGTH, help="Millimetres per unit of the coordinates.  [default: the file's unit, or 1]"
 )
 @click.option(
-    "--size",
-    type=LENGTH,
-    metavar="MM",
+    "--size", type=LENGTH, metavar="MM",
     help="Longer side of the template; on a cone or cylinder, length of the ruling lines.",
-)
+)  # fmt: skip
 @click.option(
-    "--tabs",
-    type=LENGTH_OR_NONE,
-    default=8.0,
-    show_default=True,
-    metavar="MM",
+    "--tabs", type=LENGTH_OR_NONE, default=8.0, show_default=True, metavar="MM",
     help="Depth of the tabs; 0 leaves them out.",
-)
+)  # fmt: skip
 @click.option("--slots", is_flag=True, help="Join tabs through slots, without glue.")
 @click.option(
     "--hinges",
@@ -332,22 +312,16 @@ _SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--
 @click.option("--hinge-width", type=LENGTH, metavar="MM", help="Width of offset, living or gap hinges.")
 @click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="For a linkage on a cone: cone angle.")
 @click.option(
-    "--cone",
-    "--cylinder",
-    "cone",
-    type=click.IntRange(min=1),
-    metavar="K",
+    "--cone", "--cylinder", "cone", type=click.IntRange(min=1), metavar="K",
     help="For a linkage that lies on several cones or cylinders: number of the one to take.",
-)
+)  # fmt: skip
 @click.option(
     "--radius", type=LENGTH, metavar="MM", help="Radius of the cylinder.  [default: that of the linkage, in mm]"
 )
 @click.option(
-    "--thickness",
-    type=LENGTH,
-    metavar="MM",
+    "--thickness", type=LENGTH, metavar="MM",
     help="For a linkage on a cone or cylinder: thickness of the material.  [default: 0.3]",
-)
+)  # fmt: skip
 @click.option(
     "--note/--no-note", default=True, show_default=True, help="Add assembly instructions, with a picture."
 )

@@ -74,13 +74,11 @@ def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[...,
 )
 @_repeated("--lock", "JOINT", "Lock a joint; its two links become one. For a pattern, the crease becomes flat.")
 @click.option(
-    "--assign-branch",
-    type=BRANCH,
-    metavar="K",
+    "--assign-branch", type=BRANCH, metavar="K",
     help="For a pattern: assign the mountains and valleys of a folding branch, by its number "
     "or signs, as `synth fold --branches` lists them. Creases that are immobile on it "
     "become flat (F).",
-)
+)  # fmt: skip
 @click.option("-o", "--output", metavar="OUT", help="Write the result to this file.")
 @FORCE
 @LOSSY
@@ -303,19 +301,14 @@ def _end(word: str) -> int | tuple[float, ...]:
 @DRAWN
 @click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism to this file.")
 @click.option(
-    "--rule",
-    type=click.Choice(["ride-along", "dyad", "assur"]),
-    default="ride-along",
-    show_default=True,
+    "--rule", type=click.Choice(["ride-along", "dyad", "assur"]), default="ride-along", show_default=True,
     help="Rule of reduction.",
-)
+)  # fmt: skip
 @click.option("--fully", is_flag=True, help="Reduce a block even if no loop of it is left.")
 @click.option(
-    "--keep",
-    multiple=True,
-    metavar="LINK",
+    "--keep", multiple=True, metavar="LINK",
     help="Link that must not be removed, such as an input link; may be repeated.",
-)
+)  # fmt: skip
 @click.option(
     "--ground", metavar="LINK", help="Fixed link, for --rule assur. By default the one that the file names."
 )

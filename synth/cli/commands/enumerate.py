@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
@@ -42,21 +42,13 @@ def _limit(_context: click.Context, _parameter: click.Parameter, value: str) -> 
     "--modes", is_flag=True, help="List one row per mode: vertices on the same side (S) or on a diagonal (D)."
 )
 @click.option(
-    "--max-panels",
-    default="2",
-    callback=_limit,
-    metavar="K",
-    show_default=True,
+    "--max-panels", default="2", callback=_limit, metavar="K", show_default=True,
     help="Largest number of panels; none for no limit.",
-)
+)  # fmt: skip
 @click.option(
-    "--max-cluster",
-    default="3",
-    callback=_limit,
-    metavar="K",
-    show_default=True,
+    "--max-cluster", default="3", callback=_limit, metavar="K", show_default=True,
     help="Largest number of creases that meet in one point; none for no limit.",
-)
+)  # fmt: skip
 @click.option("--count", "only_count", is_flag=True, help="Print only the number, by generating functions.")
 @click.option("-o", "--output", metavar="FILE.jsonl", help="Write one JSON object per line.")
 @FORCE
@@ -167,9 +159,33 @@ def _assortment(_context: click.Context, _parameter: click.Parameter, value: str
     return tuple(map(int, parts))
 
 
+_LINKS = click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
+_DOF = click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
+_ASSORTMENT = click.option(
+    "--assortment", callback=_assortment, metavar="4,2", help="Numbers of binary, ternary, ... links."
+)
+_LONGEST_STRING = click.option(
+    "--longest-string", type=LimitsType(), metavar="K",
+    help="Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3.",
+)  # fmt: skip
+_SPATIAL = click.option(
+    "--spatial", type=click.IntRange(min=0), default=0, metavar="S",
+    help="Number of spatial loops, 0 by default; with more, the results are hybrids.",
+)  # fmt: skip
+_INFINITE = click.option("--infinite", is_flag=True, help="Include centres at infinity (planar loops).")
+_COUNT = click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
+
+
+def _method_option(*methods: str) -> Callable[..., Any]:
+    """Return the option that chooses a counting method; the first is the default."""
+    return click.option(
+        "--method", type=click.Choice(methods), help="Counting method for --count; both give the same number."
+    )
+
+
 @click.command(short_help="List or count kinematic chains without rigid sub-chains.")
-@click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
-@click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
+@_LINKS
+@_DOF
 @click.option(
     "--fractionated", is_flag=True, help="Include fractionated chains, which one link or one joint cuts in two."
 )
@@ -177,26 +193,15 @@ def _assortment(_context: click.Context, _parameter: click.Parameter, value: str
 @click.option(
     "--inputs", is_flag=True, help="List one row per distinct choice of a ground link and M input joints."
 )
-@click.option("--assortment", callback=_assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
+@_ASSORTMENT
 @click.option("--planar/--nonplanar", default=None, help="List only planar, or only nonplanar, chains.")
+@_LONGEST_STRING
 @click.option(
-    "--longest-string",
-    type=LimitsType(),
-    metavar="K",
-    help="Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3.",
-)
-@click.option(
-    "--symmetry",
-    type=LimitsType(),
-    metavar="K",
+    "--symmetry", type=LimitsType(), metavar="K",
     help="Number of automorphisms, as a number or range: 1, 2.. or 2..8.",
-)
-@click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
-@click.option(
-    "--method",
-    type=click.Choice(["orbits", "burnside"]),
-    help="Counting method for --count; both give the same number.",
-)
+)  # fmt: skip
+@_COUNT
+@_method_option("orbits", "burnside")
 @runner_options
 def chains(
     links: int,
@@ -248,49 +253,29 @@ def _say_if_odd(links: int, dof: int, spatial: int = 0) -> None:
 
 
 @click.command(short_help="List or count SC graphs: planar chains drawn on the sphere, with centres.")
-@click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
-@click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
+@_LINKS
+@_DOF
 @click.option(
-    "--centres",
-    type=LimitsType(),
-    metavar="K",
+    "--centres", type=LimitsType(), metavar="K",
     help="Number of distinct centres, as a number or range: 2, 1..2 or 2..",
-)
+)  # fmt: skip
+@_SPATIAL
+@_INFINITE
 @click.option(
-    "--spatial",
-    type=click.IntRange(min=0),
-    default=0,
-    metavar="S",
-    help="Number of spatial loops, 0 by default; with more, the results are hybrids.",
-)
-@click.option("--infinite", is_flag=True, help="Include centres at infinity (planar loops).")
-@click.option(
-    "--symmetry",
-    type=LimitsType(),
-    metavar="K",
+    "--symmetry", type=LimitsType(), metavar="K",
     help="Number of symmetries, as a number or range: 1, 2.. or 2..4.",
-)
-@click.option("--assortment", callback=_assortment, metavar="4,2", help="Numbers of binary, ternary, ... links.")
-@click.option(
-    "--longest-string",
-    type=LimitsType(),
-    metavar="K",
-    help="Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3.",
-)
+)  # fmt: skip
+@_ASSORTMENT
+@_LONGEST_STRING
 @click.option(
     "--per-chain", is_flag=True, help="List one row per chain: its most general form, with the most centres."
 )
 @click.option(
-    "--embeddings",
-    is_flag=True,
+    "--embeddings", is_flag=True,
     help="With --count, count embeddings in the sphere, without a choice of the outer face.",
-)
-@click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
-@click.option(
-    "--method",
-    type=click.Choice(["orbits", "burnside"]),
-    help="Counting method for --count; both give the same number.",
-)
+)  # fmt: skip
+@_COUNT
+@_method_option("orbits", "burnside")
 @runner_options
 def sc(
     links: int,
@@ -352,34 +337,19 @@ def sc(
 )
 @click.option("--of", "file", metavar="FILE", help="File of an SC or SCD graph: list only its SCD graphs.")
 @click.option(
-    "--max-degree",
-    type=click.IntRange(min=3),
-    required=True,
-    metavar="D",
+    "--max-degree", type=click.IntRange(min=3), required=True, metavar="D",
     help="Largest number of sides of a link.",
-)
-@click.option(
-    "--spatial",
-    type=click.IntRange(min=0),
-    default=0,
-    metavar="S",
-    help="Number of spatial loops, 0 by default; with more, the results are hybrids.",
-)
-@click.option("--infinite", is_flag=True, help="Include centres at infinity (planar loops).")
+)  # fmt: skip
+@_SPATIAL
+@_INFINITE
 @click.option("--all-explicit", "sheets", is_flag=True, help="List only single sheets without holes.")
 @click.option("--symmetric", is_flag=True, help="List only SCD graphs with a symmetry.")
 @click.option(
-    "--vertices",
-    type=LimitsType(),
-    metavar="K",
+    "--vertices", type=LimitsType(), metavar="K",
     help="Number of vertices of the polyhedron model, as a number or range: 8, 6..8 or ..8.",
-)
-@click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
-@click.option(
-    "--method",
-    type=click.Choice(["burnside", "orbits"]),
-    help="Counting method for --count; both give the same number.",
-)
+)  # fmt: skip
+@_COUNT
+@_method_option("burnside", "orbits")
 @runner_options
 def scd(
     links: int | None,
@@ -445,13 +415,9 @@ def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
 @click.command(short_help="List all ways to add a loop to a mechanism.")
 @click.option("--of", "file", required=True, metavar="FILE", help="File of the mechanism.")
 @click.option(
-    "--delta-dof",
-    type=click.IntRange(min=-2),
-    default=0,
-    show_default=True,
-    metavar="K",
+    "--delta-dof", type=click.IntRange(min=-2), default=0, show_default=True, metavar="K",
     help="Change of mobility.",
-)
+)  # fmt: skip
 @click.option("--count", "only_count", is_flag=True, help="Print only the number.")
 @runner_options
 def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:

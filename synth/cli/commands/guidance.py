@@ -36,30 +36,21 @@ __all__ = ["dyads", "fourbar", "order"]
 _AXIS = NumberList(axis=True)
 
 _ORIENTATIONS = click.option(
-    "--orientations",
-    "file",
-    required=True,
-    metavar="FILE",
+    "--orientations", "file", required=True, metavar="FILE",
     help="File of three or more orientations (docs/native-json.md).",
-)
+)  # fmt: skip
 
 
 @click.command(short_help="Check whether a crank about a fixed axis guides a body through orientations in order.")
 @_ORIENTATIONS
 @click.option(
-    "--axis",
-    required=True,
-    type=_AXIS,
-    metavar="X,Y,Z",
+    "--axis", required=True, type=_AXIS, metavar="X,Y,Z",
     help="Direction of the fixed axis G of the dyad, of any length.",
-)
+)  # fmt: skip
 @click.option(
-    "--direction",
-    type=click.Choice(["ccw", "cw"]),
-    default="ccw",
-    show_default=True,
+    "--direction", type=click.Choice(["ccw", "cw"]), default="ccw", show_default=True,
     help="Direction in which the crank turns, seen from the tip of the axis.",
-)
+)  # fmt: skip
 @click.option(
     "-o", "--picture", metavar="OUT", help="Draw the sphere and the hoop to this file (.svg, .png or .pdf)."
 )
@@ -107,25 +98,17 @@ def order(
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 _AXES = click.option(
-    "--axis",
-    "axes",
-    type=_AXIS,
-    multiple=True,
-    metavar="X,Y,Z",
+    "--axis", "axes", type=_AXIS, multiple=True, metavar="X,Y,Z",
     help="Direction of a fixed axis, required for three orientations; may be repeated.",
-)
+)  # fmt: skip
 
 
 def _samples_option(most: int) -> Callable[[_Command], _Command]:
     """Return the option for how many dyads to take from the curves of four orientations."""
     return click.option(
-        "--samples",
-        type=click.IntRange(8, most),
-        default=36,
-        show_default=True,
-        metavar="N",
+        "--samples", type=click.IntRange(8, most), default=36, show_default=True, metavar="N",
         help="Number of dyads on each curve, for four orientations.",
-    )
+    )  # fmt: skip
 
 
 @click.command(short_help="Find the RR dyads that guide a body through orientations.")
@@ -133,11 +116,9 @@ def _samples_option(most: int) -> Callable[[_Command], _Command]:
 @_AXES
 @_samples_option(100_000)
 @click.option(
-    "-o",
-    "--picture",
-    metavar="OUT",
+    "-o", "--picture", metavar="OUT",
     help="Draw a map of the sphere, coloured by order, to this file (.svg, .png or .pdf).",
-)
+)  # fmt: skip
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def dyads(
@@ -204,13 +185,9 @@ def _drawn(orientations: Orientations, guiding: tuple[Dyad, ...]) -> Any:
 @_AXES
 @_samples_option(200)
 @click.option(
-    "--best",
-    type=click.IntRange(min=1),
-    default=12,
-    show_default=True,
-    metavar="K",
+    "--best", type=click.IntRange(min=1), default=12, show_default=True, metavar="K",
     help="Largest number of four-bars to list.",
-)
+)  # fmt: skip
 @click.option("--usable", is_flag=True, help="List only four-bars without defects.")
 @click.option("--cones", is_flag=True, help="Map each four-bar listed to cones.")
 @click.option(

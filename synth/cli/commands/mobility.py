@@ -30,40 +30,32 @@ _LONGEST_PATH = 4096
 @DRAWN
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object per mechanism.")
 @click.option(
-    "--exact/--no-exact",
-    default=None,
+    "--exact/--no-exact", default=None,
     help="Compute the exact generic rank. By default it is computed unless the mechanism is large.",
-)
+)  # fmt: skip
 @click.option("--hinge-flat", is_flag=True, help="Treat the flat (F) edges of a crease pattern as hinges too.")
 @click.option(
-    "--pose",
-    type=click.IntRange(min=0),
-    metavar="FRAME",
+    "--pose", type=click.IntRange(min=0), metavar="FRAME",
     help="Analyse this frame of a FOLD file; 0 is the key frame.",
-)
+)  # fmt: skip
 @click.option(
-    "--no-geometry",
-    is_flag=True,
+    "--no-geometry", is_flag=True,
     help="Treat every loop round a hole or cut as spatial, even if its axes meet in a point.",
-)
+)  # fmt: skip
 @click.option(
-    "--no-pose",
-    is_flag=True,
+    "--no-pose", is_flag=True,
     help="Leave out the infinitesimal degrees of freedom at the configuration of the file.",
-)
+)  # fmt: skip
 @click.option(
-    "--motion/--no-motion",
-    "look_for_motion",
-    default=None,
+    "--motion/--no-motion", "look_for_motion", default=None,
     help="Search for finite motions from the configuration of the file. By default the search "
     "is made unless the mechanism is large.",
-)
+)  # fmt: skip
 @PRECISION
 @click.option(
-    "--more",
-    is_flag=True,
+    "--more", is_flag=True,
     help="Search for motion branches with a hundred times the usual allowance, and list all of them.",
-)
+)  # fmt: skip
 @click.option(
     "--verbose", is_flag=True, help="List all equations of mobility, with the reason why each applies or does not."
 )

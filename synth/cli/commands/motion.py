@@ -29,47 +29,32 @@ __all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
     "--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease to this angle; may be repeated."
 )
 @click.option(
-    "--along",
-    multiple=True,
-    metavar="JOINT=RATE",
+    "--along", multiple=True, metavar="JOINT=RATE",
     help="Initial joint rates; the motion keeps their direction if it can.",
-)
+)  # fmt: skip
 @click.option(
-    "--point",
-    "points",
-    multiple=True,
-    metavar="LINK=X,Y[,Z]",
+    "--point", "points", multiple=True, metavar="LINK=X,Y[,Z]",
     help="Print where this point of a link is in each frame (a coupler curve); may be repeated.",
-)
+)  # fmt: skip
 @click.option(
-    "--all",
-    "whole",
-    is_flag=True,
+    "--all", "whole", is_flag=True,
     help="Fold all creases together, with one degree of freedom. This is the default without --drive and --along.",
-)
+)  # fmt: skip
 @click.option(
-    "--branch",
-    type=BRANCH,
-    metavar="K",
+    "--branch", type=BRANCH, metavar="K",
     help="Folding branch from a flat state, by its number or its signs; --branches lists them.",
-)
+)  # fmt: skip
 @click.option("--branches", "listed", is_flag=True, help="List the motion branches from this configuration.")
 @click.option(
-    "--frames",
-    type=click.IntRange(1, 10_000),
-    metavar="N",
-    default=20,
-    show_default=True,
+    "--frames", type=click.IntRange(1, 10_000), metavar="N", default=20, show_default=True,
     help="Number of frames after the first.",
-)
+)  # fmt: skip
 @click.option("--collisions", is_flag=True, help="Stop the motion before panels pass through each other.")
 @click.option(
-    "-o",
-    "--output",
-    metavar="OUT",
+    "-o", "--output", metavar="OUT",
     help="Write the motion: .fold with frames, a series of .obj files, a .gif, or a strip of "
     "pictures (.png, .svg).",
-)
+)  # fmt: skip
 @FORCE
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @PRECISION
@@ -162,17 +147,13 @@ def _point(graph: SCGraph, text: str) -> tuple[LinkId, list[float]]:
 @click.argument("file", metavar="FILE")
 @DRAWN
 @click.option(
-    "--drive",
-    multiple=True,
-    metavar="JOINT=DEGREES",
+    "--drive", multiple=True, metavar="JOINT=DEGREES",
     help="Angle of a driven joint in degrees, or length of a prismatic one; once for each degree of freedom.",
-)
+)  # fmt: skip
 @click.option(
-    "--circuits/--no-circuits",
-    default=True,
-    show_default=True,
+    "--circuits/--no-circuits", default=True, show_default=True,
     help="Sort the assembly modes by circuit and branch of the circuit.",
-)
+)  # fmt: skip
 @click.option("--seed", type=click.IntRange(0), metavar="N", default=0, show_default=True, help="Random seed.")
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @PRECISION
@@ -240,11 +221,9 @@ def explain(file: str, as_json: bool) -> None:
     "--freedoms", type=click.IntRange(0), required=True, metavar="K", help="Number of degrees of freedom to reach."
 )
 @click.option(
-    "--branch",
-    type=BRANCH,
-    metavar="B",
+    "--branch", type=BRANCH, metavar="B",
     help="Folding branch from a flat state, by its number or its signs; `synth fold --branches` lists them.",
-)
+)  # fmt: skip
 @click.option(
     "--weight", multiple=True, metavar="JOINT=W", help="Cost of locking a joint, 1 by default; may be repeated."
 )
@@ -252,36 +231,25 @@ def explain(file: str, as_json: bool) -> None:
     "--protect-joint", multiple=True, metavar="JOINT", help="Joint that must not be locked; may be repeated."
 )
 @click.option(
-    "--protect-link",
-    multiple=True,
-    metavar="LINK",
+    "--protect-link", multiple=True, metavar="LINK",
     help="Link whose joints must not be locked, and which must not be creased; may be repeated.",
-)
+)  # fmt: skip
 @click.option(
-    "--flaps/--no-flaps",
-    default=True,
-    show_default=True,
+    "--flaps/--no-flaps", default=True, show_default=True,
     help="Lock the joints of flaps too, and allow diagonals that cut off a corner as a flap.",
-)
+)  # fmt: skip
 @click.option(
-    "--limit",
-    type=click.IntRange(1, 10_000),
-    metavar="N",
-    default=20,
-    show_default=True,
+    "--limit", type=click.IntRange(1, 10_000), metavar="N", default=20, show_default=True,
     help="Largest number of sets to list.",
-)
+)  # fmt: skip
 @click.option(
-    "--size",
-    type=click.IntRange(1),
-    metavar="N",
+    "--size", type=click.IntRange(1), metavar="N",
     help="Largest number of diagonals in a set. By default K - M + 1.",
-)
+)  # fmt: skip
 @click.option(
-    "--leave-out",
-    is_flag=True,
+    "--leave-out", is_flag=True,
     help="For a flat sheet: also report its degrees of freedom without the locked creases.",
-)
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @PRECISION
 def advise(
@@ -346,28 +314,20 @@ def advise(
 @click.option("--joint", "joints", multiple=True, metavar="JOINT", help="Compliant joint; may be repeated.")
 @click.option("--link", "links", multiple=True, metavar="LINK", help="Compliant link; may be repeated.")
 @click.option(
-    "--stiffness",
-    multiple=True,
-    metavar="JOINT=K",
+    "--stiffness", multiple=True, metavar="JOINT=K",
     help="Stiffness of a torsion spring at a joint, as moment per radian; the joint is "
     "compliant. May be repeated.",
-)
+)  # fmt: skip
 @click.option(
-    "--rest",
-    multiple=True,
-    metavar="JOINT=DEGREES",
+    "--rest", multiple=True, metavar="JOINT=DEGREES",
     help="Rest angle of a spring. By default the angle in the file. May be repeated.",
-)
+)  # fmt: skip
 @click.option("--moment", multiple=True, metavar="JOINT=M", help="Constant moment at a joint; may be repeated.")
 @click.option("--drive", metavar="JOINT=DEGREES", help="Joint and final angle of the load path.")
 @click.option(
-    "--frames",
-    type=click.IntRange(1, 10_000),
-    metavar="N",
-    default=20,
-    show_default=True,
+    "--frames", type=click.IntRange(1, 10_000), metavar="N", default=20, show_default=True,
     help="Number of configurations on the path after the first.",
-)
+)  # fmt: skip
 @click.option("--mass", multiple=True, metavar="LINK=M@X,Y,Z", help="Point mass on a link; may be repeated.")
 @click.option("--density", type=LENGTH, metavar="D", help="For a sheet: mass per unit area of its panels.")
 @click.option("--ground", metavar="LINK", help="Fixed link, for frequencies.")
@@ -476,11 +436,9 @@ def _mass(graph: SCGraph, word: str) -> Mass:
 @click.argument("file", metavar="FILE")
 @DRAWN
 @click.option(
-    "--keep",
-    multiple=True,
-    metavar="LINK",
+    "--keep", multiple=True, metavar="LINK",
     help="Link that belongs to the mechanism proper, not to a ride-along; may be repeated.",
-)
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @PRECISION
 def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:

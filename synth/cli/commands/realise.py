@@ -191,13 +191,9 @@ _FIGURES = 12
 @click.command(short_help="Give a type coordinates: as a flat sheet, as panels in space, or on a cone.")
 @click.argument("file", metavar="FILE")
 @click.option(
-    "--as",
-    "kind",
-    type=click.Choice(["sheet", "space", "cone"]),
-    default="sheet",
-    show_default=True,
+    "--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True,
     help="Kind of realisation.",
-)
+)  # fmt: skip
 @click.option(
     "--size", type=LENGTH, help="Longer side of the bounding box of the panels, in any unit.  [default: 1]"
 )
@@ -206,50 +202,35 @@ _FIGURES = 12
     help="For --as cone: cone angle, from the plane across its axis.  [default: 30]",
 )  # fmt: skip
 @click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    metavar="N",
-    default=0,
-    show_default=True,
+    "--seed", type=click.IntRange(min=0), metavar="N", default=0, show_default=True,
     help="Random seed; another seed gives other coordinates.",
-)
+)  # fmt: skip
 @click.option(
-    "--tries",
-    type=click.IntRange(1, 10_000),
-    metavar="N",
-    default=12,
-    show_default=True,
+    "--tries", type=click.IntRange(1, 10_000), metavar="N", default=12, show_default=True,
     help="Largest number of drawings to try.",
-)
+)  # fmt: skip
 @click.option(
-    "--flat-foldable",
-    is_flag=True,
+    "--flat-foldable", is_flag=True,
     help="For a sheet: make it flat-foldable; alternate sector angles round each vertex sum to 180 degrees.",
-)
+)  # fmt: skip
 @click.option("--symmetric", is_flag=True, help="For a sheet: draw it with symmetries of the type.")
 @MODE
 @click.option(
-    "--freedoms",
-    type=click.IntRange(min=1),
-    metavar="K",
+    "--freedoms", type=click.IntRange(min=1), metavar="K",
     help="Find a realisation of special geometry with K degrees of freedom, where a generic one has fewer.",
-)
+)  # fmt: skip
 @click.option("--geometry", metavar="TEXT", help="With --freedoms: try only families with TEXT in their name.")
 @click.option("--every", is_flag=True, help="With --freedoms: try every family, not only until one moves.")
 @click.option("--some-joints", is_flag=True, help="With --freedoms: joints may stay immobile.")
 @click.option("--mark", metavar="OUT.json", help="With --freedoms: write the type with a mark of what was found.")
 @click.option(
-    "-o",
-    "--output",
-    metavar="OUT",
+    "-o", "--output", metavar="OUT",
     help="Write the realisation: .fold, .obj or .svg; .json on a cone; a folder or .sqlite for many types.",
-)
+)  # fmt: skip
 @click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    metavar="N",
+    "--workers", type=click.IntRange(min=1), metavar="N",
     help="For many types: number of processes. By default one per core.",
-)
+)  # fmt: skip
 @click.option("--resume", is_flag=True, help="For many types: continue a run that was stopped.")
 @click.option("--quiet", is_flag=True, help="For many types: show no progress.")
 @FORCE

@@ -269,29 +269,20 @@ def map_command(kind: Kind) -> click.Command:
     @click.command("map", help=_MAP[kind], short_help=f"Find every {kind} on which a linkage lies.")
     @linkage_options(kind, arcs=False)
     @click.option(
-        "--tolerance",
-        type=click.FloatRange(0, min_open=True),
-        default=1e-5,
-        show_default=True,
-        metavar="DEGREES",
+        "--tolerance", type=click.FloatRange(0, min_open=True), default=1e-5, show_default=True, metavar="DEGREES",
         help="Largest misclosure of the loops of a FILE, in degrees.",
-    )
+    )  # fmt: skip
     @options_of_kind
     @click.option(
-        "-o",
-        "--output",
-        metavar="OUT",
+        "-o", "--output", metavar="OUT",
         help=f"Draw the loop sums (.png, .svg, .pdf); for a FILE or with --{kind}, draw the linkage; "
         "or write it (.json).",
-    )
+    )  # fmt: skip
     @click.option(
-        f"--{kind}",
-        "number",
-        type=click.IntRange(min=1),
-        metavar="K",
+        f"--{kind}", "number", type=click.IntRange(min=1), metavar="K",
         help=f"Number of the {kind} to draw, or to write the linkage on. By default the link {sizes} "
         f"are written, without a {kind}.",
-    )
+    )  # fmt: skip
     @FORCE
     @_JSON
     def command(
@@ -376,11 +367,9 @@ def behaviour_command(kind: Kind) -> click.Command:
     @linkage_options(kind)
     @_GROUND
     @click.option(
-        "-o",
-        "--output",
-        metavar="PICTURE",
+        "-o", "--output", metavar="PICTURE",
         help="Draw the first linkage, as a circle and on its surface (.png, .svg, .pdf).",
-    )
+    )  # fmt: skip
     @FORCE
     @_JSON
     def command(ground: str | None, output: str | None, force: bool, as_json: bool, **options: Any) -> None:
@@ -424,22 +413,18 @@ def move_command(kind: Kind) -> click.Command:
     @_GROUND
     @click.option("--driver", metavar="JOINT", help="Driving joint. By default the first joint of the fixed link.")
     @click.option(
-        "--at",
-        type=NumberList(),
-        metavar="A,B,...",
+        "--at", type=NumberList(), metavar="A,B,...",
         help="Angles of the driving joint at which to list configurations, in degrees.",
-    )
+    )  # fmt: skip
     @click.option(
         "--point", "points", multiple=True, metavar="LINK,AZIMUTH[,ALONG]",
         help="With --at: report the position of this point of a link. AZIMUTH is in degrees, ALONG "
     "a length on the ruling line, 1 by default. May be repeated.",
     )  # fmt: skip
     @click.option(
-        "--axes",
-        multiple=True,
-        metavar="LINK,LINK",
+        "--axes", multiple=True, metavar="LINK,LINK",
         help="With --at: report the instant axis of two links. May be repeated.",
-    )
+    )  # fmt: skip
     @_JSON
     def command(
         ground: str | None,
