@@ -38,11 +38,11 @@ HingeKind = Literal["offset", "living", "gap"]
 _STRAIGHT = 5e-7
 """Corners this close to a straight line, in millimetres, are none."""
 _THIN = 1e-5
-"""Millimetres: a fold so wide parts panels, and takes nothing off them."""
+"""Millimetres: a fold of this width separates panels without changing them."""
 _SPECK = 1e-3
-"""Square millimetres: what is no larger is no part of a panel."""
+"""Square millimetres: smaller areas are not parts of a panel."""
 _ROWS_APART, _CUT, _BRIDGE = 2.0, 15.0, 2.5
-"""Of a living hinge, millimetres: from row to row, of a cut and of what is left between two, about."""
+"""Of a living hinge, in millimetres: distance of rows, and about the length of a cut and of a bridge."""
 _LETTERS: dict[Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
 
 
@@ -65,7 +65,7 @@ class Hinges:
 
 @dataclass(frozen=True)
 class _Strip:
-    """What is between two panels where there was a fold: from where to where along it."""
+    """The strip between two panels in place of a fold, from `first` to `last` along it, in millimetres."""
 
     fold: Stroke
     start: Floats
@@ -76,7 +76,7 @@ class _Strip:
     last: float
 
     def at(self, along: float, across: float) -> Point:
-        """Return a place: millimetres from the begin of the fold, and from its line in units of half the width."""
+        """Return a place by millimetres along the fold, and by half widths across it."""
         place = self.start + along * self.along + across * self.width / 2 * self.off
         return float(place[0]), float(place[1])
 
@@ -85,7 +85,7 @@ class _Strip:
         return Stroke(kind, self.at(first, across), self.at(last, across))
 
     def sides(self) -> list[Stroke]:
-        """Return where it meets the panels."""
+        """Return its borders with the panels."""
         return [self.line(self.fold.kind, across, self.first, self.last) for across in (-1, 1)]
 
     def ends(self) -> list[Stroke]:
@@ -106,8 +106,8 @@ def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
     >>> outline = [(0, 0), (50, 0), (100, 0), (100, 40), (50, 40), (0, 40)]
     >>> cuts = [Stroke("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
     >>> card = Piece((*cuts, Stroke("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))
-    >>> made = with_hinges(card, (), Hinges("offset", 3))
-    >>> [stroke.start[0] for stroke in made.strokes if stroke.kind == "VALLEY"]
+    >>> hinged = with_hinges(card, (), Hinges("offset", 3))
+    >>> [stroke.start[0] for stroke in hinged.strokes if stroke.kind == "VALLEY"]
     [51.5, 48.5]
     """
     folds = [stroke for stroke in piece.strokes if stroke.kind not in ("CUT", "MARKS")]
@@ -125,7 +125,7 @@ def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
 
 
 def _panels(piece: Piece, lines: Sequence[Stroke], width: float) -> list[Any]:
-    """Return the panels without what lies beside their own hinges; each has to leave something, in one part."""
+    """Return the panels without the strips at their own hinges; each must remain in one part."""
     every = [shapely.LineString([line.start, line.end]) for line in lines]
     parted = united(shapely.buffer(every, _THIN, cap_style="square"))
     panels = []
@@ -136,7 +136,9 @@ def _panels(piece: Piece, lines: Sequence[Stroke], width: float) -> list[Any]:
         strips = united(shapely.buffer(own, width / 2, cap_style="square"))
         left = _parts(shapely.difference(panel, strips, grid_size=GRID).simplify(_STRAIGHT))
         if len(left) != 1:
-            raise UnsolvableError(f"a panel is narrower than its hinges of {width:g} mm leave room for")
+            raise UnsolvableError(
+                f"a panel has no room for hinges of {width:g} mm; try a smaller --hinge-width or a larger --size"
+            )
         panels += left
     return panels
 
@@ -152,7 +154,9 @@ def _all_strips(folds: Sequence[Stroke], panels: Sequence[Any], hinges: Hinges) 
     areas = [strip.polygon() for strip in strips]
     together = float(united(areas).area)
     if sum(area.area for area in areas) - together > _SPECK:
-        raise UnsolvableError(f"hinges of {hinges.width:g} mm lie over each other: expected a smaller width")
+        raise UnsolvableError(
+            f"hinges of {hinges.width:g} mm overlap; try a smaller --hinge-width, or a larger --size"
+        )
     return strips
 
 
@@ -167,13 +171,15 @@ def _strips(fold: Stroke, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
     there = common_spans([(0.0, length)], common_spans(*beside))  # another fold may go on in the same line
     spans = [span for span in there if span[1] - span[0] > least]
     if not spans:
-        raise UnsolvableError(f"a fold of {length:.3g} mm is too short for a hinge {width:g} mm wide")
+        raise UnsolvableError(
+            f"a fold of {length:.3g} mm is too short for a hinge {width:g} mm wide; try a smaller --hinge-width"
+        )
     for first, last in spans:
         yield _Strip(fold, start, along, off, width, first, last)
 
 
 def _cuts(piece: Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list[Stroke]:
-    """Return the outlines of panels but for where strips hang, slits, and the ends of strips."""
+    """Return the outlines of panels except at strips, the slits, and the ends of strips."""
     joined = np.array([(side.start, side.end) for strip in strips for side in strip.sides()]).reshape(-1, 2, 2)
     cuts = []
     for panel in panels:
@@ -206,7 +212,7 @@ def _rows(strip: _Strip) -> list[Stroke]:
 
 
 def _letters(folds: Sequence[Stroke]) -> Iterator[Text]:
-    """Yield the letters of folds that are no lines any more."""
+    """Yield the letters of folds that are not lines any more."""
     for fold in folds:
         if letter := _LETTERS.get(fold.kind):
             (ax, ay), (bx, by) = fold.start, fold.end

@@ -39,7 +39,7 @@ _SLANTS = (0.6, 1.0, 2.0, 4.0)
 _MOST_SLANT = 0.42
 """Part of the edge that each end may run in."""
 _LEAST = 2.0
-"""Millimetres: what is less deep holds no glue."""
+"""Least depth of a tab in millimetres: less holds no glue."""
 _CLEAR, _FOOT = 0.3, 1.0
 """Millimetres from a tab to all else, but for its foot: at the ends of its fold it has neighbours."""
 _PLAY = 0.5
@@ -241,9 +241,9 @@ def _are_one(first: _Side, second: _Side) -> bool:
 
 
 def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:
-    """Return how an edge is folded, seen from the side that is printed; None where it is not.
+    """Return the kind of fold at an edge, seen from the printed side; None for a flat edge.
 
-    A letter says it, and where there is none the pose: a flat pose says nothing.
+    It follows from the letter, else from the fold angle of the pose; a flat pose leaves it open.
     """
     letter = panels.sheet.assignments[edge]
     if letter in FLAT:
@@ -294,14 +294,14 @@ def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) ->
 
 
 def _carried(shape: Floats, was: Floats, now: Floats) -> Floats:
-    """Return a shape that moves with a panel, from where its corners were to where they are now."""
+    """Return a shape that moves with a panel, whose corners move from `was` to `now`."""
     motion = np.linalg.lstsq(np.column_stack([was, np.ones(len(was))]), now)[0]
     carried: Floats = np.column_stack([shape, np.ones(len(shape))]) @ motion
     return carried
 
 
 def _add_tab(side: _Side, shape: Floats, kind: Kind | None, number: str) -> None:
-    """Add a tab to the piece of a side: its base is folded, its other sides are cut."""
+    """Add a tab to the piece of a side: fold its base, cut its other sides."""
     work = side.work
     work.tabs.append(shapely.Polygon(shape))
     start, end, after, before = map(_point, shape)
@@ -327,7 +327,7 @@ def _cut(side: _Side, number: str, *, beyond: float = 0.0) -> None:
 
 
 def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:
-    """Cut along sides of panels at which nothing hangs."""
+    """Cut along sides of panels without a neighbour."""
     joined = {frozenset(panels.sheet.edges[edge]) for edge in panels.joins}
     for face, work in of_face.items():
         for corner, side in enumerate(sides_of_face(panels.sheet.faces[face])):

@@ -42,13 +42,13 @@ __all__ = [
 
 
 _INNER = 0.35
-"""Where links begin, in units of the length of the ruling lines."""
+"""Inner end of links, in units of the length of the ruling lines."""
 _TAB_OF_GAP, _SLOT_OF_GAP = 0.45, 0.2
 """Tabs and half slots are no wider than these parts of the least step between two joints."""
 _RIM = 0.1
-"""What is left of ruling lines at both ends of tabs, in units of the length of links."""
+"""Length of ruling lines beyond both ends of tabs, in units of the length of links."""
 _SLOT_LONGER = 0.02
-"""By so much of the length of links a slot is longer than its tab, at each end."""
+"""A slot exceeds its tab at each end by this part of the length of links."""
 _SLOT_WIDTH = 3.0
 """Millimetres, at the inner edge of links."""
 _LONGEST_NAME = 16
@@ -118,7 +118,7 @@ class LayeredLink:
         return -1 if along <= least else 1 if along >= self.width - least else 0
 
     def reaches(self, joint: str, side: int) -> bool:
-        """Tell whether it goes on from a joint to a side: -1 or 1."""
+        """Check whether it continues from a joint to a side: -1 or 1."""
         return self.at_end(joint) != side
 
 
@@ -175,7 +175,9 @@ def layered(linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> Lay
     least = _least_step(places, chain)
     for link, own in zip(chain.links, chain.joints_of, strict=True):
         if len(own) < 2:
-            raise UnsolvableError(f"link {shown(link)} has one joint: it takes no part of the surface")
+            raise UnsolvableError(
+                f"link {shown(link)} has one joint, so it covers no part of the surface; expected two or more"
+            )
     laid = links_in_layers(chain, places, linkage.begins(chain))
     names = [plain(str(joint), _LONGEST_NAME) for joint in chain.joints]
     bare = [
@@ -205,12 +207,12 @@ def _least_step(places: Floats, chain: ConformedChain) -> float:
     least = int(steps.argmin())
     if steps[least] < DOUBLE.same_configuration:
         pair = shown([str(chain.joints[order[least]]), str(chain.joints[order[(least + 1) % len(order)]])])
-        raise UnsolvableError(f"joints {pair} are on one ruling line: pieces have no room for both")
+        raise UnsolvableError(f"joints {pair} are on one ruling line, where pieces have no room for both")
     return float(steps[least])
 
 
 def _from(start: float, place: float) -> float:
-    """Return how far a place is from a start, once round at most; rounding before the start is the start."""
+    """Return the azimuth from a start to a place, in [0, 2 pi); within rounding of a full turn it is 0."""
     along = float(np.remainder(place - start, 2 * pi))
     return 0.0 if along > 2 * pi - DOUBLE.same_configuration else along
 
@@ -398,7 +400,7 @@ def surface_of(linkage: OnSurface, radius: float | None = None) -> Surface:
     if radius is not None:
         return Cylinder(radius)
     if linkage.surface is None:
-        raise UnsolvableError("the linkage lies on any cone: expected a cone angle (--lambda) or a --radius")
+        raise UnsolvableError("the linkage lies on any cone; try --lambda, the cone angle, or --radius")
     return linkage.surface
 
 
@@ -477,7 +479,9 @@ def solids_on_surface(linkage: LayeredLinkage, gap: float) -> list[Mesh]:
 def _link(linkage: LayeredLinkage, link: LayeredLink, off: float) -> Mesh:
     """Return a link, as cells of azimuth and length of which those in slots are left out."""
     if link.width <= 2 * off:
-        raise UnsolvableError(f"link {link.name} is narrower than the gap at its hinges")
+        raise UnsolvableError(
+            f"link {link.name} is narrower than the gap at its hinges; try a smaller --gap, or a larger --size"
+        )
     start, end = link.start + off, link.start + link.width - off
     slots = [(link.start + along - linkage.slot, link.start + along + linkage.slot) for _, along in link.slots]
     fixed = sorted({start, end, *(azimuth for slot in slots for azimuth in slot)})

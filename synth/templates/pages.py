@@ -59,7 +59,7 @@ class Paper:
     Raises
     ------
     InvariantError
-        If a side is shorter than 130 mm, in which the gauge has no place, or longer than 5 m.
+        If a side is shorter than 130 mm, which has no room for the gauge, or longer than 5 m.
 
     Examples
     --------
@@ -72,8 +72,8 @@ class Paper:
 
     def __post_init__(self) -> None:
         if not all(_SHORTEST_SIDE <= side <= _LONGEST_SIDE for side in (self.width, self.height)):
-            found = f"paper of {self.width:g} x {self.height:g} mm"
-            raise InvariantError("paper", found, f"sides from {_SHORTEST_SIDE:g} to {_LONGEST_SIDE:g} mm")
+            paper = f"paper of {self.width:g} x {self.height:g} mm"
+            raise InvariantError("paper", paper, f"sides from {_SHORTEST_SIDE:g} to {_LONGEST_SIDE:g} mm")
 
     @property
     def window(self) -> tuple[float, float]:
@@ -139,7 +139,7 @@ class Page:
 
     @property
     def ink(self) -> str:
-        """The colour of texts, ``#rrggbb``: where lines are cut, it is that of marks, which no machine cuts."""
+        """The colour of texts, ``#rrggbb``: on pages to be cut that of marks, which no machine cuts."""
         return LOOKS["CUT" if self.is_note else "MARKS"].colour
 
 
@@ -169,7 +169,7 @@ def gauge(at: Point) -> tuple[list[Stroke], list[Text]]:
 def footer(kinds: Iterable[Kind], caption: str) -> tuple[list[Stroke], list[Text]]:
     """Return the foot of a page: gauge, what its kinds of lines mean in words, caption.
 
-    The meaning is told in words only: a line drawn to show it would be cut or folded by a machine.
+    The meaning is in words only: a machine would cut or fold a line drawn to show it.
     """
     shown = set(kinds)
     strokes, texts = gauge((MARGIN, MARGIN + _ROWS[0]))
@@ -352,7 +352,7 @@ def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | N
 _APART = 6.0
 """Millimetres between pieces on a page."""
 _MOST_PAGES = 500
-"""Pages at most: more were not meant."""
+"""Largest number of pages: more are a mistake."""
 _LONGEST_TITLE = 40
 _Laid = list[tuple[Piece, float, float]]
 
@@ -366,7 +366,9 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     ways = (paper, paper.turned())
     most = [_pages_at_most(template, way) for way in ways]
     if min(most) > _MOST_PAGES:
-        raise UnsolvableError(f"{min(most)} pages: expected a size or a paper with at most {_MOST_PAGES} of them")
+        raise UnsolvableError(
+            f"{min(most)} pages; expected at most {_MOST_PAGES}; try a smaller --size or a larger --page"
+        )
     contents = [_contents(template, way) for way, pages in zip(ways, most, strict=True) if pages <= _MOST_PAGES]
     way, sheets = min(contents, key=lambda one: len(one[1]))
     pages = [_page(template, way, content, number, len(sheets)) for number, content in enumerate(sheets, start=1)]
@@ -400,7 +402,7 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
 
 
 def _pages_at_most(template: Template, paper: Paper) -> int:
-    """Return how many pages there are where each piece has its own: told before any is made."""
+    """Return the number of pages with one piece each, which is known before any is made."""
     return sum(prod(tiles_across(piece.size, paper.window)) for piece in template.pieces)
 
 

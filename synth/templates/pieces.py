@@ -146,7 +146,7 @@ class Piece:
 
 
 _NEAR = 1e-6
-"""Millimetres: borders this close are one line, and what is left of a line is longer."""
+"""Millimetres: borders this close are one line, and shorter remainders of a line are dropped."""
 
 
 def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
@@ -228,7 +228,7 @@ GRID = 1e-7
 """Millimetres, to which corners of overlays are rounded."""
 
 _INSIDE = 1e-4
-"""Millimetres by which a shape is made smaller: what is so close to an edge is on it."""
+"""Millimetres by which a shape is made smaller: points this close to an edge are on it."""
 
 
 def united(shapes: Sequence[Any]) -> Any:
@@ -237,7 +237,7 @@ def united(shapes: Sequence[Any]) -> Any:
 
 
 def lies_over(shape: Any, others: Sequence[Any]) -> bool:
-    """Say whether a shapely polygon (millimetres) shares more than an edge with one of others.
+    """Check whether a shapely polygon (millimetres) shares more than an edge with one of others.
 
     >>> square = shapely.box(0, 0, 9, 9)
     >>> lies_over(square, [shapely.box(9, 0, 20, 9)]), lies_over(square, [shapely.box(8.9, 0, 20, 9)])
@@ -247,7 +247,7 @@ def lies_over(shape: Any, others: Sequence[Any]) -> bool:
 
 
 def lies_within(shape: Any, area: Any) -> bool:
-    """Say whether a shape lies within an area, up to its edge.
+    """Check whether a shape lies within an area, up to its edge.
 
     >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 9, 20))
     True
@@ -258,17 +258,17 @@ def lies_within(shape: Any, area: Any) -> bool:
 
 
 _SLIT = 1e-6
-"""Millimetres: corners so near to each other are one; square ones: what is no larger is no area."""
+"""Millimetres: corners this near to each other are one. Square millimetres: smaller areas are dropped."""
 _OVERLAP = 1e-6
 """Panels lie side by side if no more than this part of their area is covered twice."""
 _GRID = 1e-10
-"""Of the extent: overlays in floating point can lose a panel, on a grid they do not."""
+"""In units of the extent: overlays in floating point can lose a panel, on a grid they do not."""
 FOLDS: dict[str, Kind] = {"M": "MOUNTAIN", "V": "VALLEY", "U": "CREASE"}
 """Assignment of a hinge to the kind of its stroke."""
 
 
 def is_laid_out(sheet: Sheet, places: Floats) -> bool:
-    """Say whether the panels of a sheet, at places float[vertices, 2], lie side by side, none over another.
+    """Check whether the panels of a sheet, at places float[vertices, 2], lie side by side, none over another.
 
     >>> import numpy as np
     >>> folded = Sheet(4, (), "", ((0, 1, 2), (2, 1, 3)))

@@ -42,9 +42,9 @@ __all__ = [
 
 
 _RIGID = 1e-4
-"""A panel that moves keeps its shape but for this part of its extent."""
+"""Largest change of the shape of a moving panel, as part of its extent."""
 _STRAIGHT = 1e-6
-"""Corners this close to a straight line, in millimetres, are none."""
+"""Corners this close to a straight line, in millimetres, are left out."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,9 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
         rest = shapely.difference(rest, taken, grid_size=GRID).simplify(_STRAIGHT)
     parts = [part for part in getattr(rest, "geoms", [rest]) if part.area > _STRAIGHT * whole]
     if not parts:
-        raise UnsolvableError(f"panel {face} is narrower than the gap of {2 * width:g} mm at its hinges")
+        raise UnsolvableError(
+            f"panel {face} is narrower than the gap of {2 * width:g} mm at its hinges; try a smaller --gap"
+        )
     return parts
 
 
@@ -147,7 +149,7 @@ def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
     turn, shift = rigid_motion(was, corners)
     apart = float(np.abs(was @ turn.T + shift - corners).max())
     if apart > _RIGID * float(np.abs(plane.flat).max()):
-        raise UnsolvableError(f"panel {where} has another shape: it is {apart:.3g} mm off")
+        raise UnsolvableError(f"panel {where} has another shape, by {apart:.3g} mm")
     return turn, shift
 
 
@@ -160,7 +162,7 @@ _WRITERS: dict[str, Callable[[Sequence[Mesh]], bytes]] = {
 }
 _HINGES = "hinges, but for the gaps"
 THICKNESS = 1.0
-"""Of panels, millimetres, where none is given."""
+"""Default thickness of panels, millimetres."""
 
 
 def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
@@ -172,7 +174,7 @@ def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
     """
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
-        raise UnsolvableError("solids need panels with coordinates, and the sheet has none")
+        raise UnsolvableError("solids require panels with coordinates, and the sheet has none")
     frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
     same = [one for one in frames if one.coordinates is not None and one.faces == first.faces]
     poses = [in_space(one.coordinates or ()) for one in (first, *same) if one.vertices == first.vertices]
@@ -199,25 +201,25 @@ def write_solids(
     thickness : float, optional
         Of panels, millimetres.
     gap : float, optional
-        Between two panels at a hinge, millimetres; twice the thickness without it.
+        Between two panels at a hinge, millimetres; by default twice the thickness.
     scale, size : float, optional
-        As of `synth.templates.template_of`.
+        As for `synth.templates.template_of`.
     force : bool, optional
-        Replace a file that is there.
+        Overwrite an existing file.
 
     Returns
     -------
     tuple of str
-        What the file does not hold.
+        Parts that the file cannot hold.
 
     Raises
     ------
     FileError
-        If the extension is not known, or the file cannot be written or is there already.
+        If the extension is unknown, or the file cannot be written or exists.
     InvariantError
-        If a number is not one that can be.
+        If a number is out of range.
     UnsolvableError
-        If there are no panels with coordinates, one is not plane, or narrower than the gap, or changes its shape.
+        If there are no panels with coordinates, one is not planar, or narrower than the gap, or changes its shape.
 
     Examples
     --------

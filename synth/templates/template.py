@@ -64,12 +64,12 @@ __all__ = [
 
 
 _UNITS = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "pt": 25.4 / 72}
-"""Units that FOLD names, in millimetres; its ``unit`` is none of a length."""
+"""Units of length that FOLD names, in millimetres; its ``unit`` is not a length."""
 
 _LEAST = 10.0
-"""Millimetres: what is smaller than this cannot be folded, its unit was no millimetre."""
+"""Millimetres: nobody can fold less; the unit of the coordinates was not a millimetre."""
 GREATEST = 1e6
-"""Millimetres: what is larger than a kilometre is not cut out; its curves would be millions of lines."""
+"""Millimetres: nobody cuts out more than a kilometre, whose curves would be millions of lines."""
 
 
 def unit_of(sheet: Sheet) -> float | None:
@@ -82,12 +82,12 @@ def unit_of(sheet: Sheet) -> float | None:
         return None
     if name not in _UNITS:
         known = ", ".join(_UNITS)
-        raise UnsolvableError(f"the file's unit {shown(name)} is none of {known}: expected --scale or --size")
+        raise UnsolvableError(f"the file's unit is {shown(name)}; expected {known}; try --scale or --size")
     return _UNITS[name]
 
 
 def scale_of(sheet: Sheet, scale: float | None, size: float | None) -> float | None:
-    """Return the scale that is asked for, or else that of the unit that the file of a sheet names."""
+    """Return the scale; without a scale and a size, that of the unit that the file of a sheet names."""
     return unit_of(sheet) if scale is None and size is None else scale
 
 
@@ -102,7 +102,7 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     50.0
     """
     if scale is not None and size is not None:
-        raise InvariantError("scale", "a scale and a size", "one of them")
+        raise InvariantError("scale", "both a scale and a size", "one of them")
     for name, value in (("scale", scale), ("size", size)):
         if value is not None and not (isfinite(value) and value > 0):
             raise InvariantError(name, f"{name} {value!r}", "a positive number")
@@ -110,9 +110,9 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     longest = float(extent.max())
     factor = size / longest if size is not None and longest > 0 else 1.0 if scale is None else scale
     if not _LEAST <= longest * factor <= GREATEST:
-        found = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
+        sides = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
         way = "larger" if longest * factor < _LEAST else "smaller"
-        raise UnsolvableError(f"the thing would be {found} mm: expected a {way} scale or a size (--scale, --size)")
+        raise UnsolvableError(f"the template would be {sides} mm; try a {way} --scale, or --size")
     return factor
 
 
@@ -130,7 +130,7 @@ _LETTER = 0.5
 
 
 def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
-    """Return the steps that cut and fold.
+    """Return the steps to cut and to fold.
 
     >>> from synth.templates.pieces import Stroke
     >>> steps_of_folds([Piece((Stroke("CUT", (0, 0), (9, 0)), Stroke("VALLEY", (0, 5), (9, 5))), (), None)])[1]
@@ -143,7 +143,7 @@ def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
 
 
 def steps_of_joins(edges: int, without: int, *, slotted: bool = False) -> list[str]:
-    """Return the steps that join edges: how many meet another, and how many of these have no tab.
+    """Return the steps that join edges: `edges` that meet others, of which `without` have no tab.
 
     Tabs are glued unless slotted.
     """
@@ -197,11 +197,11 @@ def written_steps(steps: Sequence[str], corner: tuple[float, float], width: floa
 
 
 _MOST = 60
-"""Panels that are folded for a picture: more take longer than all the pages."""
+"""Most panels that are folded for a picture: more take longer than all the pages."""
 _FRAMES = 2
-"""Of a folding, the one half way is drawn: at its end panels lie on each other."""
+"""Frames of a folding; the one half way is drawn, as at the end panels lie on each other."""
 _BOX = (420.0, 420.0)
-"""Points of width and height that the picture takes at most."""
+"""Largest width and height of the picture, in points."""
 
 
 def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
@@ -217,10 +217,10 @@ def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
 
 
 def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
-    """Return a pose that shows what a thing becomes, and which it is; None, and why, where there is none.
+    """Return a folded configuration of a sheet, and which it is in words; None, and the reason, if there is none.
 
-    A thing that stands in space is such a pose, as is the middle one of the frames of its file that stand; else it
-    is folded as its letters say.
+    It is the sheet itself if it is not flat, else the middle one of the frames of its file that are not flat;
+    without one, the sheet is folded by its mountain-valley assignment.
     """
     placed = sheet if sheet.frames is None else sheet.frames.first_placed()
     if not lies_flat(placed):
@@ -248,23 +248,23 @@ _OTHER_QUESTION = "a template shows the links as they are drawn, and no branch o
 
 @dataclass(frozen=True)
 class Template:
-    """What is cut out and folded.
+    """The pieces to cut out and fold, and how they are put together.
 
     Attributes
     ----------
     pieces : tuple of Piece
-        Each by itself, millimetres.
+        In millimetres, each in a frame of its own.
     scale : float or None
-        Millimetres for a unit of the coordinates; None of what has none.
+        Millimetres per unit of the coordinates; None for a linkage on a surface.
     mechanism : Sheet, OnSurface or Configuration
-        What it is made of.
+        The mechanism of the template.
     title : str
     not_shown : tuple of str
-        What the lines do not show, by kind and number.
+        Parts of the mechanism that the lines do not show, by kind and number.
     steps : tuple of str
-        How it is put together, once it is printed.
+        Assembly instructions, once it is printed.
     picture : Scene or None
-        What it looks like then (`synth.templates.note`).
+        The folded sheet.
     """
 
     pieces: tuple[Piece, ...]
@@ -277,7 +277,7 @@ class Template:
 
     @cached_property
     def configuration(self) -> Configuration | None:
-        """What it is made of, at a configuration; None where loops do not close, or on any cone."""
+        """The configuration of the mechanism; None if loops do not close, or it lies on any cone."""
         with suppress(SynthedraError):
             return configuration_of(self.mechanism)
         return None
@@ -304,22 +304,22 @@ def template_of(
     hinges: Hinges | None = None,
     title: str = "",
 ) -> Template:
-    """Return the template of a sheet; of panels that do not lie side by side, nets with tabs to glue.
+    """Return the template of a sheet; for panels that do not lie side by side, nets with tabs to glue.
 
     Parameters
     ----------
     sheet : Sheet
-        With coordinates and faces; of several frames the first that has coordinates.
+        With coordinates and faces; of several frames the first with coordinates.
     scale : float, optional
-        Millimetres for a unit of the coordinates; without it that of the file's unit, and 1 where it names none.
+        Millimetres per unit of the coordinates. By default that of the file's unit, or 1 if it names none.
     size : float, optional
-        Millimetres of the longer side of the sheet as it lies, instead of a scale.
+        Longer side of the sheet in millimetres, instead of a scale.
     tabs : float, optional
         Depth of tabs, millimetres; 0 for none.
     slots : bool, optional
-        Tabs go through slots, without glue.
+        Join tabs through slots, without glue.
     hinges : Hinges, optional
-        What is made of folds in thick material; a gap leaves no tabs.
+        Hinges in place of folds, for thick material; a gap leaves no tabs.
     title : str, optional
         Instead of the sheet's own.
 
@@ -330,10 +330,10 @@ def template_of(
     Raises
     ------
     InvariantError
-        If scale or size is no positive number, or both are given, or tabs is no number from 0 on.
+        If scale or size is not positive, or both are given, or tabs is negative or not a number.
     UnsolvableError
-        If the sheet has no coordinates or faces, or would be smaller than 10 mm; if a panel is not plane, or
-        more than two meet in an edge, or hinges have no room.
+        If the sheet has no coordinates or faces, or would be smaller than 10 mm; if a panel is not planar, more
+        than two meet in an edge, or hinges have no room.
 
     Examples
     --------
@@ -344,9 +344,9 @@ def template_of(
     joins = Joins(0.0 if hinges is not None and hinges.kind == "gap" else tabs, slots)
     placed = sheet if sheet.frames is None else sheet.frames.first_placed()
     if placed.coordinates is None:
-        raise UnsolvableError("a template needs coordinates, and the sheet has none")
+        raise UnsolvableError("a template requires coordinates, and the sheet has none; try `synth realise`")
     if not placed.faces:
-        raise UnsolvableError("a template needs panels, and the sheet has none")
+        raise UnsolvableError("a template requires panels, and the sheet has none")
     whole = with_all_edges(placed)
     flat = flattened(whole)
     places = in_space(whole.coordinates or ()) if flat is None else flat.places
@@ -371,13 +371,13 @@ def _without_tab(edges: int) -> tuple[str, ...]:
 
 
 def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
-    """Return a template with a picture of the thing folded, and why it has none where it was not folded.
+    """Return a template with a picture of the folded sheet, and the reason if there is none.
 
     Parameters
     ----------
     template : Template
     sheet : Sheet
-        That it was made of.
+        The sheet of the template.
 
     Examples
     --------
@@ -394,27 +394,27 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
 def panels_of_thing(
     thing: Mechanism | ChainString, *, kind: RealisedKind | None = None, mode: str | None = None
 ) -> tuple[Sheet, str]:
-    """Return the panels of a thing with coordinates, and what was done to have them.
+    """Return the panels of a mechanism, realised if it is a type, and a note on that.
 
     Parameters
     ----------
     thing : Mechanism or ChainString
-        A sheet, or a model of panels; or a type, which is realised.
+        A sheet, a model of panels, or a type, which is realised.
     kind : {"sheet", "space"}, optional
-        How a type is realised; a flat sheet without it.
+        Kind of realisation of a type; a flat sheet by default.
     mode : str, optional
-        Of an R/- string.
+        Mode of an R/- string.
 
     Returns
     -------
     sheet : Sheet
-    told : str
-        Empty for what has coordinates.
+    note : str
+        How it was realised; empty for a mechanism with coordinates.
 
     Raises
     ------
     UnsolvableError
-        If it has no panels, or cannot be realised; or if it has coordinates, and a kind or a mode is asked for.
+        If it has no panels, or cannot be realised; or if a kind or a mode is given for one with coordinates.
 
     Examples
     --------
@@ -424,22 +424,24 @@ def panels_of_thing(
     sheet = sheet_of(thing) if not isinstance(thing, ChainString) else None
     if sheet is not None:
         if kind is not None or mode is not None:
-            raise UnsolvableError("the thing has coordinates: only a type is realised, as a sheet or in space")
+            raise UnsolvableError(
+                "a kind or a mode of realisation requires a type, and the mechanism has coordinates"
+            )
         return sheet, ""
     if not isinstance(thing, SCGraph | SCDGraph | ChainString):
-        raise UnsolvableError(f"a template needs panels, and {thing!r} has none")
-    from synth.realisation.realised import realise  # it loads numba, which a thing with coordinates does without
+        raise UnsolvableError(f"a template requires panels, and {thing!r} has none")
+    from synth.realisation.realised import realise  # it loads numba, which only types need
 
-    how = "a flat sheet" if kind != "space" else "a pose in space"
-    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {how}"
+    form = "a flat sheet" if kind != "space" else "a pose in space"
+    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {form}"
 
 
 def linkage_on_a_surface(
     thing: SurfaceLinkage | OrderOnCircle, *, surface: Surface | None = None, number: int | None = None
 ) -> OnSurface:
-    """Return a linkage on one of its surfaces; a row of conical candidates is an order.
+    """Return a linkage, or the cyclic order of a conical candidate, on one of its surfaces.
 
-    `surface` is that of azimuths; `number` chooses, from 1, among those of given link angles or lengths. Raise
+    `surface` is for azimuths; `number`, from 1, chooses a surface of link angles or lengths. Raise
     UnsolvableError if the linkage lies on none, on several without a choice, or the chosen one does not exist.
     """
     if isinstance(thing, OrderOnCircle):

@@ -61,7 +61,7 @@ def plane_of_panel(corners: Floats, face: int) -> Plane:
         raise UnsolvableError(f"panel {face} has no area")
     normal = unit(area)
     if float(np.abs(arms @ normal).max()) > DOUBLE.flat * size:
-        raise UnsolvableError(f"panel {face} is not plane, and cannot be cut of a sheet")
+        raise UnsolvableError(f"panel {face} is not planar, so it cannot be cut from a sheet")
     along = unit(across(np.eye(3)[trailing(np.abs(normal))], normal))
     axes = np.column_stack([along, np.cross(normal, along), normal])
     flat = arms @ axes[:, :2]
@@ -125,18 +125,9 @@ class Net:
 
 
 def panels_of(sheet: Sheet, places: Floats) -> Panels:
-    """Return the panels of a sheet, each in its plane.
+    """Return the panels of a sheet with all edges listed, each in its plane; places are float[vertices, 3].
 
-    Parameters
-    ----------
-    sheet : Sheet
-        With all edges listed.
-    places : float[vertices, 3]
-
-    Raises
-    ------
-    UnsolvableError
-        If a panel is not plane, or more than two meet in an edge.
+    Raise UnsolvableError if a panel is not planar, or more than two meet in an edge.
     """
     planes = tuple(plane_of_panel(places[list(around)], face) for face, around in enumerate(sheet.faces))
     faces: dict[frozenset[int], list[int]] = defaultdict(list)
@@ -149,9 +140,7 @@ def panels_of(sheet: Sheet, places: Floats) -> Panels:
         at = faces[frozenset(sheet.edges[edge])]
         if len(at) > 2:
             a, b = sheet.edges[edge]
-            raise UnsolvableError(
-                f"{len(at)} panels meet in the edge from vertex {a} to {b}: expected at most two"
-            )
+            raise UnsolvableError(f"{len(at)} panels meet in the edge from vertex {a} to {b}; expected at most 2")
         if len(at) == 2:
             (slits if letter in _CUT else joins)[edge] = (at[0], at[1])
     return Panels(sheet, planes, joins, slits, places)
@@ -225,7 +214,7 @@ def _other(pair: Edge, face: int) -> int:
 
 
 def laid_across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
-    """Return where the panel across an edge comes to lie, and whether it is seen from behind.
+    """Return the laid corners of the panel across an edge, and whether it is seen from behind.
 
     `face` is the panel already laid, `laid` its corners, float[corners, 2]; `turned`: it is seen from behind.
     """

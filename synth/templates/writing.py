@@ -57,7 +57,7 @@ def check_reportlab() -> None:
     try:
         import reportlab  # noqa: F401
     except ImportError:
-        raise UnsolvableError("PDF needs reportlab: pip install 'synthedra[draw]'") from None
+        raise UnsolvableError("PDF requires reportlab; try pip install 'synthedra[draw]'") from None
 
 
 def pdf_of_pages(pages: Sequence[Page], title: str = "") -> bytes:
@@ -214,19 +214,19 @@ def write_template(
         ``.pdf``: a file with all pages, that of assembly last. ``.svg``: a file, or one for each page,
         ``t-1.svg``, ``t-2.svg``, ..., and ``t-note.svg``. ``.dxf``: one drawing at full size; no pages, no note.
     paper : Paper, optional
-        A4 without it; it is turned where that saves pages.
+        A4 by default; it is turned if that saves pages.
     force : bool, optional
-        Replace files that are there.
+        Overwrite existing files.
 
     Returns
     -------
     tuple of Path
-        What was written.
+        The written files.
 
     Raises
     ------
     FileError
-        If the extension is not known, or a file cannot be written or is there already.
+        If the extension is unknown, or a file cannot be written or exists.
     UnsolvableError
         If there would be too many pages, or reportlab is not installed.
 
@@ -237,8 +237,8 @@ def write_template(
     >>> from synth.templates.template import template_of
     >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))
     >>> with TemporaryDirectory() as folder:
-    ...     made = write_template(template_of(square, size=50), Path(folder, "square.svg"))
-    ...     print([(path.name, path.read_text()[:4]) for path in made])
+    ...     written = write_template(template_of(square, size=50), Path(folder, "square.svg"))
+    ...     print([(path.name, path.read_text()[:4]) for path in written])
     [('square.svg', '<svg'), ('square-note.svg', '<svg')]
     """
     place = Path(path)

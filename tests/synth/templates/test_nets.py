@@ -204,7 +204,7 @@ def test_without_tabs_edges_are_numbered_all_the_same(tmp_path, data):
 @pytest.mark.parametrize(
     ("faces", "told"),
     [
-        (((0, 1, 3, 6),), "panel 0 is not plane"),
+        (((0, 1, 3, 6),), "panel 0 is not planar"),
         (((0, 1, 3), (0, 1, 4), (0, 1, 7)), "3 panels meet in the edge from vertex 0 to 1"),
     ],
 )

@@ -166,7 +166,7 @@ def test_cuts_are_what_has_one_panel_and_flat_edges_are_told():
     flat = template_of(Sheet(4, ((0, 2), (0, 1)), "FM", ((0, 1, 2), (0, 2, 3)), square), size=50)
     assert [stroke.kind for stroke in flat.pieces[0].strokes] == ["CUT"] * 4
     assert flat.not_shown == ("1 flat edge",)
-    with pytest.raises(UnsolvableError, match="a template needs panels"):
+    with pytest.raises(UnsolvableError, match="a template requires panels"):
         template_of(Sheet(2, (), "", (), ((0, 0), (1, 0))))
     with pytest.raises(InvariantError, match="a scale and a size"):
         template_of(Sheet(3, (), "", ((0, 1, 2),), square[:3]), scale=1, size=1)

@@ -58,7 +58,7 @@ def test_that_no_unit_is_given_is_told(unit, square, tmp_path):
 
 def test_a_unit_that_nobody_knows_asks_for_a_size(square, tmp_path):
     words = ("template", square("cubit"), "--no-note", "-o", tmp_path / "a.svg")
-    assert "unit 'cubit' is none of" in run(*words, code=2).stderr
+    assert "unit is 'cubit'; expected mm" in run(*words, code=2).stderr
     run(*words, "--size", 60)
     assert "the name of a unit" in run("template", square(3), "-o", tmp_path / "b.svg", code=2).stderr
 
