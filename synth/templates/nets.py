@@ -30,7 +30,7 @@ from synth.templates.pieces import (
 )
 from synth.templates.unfolding import Net, Panels, laid_across, nets_of, panels_of
 
-__all__ = ["CutNets", "Joins", "pieces_of_panels", "slot_of", "tab_at", "tab_shapes"]
+__all__ = ["CutNets", "Joins", "pieces_of_panels", "slot_of", "tab_at"]
 
 
 _DEPTHS = (1.0, 0.7, 0.5, 0.35)

@@ -28,17 +28,7 @@ from synth.drawing.scene.shapes import Scene
 from synth.templates.pieces import Kind, Piece, Point, Stroke, Text
 from synth.templates.template import GREATEST, Template
 
-__all__ = [
-    "Dimensions",
-    "Joining",
-    "LayeredLink",
-    "LayeredLinkage",
-    "flat_pieces",
-    "layered",
-    "solids_on_surface",
-    "surface_of",
-    "template_on_surface",
-]
+__all__ = ["Dimensions", "layered", "solids_on_surface", "surface_of", "template_on_surface"]
 
 
 _INNER = 0.35

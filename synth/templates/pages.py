@@ -6,34 +6,15 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, prod
+from textwrap import wrap
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.plain_text import plain
 from synth.drawing.scene.shapes import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
-from synth.templates.template import PRINTING, TILES, Template, written_steps
+from synth.templates.template import Template
 
-__all__ = [
-    "FOOTER",
-    "GAUGE",
-    "MARGIN",
-    "OVERLAP",
-    "Page",
-    "Paper",
-    "Picture",
-    "Tile",
-    "clipped",
-    "cross",
-    "footer",
-    "frame",
-    "gauge",
-    "laid_out",
-    "note_page",
-    "pages_of",
-    "paper_named",
-    "tiles_across",
-    "tiles_of",
-]
+__all__ = ["Page", "Paper", "Picture", "gauge", "laid_out", "pages_of", "paper_named"]
 
 
 MARGIN = 10.0
@@ -320,6 +301,12 @@ def _holds(area: tuple[float, float, float, float], at: Point) -> bool:
     return area[0] <= at[0] <= area[2] and area[1] <= at[1] <= area[3]
 
 
+_PRINTING = "Print at 100 %, not fitted to the page, and measure the gauge: it is 100 mm long."
+_TILES = "Lay the pages of a piece together, crosses of one name over each other, and tape them."
+_STEP_SIZE, _LINE = 3.6, 5.2
+"""Height of letters, and from line to line, millimetres."""
+_LETTER = 0.5
+"""Width of a letter in the mean, in units of its height."""
 _TITLE = 5.0
 """Height of the letters of the title, millimetres."""
 _AIR = 6.0
@@ -338,7 +325,7 @@ def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | N
     wide, high = paper.width - 2 * MARGIN, paper.height - 2 * MARGIN
     top = MARGIN + high
     heading = [Text((MARGIN, top - _TITLE / 2), title, _TITLE, middle=False)] if title else []
-    texts, taken = written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
+    texts, taken = _written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
     placed = None
     if picture is not None:
         room = max(high - _TITLE - 2 * _AIR - taken, FOOTER)
@@ -355,6 +342,24 @@ _MOST_PAGES = 500
 """Largest number of pages: more are a mistake."""
 _LONGEST_TITLE = 40
 _Laid = list[tuple[Piece, float, float]]
+
+
+def _written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
+    """Return steps as lines of text, and the height that they take.
+
+    `corner` is (left, top) and `width` the longest line; all in millimetres.
+    """
+    letters = int(width / (_LETTER * _STEP_SIZE))
+    lines: list[str] = []
+    for number, step in enumerate(steps, start=1):
+        first, rest = f"{number}. ", " " * 5
+        lines += wrap(step, letters, initial_indent=first, subsequent_indent=rest)
+    left, top = corner
+    texts = [
+        Text((left, top - (number + 0.5) * _LINE), line, _STEP_SIZE, middle=False)
+        for number, line in enumerate(lines)
+    ]
+    return texts, len(lines) * _LINE
 
 
 def pages_of(template: Template, paper: Paper) -> list[Page]:
@@ -375,7 +380,7 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     if not template.steps:
         return pages
     tiled = any(isinstance(content, Tile) for content in sheets)
-    steps = [PRINTING, *([TILES] if tiled else []), *template.steps]
+    steps = [_PRINTING, *([_TILES] if tiled else []), *template.steps]
     upright = min(paper, paper.turned(), key=lambda one: one.width)
     return [*pages, note_page(upright, plain(template.title, _LONGEST_TITLE), steps, template.picture)]
 

@@ -304,9 +304,9 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
         else:
             loose += 1
     polygons = [shapely.Polygon(places[list(face)]) for face in sheet.faces]
-    told = [numbered(flat, "flat edge")] if flat else []
-    told += [f"{numbered(loose, 'line')} between no panels"] if loose else []
-    return Piece(tuple(cut_once(strokes)), (), put_together(polygons)), tuple(told)
+    not_shown = [numbered(flat, "flat edge")] if flat else []
+    not_shown += [f"{numbered(loose, 'line')} between no panels"] if loose else []
+    return Piece(tuple(cut_once(strokes)), (), put_together(polygons)), tuple(not_shown)
 
 
 def _kind(letter: str, faces: int) -> Kind | None:

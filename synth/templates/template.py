@@ -11,7 +11,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import isfinite
-from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,30 +35,22 @@ from synth.motion.configuration import Configuration
 from synth.moving.made import configuration_of, sheet_of
 from synth.templates.hinges import Hinges, with_hinges
 from synth.templates.nets import CutNets, Joins, pieces_of_panels
-from synth.templates.pieces import Kind, Piece, Text, is_laid_out, piece_of_flat_sheet
+from synth.templates.pieces import Kind, Piece, is_laid_out, piece_of_flat_sheet
 
 if TYPE_CHECKING:
     from synth.realisation.realised import Kind as RealisedKind
 
 __all__ = [
     "GREATEST",
-    "PRINTING",
-    "TABS",
-    "TILES",
     "Template",
-    "folded_picture",
     "folded_pose",
     "linkage_on_a_surface",
     "millimetres",
     "panels_of_thing",
     "pictured",
     "scale_of",
-    "steps_of_folds",
-    "steps_of_hinges",
-    "steps_of_joins",
     "template_of",
     "unit_of",
-    "written_steps",
 ]
 
 
@@ -116,17 +107,11 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     return factor
 
 
-PRINTING = "Print at 100 %, not fitted to the page, and measure the gauge: it is 100 mm long."
-TILES = "Lay the pages of a piece together, crosses of one name over each other, and tape them."
 _FOLDS: dict[Kind, tuple[str, str, str]] = {
     "MOUNTAIN": ("mountain", "mountains", "red, dash and dot: away from you"),
     "VALLEY": ("valley", "valleys", "blue, dashes: towards you"),
     "CREASE": ("other crease", "other creases", "magenta, dots: either way"),
 }
-_SIZE, _LINE = 3.6, 5.2
-"""Height of letters, and from line to line, millimetres."""
-_LETTER = 0.5
-"""Width of a letter in the mean, in units of its height."""
 
 
 def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
@@ -177,23 +162,6 @@ def steps_of_hinges(hinges: Hinges | None) -> list[str]:
         "M to be folded away from you, V towards you.",
     }
     return [steps[hinges.kind]]
-
-
-def written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
-    """Return steps as lines of text, and the height that they take.
-
-    `corner` is (left, top) and `width` the longest line; all in millimetres.
-    """
-    letters = int(width / (_LETTER * _SIZE))
-    lines: list[str] = []
-    for number, step in enumerate(steps, start=1):
-        first, rest = f"{number}. ", " " * 5
-        lines += wrap(step, letters, initial_indent=first, subsequent_indent=rest)
-    left, top = corner
-    texts = [
-        Text((left, top - (number + 0.5) * _LINE), line, _SIZE, middle=False) for number, line in enumerate(lines)
-    ]
-    return texts, len(lines) * _LINE
 
 
 _MOST = 60
@@ -437,13 +405,13 @@ def panels_of_thing(
 
 
 def linkage_on_a_surface(
-    thing: SurfaceLinkage | OrderOnCircle, *, surface: Surface | None = None, number: int | None = None
+    linkage: SurfaceLinkage | OrderOnCircle, *, surface: Surface | None = None, number: int | None = None
 ) -> OnSurface:
     """Return a linkage, or the cyclic order of a conical candidate, on one of its surfaces.
 
     `surface` is for azimuths; `number`, from 1, chooses a surface of link angles or lengths. Raise
     UnsolvableError if the linkage lies on none, on several without a choice, or the chosen one does not exist.
     """
-    if isinstance(thing, OrderOnCircle):
-        return OnSurface(thing.chain, list(thing.azimuths), surface)
-    return surface_of_number(linkage_on_surfaces(thing, surface), number, thing.kind)
+    if isinstance(linkage, OrderOnCircle):
+        return OnSurface(linkage.chain, list(linkage.azimuths), surface)
+    return surface_of_number(linkage_on_surfaces(linkage, surface), number, linkage.kind)

@@ -23,7 +23,7 @@ from graphs.mechanism.sheet import COLLINEAR, FLAT, Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
 from synth.templates.pieces import lies_over
 
-__all__ = ["Net", "Panels", "Plane", "laid_across", "nets_of", "panels_of", "plane_of_panel"]
+__all__ = ["Net", "Panels", "Plane", "laid_across", "nets_of", "panels_of"]
 
 
 @dataclass(frozen=True)

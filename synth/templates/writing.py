@@ -19,7 +19,7 @@ from synth.templates.pages import Page, Paper, Picture, gauge, laid_out, pages_o
 from synth.templates.pieces import LOOKS, Piece, Stroke, Text
 from synth.templates.template import Template
 
-__all__ = ["check_reportlab", "check_template", "dxf_of_template", "pdf_of_pages", "svg_of_page", "write_template"]
+__all__ = ["check_template", "svg_of_page", "write_template"]
 
 
 _BELOW = -8.0
