@@ -78,7 +78,7 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     assert "'sky' is no link; expected one of 0, 1, 2, 3, 4, 5" in result.stderr
     stephenson = data / "wiener" / "stephenson.json"
     assert (
-        "needs --ground LINK and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
+        "requires --ground LINK, and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
     )
     words = ("reduce", stephenson, "--rule", "assur", "--ground", 0, "--input", 0)
     out = run(*words).stdout
@@ -139,7 +139,7 @@ def test_an_edited_pattern_is_a_pattern(data, tmp_path):
             ["--add-crease", "0.3,0.1:2"],
             "the nearest are vertex 9 (0.585786, 0) and edge 0 (V) from vertex 0 (0, 0)",
         ),
-        (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease is for crease patterns"),
+        (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease requires a crease pattern"),
     ],
 )
 def test_edits_of_patterns_that_cannot_be(words, message, data):

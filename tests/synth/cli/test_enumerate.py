@@ -118,10 +118,10 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         ("--links 8 --dof 1 --assortment 4;4", "is not a list of numbers such as 4,2"),
         ("--links 8 --dof 1 --symmetry 4...", "neither a number nor a range such as 2..4"),
         ("--links 8 --dof 1 --symmetry 4..2", "the range 4 to 2; expected the smaller number first"),
-        ("--links 8 --dof 1 --method orbits", "add --count"),
-        ("--links 8 --dof 1 --resume", "--resume needs the store to go on with"),
+        ("--links 8 --dof 1 --method orbits", "--method requires --count"),
+        ("--links 8 --dof 1 --resume", "--resume requires -o FILE.sqlite"),
         ("--links 8 --dof 1 --json -o x.g6", "-o and --json exclude each other"),
-        ("--links 8 --dof 1 --count -o x.g6", "--count keeps what it has counted in a store: name a .sqlite file"),
+        ("--links 8 --dof 1 --count -o x.g6", "--count keeps its counts in a store only"),
         ("--links 8 --dof 1 -o chains.xyz", "expected one of .csv .g6 .jsonl .parquet .sqlite, or a folder"),
         (
             "--links 8 --dof 1 -o no/such/chains.g6",
@@ -211,7 +211,7 @@ def test_enumerate_addenda(tmp_path, data):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["sc", "--links", 8, "--dof", 1, "--embeddings"], "add --count"),
+        (["sc", "--links", 8, "--dof", 1, "--embeddings"], "--method and --embeddings require --count"),
         (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma counts"),
         (["sc", "--links", 22, "--dof", 1], "9 at most"),
         (["sc", "--links", 8, "--dof", 1, "--per-chain", "--count"], "synth enumerate chains --planar"),

@@ -107,7 +107,7 @@ def test_four_bars_and_their_motion(data, tmp_path):
     moved, asked = read_orientations(motion).quaternions[::7], read_orientations(given).quaternions
     assert np.allclose(np.abs((moved * asked).sum(axis=1)), 1.0)
     out = run("fourbar", "--orientations", given, "--usable", "--best", 3).stdout
-    assert re.search(r"12 four-bar\(s\), \d without defects", out)
+    assert re.search(r"12 four-bars, \d without defects", out)
     assert "Grashof crank-rocker" in out
     assert "branch" not in out
     out = run("fourbar", "--orientations", given, "--motion", motion, "--force").stdout

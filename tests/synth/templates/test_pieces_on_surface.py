@@ -159,7 +159,7 @@ def test_a_row_of_candidates_prints_with_the_angle_that_is_asked_for(tmp_path, d
     assert "--lambda" in run(*words, code=2).stderr
     assert "of linkages on cones only" not in run(*words, "--lambda", 25).stderr
     assert (tmp_path / "a-note.svg").exists()
-    assert "--as: of types" in run(*words, "--as", "space", "--force", code=2).stderr
+    assert "--as are for types" in run(*words, "--as", "space", "--force", code=2).stderr
     assert "--slots: for panels only" in run(*words, "--slots", "--force", code=2).stderr
 
 

@@ -81,4 +81,4 @@ def test_solids_of_a_linkage_are_written(tmp_path, data):
         words = ("convert", stephenson, tmp_path / f"a.{suffix}", "--size", 80, "--thickness", 1)
         assert "hinges" in run(*words).output
         assert (tmp_path / f"a.{suffix}").stat().st_size > 1000
-    assert "of panels" in run("convert", stephenson, tmp_path / "b.stl", "--scale", 3, code=2).output
+    assert "for panels" in run("convert", stephenson, tmp_path / "b.stl", "--scale", 3, code=2).output
