@@ -78,7 +78,8 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     assert "'sky' is no link; expected one of 0, 1, 2, 3, 4, 5" in result.stderr
     stephenson = data / "wiener" / "stephenson.json"
     assert (
-        "requires --ground LINK, and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
+        "requires --ground LINK, and an --input JOINT"
+        in run("reduce", "--rule", "assur", stephenson, code=2).stderr
     )
     words = ("reduce", stephenson, "--rule", "assur", "--ground", 0, "--input", 0)
     out = run(*words).stdout
