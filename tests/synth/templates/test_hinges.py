@@ -143,7 +143,7 @@ def test_flat_edges_and_slits_stay_as_they_are():
 
 @pytest.mark.parametrize(
     ("kind", "width", "told"),
-    [("gap", 260, "narrower than its hinges of 260 mm"), ("living", 110, "too short for a hinge|narrower")],
+    [("gap", 260, "no room for hinges of 260 mm"), ("living", 110, "too short for a hinge|narrower")],
 )
 def test_what_has_no_room_is_refused(kind, width, told):
     with pytest.raises(UnsolvableError, match=told):

@@ -149,7 +149,7 @@ def test_paper_of_a_stated_size_has_place_for_the_gauge(wide):
 
 def test_what_cannot_be_printed_is_refused_in_a_line(bird, tmp_path, data):
     assert "2 x 2 mm" in run("template", bird, "-o", tmp_path / "a.pdf", code=2).stderr
-    assert "500 of them" in run("template", bird, "--size", 9000, "-o", tmp_path / "a.pdf", code=2).stderr
+    assert "at most 500" in run("template", bird, "--size", 9000, "-o", tmp_path / "a.pdf", code=2).stderr
     assert "Letter" in run("template", bird, "--page", "B7", "-o", tmp_path / "a.pdf", code=2).stderr
     assert (
         "-1 is out of range; expected 1e-50 to 1e+50"
@@ -158,7 +158,7 @@ def test_what_cannot_be_printed_is_refused_in_a_line(bird, tmp_path, data):
     assert ".dxf" in run("template", bird, "-o", tmp_path / "a.doc", code=2).stderr
     assert list(tmp_path.iterdir()) == []
     bennett = data / "linkages" / "bennett.json"
-    assert "needs panels" in run("template", bennett, "-o", tmp_path / "a.pdf", code=2).stderr
+    assert "requires panels" in run("template", bennett, "-o", tmp_path / "a.pdf", code=2).stderr
 
 
 def test_cuts_are_what_has_one_panel_and_flat_edges_are_told():

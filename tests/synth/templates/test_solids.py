@@ -224,7 +224,7 @@ def test_the_command_says_what_is_of_solids_only_and_what_is_not_held(motion, tm
     run("convert", motion, tmp_path / "b.obj", "--thickness", 1, "--size", 90)
     assert "o panel_0" in (tmp_path / "b.obj").read_text(encoding="utf-8")
     assert "--gap: for solids only" in run("convert", motion, tmp_path / "a.svg", "--gap", 1, code=2).stderr
-    assert "expected a larger scale" in run("convert", motion, tmp_path / "c.stl", code=2).stderr
+    assert "try a larger --scale" in run("convert", motion, tmp_path / "c.stl", code=2).stderr
 
 
 @pytest.mark.parametrize(

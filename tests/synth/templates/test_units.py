@@ -32,9 +32,9 @@ def square(tmp_path):
 def test_edges_are_as_long_as_the_unit_of_the_file_says(unit, side, square, tmp_path):
     words = ("template", square(unit), "--page", "200x200", "--no-note", "-o", tmp_path / "a.svg")
     if side < 10:
-        assert "mm: expected a larger scale" in run(*words, code=2).stderr
+        assert "mm; try a larger --scale" in run(*words, code=2).stderr
     elif side > 1000:
-        assert "500 of them" in run(*words, code=2).stderr
+        assert "at most 500" in run(*words, code=2).stderr
     else:
         assert run(*words).stderr == ""
         assert lengths(lines_of_svg(tmp_path / "a.svg")[0]["CUT"]) == pytest.approx([side] * 4, abs=0.01)
