@@ -21,7 +21,7 @@ from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.scene.frame import signed
 from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Shape
 from synth.drawing.space.poses import pose_scenes
-from synth.templates.lines import Kind, Piece
+from synth.templates.pieces import Kind, Piece
 from synth.templates.template import template_of
 
 __all__ = ["DRAWINGS"]

@@ -1,6 +1,6 @@
 """``python -m synth.cli``: the ``synth`` command, as a process of its own.
 
-What takes time to import is imported where signals that stop are heard.
+Slow imports happen inside the function that handles signals.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ __all__ = ["run"]
 
 
 def run() -> None:
-    """Run the command; say so once if code has to be compiled, which takes longer than most answers."""
+    """Run the command; print one line if code has to be compiled, which takes longer than most answers."""
     try:
         with interruptible(ending=True):
             _run_command()
-    except KeyboardInterrupt as stop:  # where there is no command yet, or none any more
+    except KeyboardInterrupt as stop:  # before the command begins, or after its end
         sys.stderr.write("stopped\n")
         sys.exit(getattr(stop, "status", 130))
 
@@ -29,7 +29,7 @@ def run() -> None:
 def _run_command() -> None:
     from enumerate.machine_code.notice import on_compiling
     from synth.cli.main import main
-    from synth.cli.streams import guard_output
+    from synth.cli.output import guard_output
 
     guard_output()
     on_compiling(_say_compiling)
@@ -41,8 +41,8 @@ def _say_compiling(folder: Path | None) -> None:
 
     from synth.cli.output import plain
 
-    kept = f"kept in {plain(folder, 200)}" if folder else "kept nowhere: name a folder of yours in SYNTHEDRA_CACHE"
-    over = "\r" if sys.stderr.isatty() else ""  # what is shown of progress is on the same line, and shorter
+    kept = f"kept in {plain(folder, 200)}" if folder else "not kept; try a folder of yours in SYNTHEDRA_CACHE"
+    over = "\r" if sys.stderr.isatty() else ""  # the line of progress is overwritten: it is shorter
     click.echo(f"{over}synth: compiling code for the first use, up to a minute ({kept})", err=True)
 
 

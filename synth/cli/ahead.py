@@ -1,4 +1,4 @@
-"""``python -m synth.cli.ahead``: compile on all cores what the first enumerations need, before anybody waits."""
+"""``python -m synth.cli.ahead``: compile the code of enumerations on all cores, before their first use."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from time import monotonic
 from typing import Any
 
 from enumerate.machine_code.folders import writable_base
+from graphs.errors import numbered
 from synth.cli.main import main
 from synth.cli.runner import cores
 
@@ -30,7 +31,7 @@ _SMALL = (
     "enumerate scd --links 4 --dof 1 --max-degree 4 --count",
     "cone behaviour --angles 120,95,45,85",
 )
-"""Commands that are soon done once they are compiled, and call what larger ones call.
+"""Commands that are fast once their code is compiled, and run the code of larger ones.
 
 The first three take longest and have little in common: the SCD graphs of open chains need no list of SC graphs.
 With eight links there are three loops, made of two.
@@ -44,18 +45,18 @@ def compile_ahead() -> int:
     """
     with ProcessPoolExecutor(cores()) as pool:
         try:
-            with _deaf_to_interrupts():  # so are the processes that are started here
+            with _deaf_to_interrupts():  # the processes that are started here inherit it
                 counted = [*(pool.submit(_run, command) for command in _SMALL), pool.submit(_positions)]
             return sum(new.result() for new in counted)
         except KeyboardInterrupt:
             for worker in active_children():
-                worker.kill()  # what it has compiled is kept; in the midst of a function it hears nothing else
+                worker.kill()  # its finished functions are kept; while it compiles it handles no other signal
             raise
 
 
 @contextmanager
 def _deaf_to_interrupts() -> Iterator[None]:
-    """Put off Ctrl-C: it would be heard where a pool is half made."""
+    """Put off Ctrl-C, which would interrupt a pool while it starts."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     try:
         yield
@@ -74,7 +75,7 @@ def _run(command: str) -> int:
 
 
 def _positions() -> int:
-    """Compile what counts positions, for which commands need a file."""
+    """Compile the search for assembly modes, for which commands need a file."""
     from synth.assembly.found import positions
     from synth.patterns.rings.spherical import spherical_ring
 
@@ -87,7 +88,7 @@ def _compiled() -> int:
     from enumerate.kernel.compiled import kernels
 
     dispatchers: list[Any] = list(kernels)
-    return sum(sum(one.stats.cache_misses.values()) for one in dispatchers)
+    return sum(sum(dispatcher.stats.cache_misses.values()) for dispatcher in dispatchers)
 
 
 @contextmanager
@@ -99,20 +100,18 @@ def _silent() -> Iterator[None]:
 def _main() -> None:
     kept = writable_base()
     if kept is None:
-        sys.exit(
-            "nothing is compiled ahead: there is no folder to keep it in; name one of yours in SYNTHEDRA_CACHE"
-        )
+        sys.exit("nothing is compiled ahead: no folder to keep it in; try a folder of yours in SYNTHEDRA_CACHE")
     number = cores()
     begin = monotonic()
     try:
         print(
-            f"Compiling once what enumerations need, on {number} core{'s' * (number > 1)}: a minute or two. "
-            "All else is ready: leave this to itself, or stop it with Ctrl-C.",
+            f"Compiling the code of enumerations once, on {numbered(number, 'core')}: a minute or two. "
+            "All else is ready: wait, or stop this with Ctrl-C.",
             flush=True,
         )
         new = compile_ahead()
     except KeyboardInterrupt:
-        sys.exit("stopped; what is left is compiled when it is asked for")
+        sys.exit("stopped; the rest is compiled at its first use")
     print(f"{new or 'no'} functions were new; {monotonic() - begin:.0f} s; kept in {kept}")
 
 

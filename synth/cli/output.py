@@ -1,18 +1,22 @@
-"""What the subcommands share: printing tables, JSON and safe text."""
+"""What commands print: answers, tables, JSON, progress; standard output that cannot be written."""
 
 from __future__ import annotations
 
+import io
 import json
+import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
-from graphs.printing import UNWRAPPED, console_for, plain, rich_table as table
+from graphs.errors import SynthedraError
+from graphs.plain_text import plain
+from graphs.printing import UNWRAPPED, console_for, rich_table as table
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,17 +25,19 @@ if TYPE_CHECKING:
     from graphs.printing import Printed
 
 __all__ = [
-    "FORCE",
-    "LOSSY",
-    "PATIENCE",
+    "OutputError",
+    "ReaderGoneError",
     "about",
     "check_output",
     "check_picture",
     "console",
     "entries",
+    "guard_output",
     "plain",
     "print_answer",
     "print_json",
+    "print_report",
+    "progress_line",
     "shortened",
     "table",
     "tell_lost",
@@ -39,24 +45,22 @@ __all__ = [
 ]
 
 _FIGURES = 12
-"""Of numbers in JSON; rows of enumerations have no more."""
-
-FORCE = click.option(
-    "--force", is_flag=True, help="Overwrite an existing file, but never a folder, symbolic link or device."
-)
-"""The option of every command that writes a file."""
-
-LOSSY = click.option("--lossy", is_flag=True, help="Write even if the output reads back as another type.")
-"""The option of every command that writes a mechanism."""
-
-PATIENCE = 2.0
+"""Significant figures of numbers in JSON; rows of enumerations have no more."""
+_PATIENCE = 2.0
 """Seconds before progress is shown."""
+
+
+class _Answer(Protocol):
+    """An answer with a text and JSON keys."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
 
 
 @contextmanager
 def about(label: str) -> Iterator[None]:
-    """Put the file's name before what is wrong with its mechanism."""
-    from graphs.errors import FileError, InvariantError, SynthedraError
+    """Put the name of a file before the errors of its mechanism."""
+    from graphs.errors import FileError, InvariantError
 
     try:
         yield
@@ -69,7 +73,7 @@ def about(label: str) -> Iterator[None]:
 
 
 def check_output(path: str | None, *, force: bool) -> None:
-    """Refuse an output that is not to be replaced before anything is computed for it; None is no output."""
+    """Refuse an output that must not be replaced, before anything is computed for it; None is no output."""
     from graphs.files.atomic import check_place
 
     if path is not None:
@@ -77,7 +81,7 @@ def check_output(path: str | None, *, force: bool) -> None:
 
 
 def check_picture(path: str | None, *, force: bool) -> None:
-    """Refuse a picture that cannot be written before anything is computed for it; None is no picture."""
+    """Refuse a picture that cannot be written, before anything is computed for it; None is no picture."""
     if path is not None:
         from synth.drawing.scene import writing
 
@@ -104,6 +108,14 @@ def print_answer(answer: Printed) -> None:
         out.print(block)
 
 
+def print_report(file: str, answer: _Answer, *, as_json: bool) -> None:
+    """Print the answer about a file as text, or as JSON with the name of the file."""
+    if as_json:
+        print_json({"file": file, **answer.to_json()})
+    else:
+        click.echo(str(answer))
+
+
 def print_json(value: Any) -> None:
     """Print one JSON document on standard output, numbers with the digits that they are good for."""
     click.echo(json.dumps(shortened(value), indent=2, allow_nan=False))
@@ -114,8 +126,8 @@ def shortened(value: Any) -> Any:
     if isinstance(value, float):
         return float(f"{value:.{_FIGURES}g}")
     if isinstance(value, dict):
-        return {key: shortened(one) for key, one in value.items()}
-    return [shortened(one) for one in value] if isinstance(value, list | tuple) else value
+        return {key: shortened(item) for key, item in value.items()}
+    return [shortened(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 def console() -> Console:
@@ -126,23 +138,104 @@ def console() -> Console:
     return console_for(None, None if sys.stdout.isatty() else UNWRAPPED)
 
 
-def entries(files: Sequence[str], failures: list[str], patience: float = PATIENCE) -> Iterator[Entry]:
-    """Yield the mechanisms of files; what is wrong with a file that cannot be read is added to the failures.
+@contextmanager
+def progress_line(patience: float = _PATIENCE) -> Iterator[Callable[[str], None]]:
+    """Yield a function that shows progress on one line of a terminal, after some seconds; the line is wiped."""
+    start, shown = monotonic(), False
 
-    Where it takes longer than some seconds, the patience, a terminal shows how far it has come.
-    """
+    def show(progress: str) -> None:
+        nonlocal shown
+        if sys.stderr.isatty() and monotonic() - start > patience:
+            click.echo(f"\r{progress}", nl=False, err=True)
+            shown = True
+
+    try:
+        yield show
+    finally:
+        if shown:
+            click.echo("\r" + " " * 40 + "\r", nl=False, err=True)
+
+
+def entries(files: Sequence[str], failures: list[str], patience: float = _PATIENCE) -> Iterator[Entry]:
+    """Yield the mechanisms of files, with progress; the error of a file that cannot be read joins the failures."""
     from graphs.errors import FileError
     from graphs.files.formats import read_all
     from synth.cli.reading import stated
 
-    start, shown = monotonic(), False
-    for number, file in enumerate(files, start=1):
+    with progress_line(patience) as show:
+        for number, file in enumerate(files, start=1):
+            try:
+                yield from read_all(file, **stated())
+            except FileError as error:
+                failures.append(str(error))
+            show(f"{number} of {len(files)} files")
+
+
+class OutputError(SynthedraError):
+    """Standard output cannot be written."""
+
+
+class ReaderGoneError(OutputError):
+    """Who should read standard output has stopped reading, as ``head`` does: no reason to complain."""
+
+    status = 128 + 13
+    """The exit status of what the signal SIGPIPE stops."""
+
+
+class _Guarded(io.RawIOBase):
+    """The bytes of standard output (a descriptor, None if there is none).
+
+    Its failures are reported once, as errors of their own, not of files.
+    """
+
+    def __init__(self, descriptor: int | None) -> None:
+        super().__init__()
+        self._descriptor = descriptor
+        self._failed = False
+
+    def writable(self) -> bool:
+        """Yes."""
+        return True
+
+    def isatty(self) -> bool:
+        """Return whether it is a terminal."""
+        return self._descriptor is not None and os.isatty(self._descriptor)
+
+    def fileno(self) -> int:
+        """Return the descriptor."""
+        if self._descriptor is None:
+            raise io.UnsupportedOperation("standard output is closed")
+        return self._descriptor
+
+    def write(self, data: Any) -> int:
+        """Write; what is left after a failure is dropped.
+
+        Raise OutputError at the first failure, ReaderGoneError if there is no reader any more.
+        """
+        if self._failed:
+            return len(data)
         try:
-            yield from read_all(file, **stated())
-        except FileError as error:
-            failures.append(str(error))
-        if sys.stderr.isatty() and monotonic() - start > patience:
-            click.echo(f"\r{number} of {len(files)} files", nl=False, err=True)
-            shown = True
-    if shown:
-        click.echo("\r" + " " * 40 + "\r", nl=False, err=True)
+            if self._descriptor is None:
+                raise OSError(0, "it is closed")
+            return os.write(self._descriptor, data)
+        except OSError as error:
+            self._failed = True
+            if isinstance(error, BrokenPipeError):
+                raise ReaderGoneError("standard output: nobody reads it any more") from None
+            raise OutputError(f"standard output: cannot be written: {error.strerror}") from None
+
+
+def guard_output() -> None:
+    """Let standard output raise `OutputError` where it cannot be written; consoles of Windows stay as they are."""
+    if sys.platform == "win32":
+        return
+    if sys.stdout is None:  # closed before we began: no file may get its descriptor
+        while (low := os.open(os.devnull, os.O_RDWR)) <= 2:
+            pass
+        os.close(low)
+        descriptor, encoding, errors = None, "utf-8", "strict"
+    else:
+        descriptor, encoding, errors = sys.stdout.fileno(), sys.stdout.encoding, sys.stdout.errors or "strict"
+    raw = _Guarded(descriptor)
+    buffered = io.BufferedWriter(raw)
+    sys.stdout = io.TextIOWrapper(buffered, encoding, errors, line_buffering=raw.isatty())

@@ -1,24 +1,45 @@
-"""Options on how a drawing is read, shared by the commands that take one; and reading by them.
+"""Reading the files that commands take, by the options on drawings and on the precision of coordinates.
 
-They are kept with the context of the command, where `read` finds them: no command hands them on.
+The values of these options are kept with the context of the command, where `read` and `precise` find them: no
+command hands them on.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from graphs.plain_text import plain
+from synth.cli.options import LENGTH_OR_NONE
 
 if TYPE_CHECKING:
+    from enumerate.strings.panel_strings import ChainString
     from graphs.convert.table import Mechanism
+    from synth.drawing.mechanisms.orders import OrderOnCircle
 
-__all__ = ["COLOUR", "DRAWN", "LAYER", "LOOK", "keep_looks", "read", "stated"]
+__all__ = [
+    "COLOUR",
+    "DRAWN",
+    "LAYER",
+    "LOOK",
+    "MODE",
+    "PRECISION",
+    "ROW",
+    "NamedMechanism",
+    "keep_looks",
+    "precise",
+    "precise_sheet",
+    "read",
+    "read_named",
+    "stated",
+]
 
-_KEY = "synthedra.stated"
+_LOOKS, _PRECISION = "synthedra.stated", "synth.precision"
+"""Keys under which the values of options are kept with the context."""
 _COMMA = re.compile(r",(?=[A-Za-z-]=)")
 """Between two pairs: colours such as rgb(0, 0, 255) have commas of their own."""
 
@@ -27,8 +48,8 @@ LOOK = "M=#c1272d,..."
 
 
 def _keep(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
-    """Keep pairs LETTER=TEXT for what will be read."""
-    kept = ctx.meta.setdefault(_KEY, {}).setdefault(what, {})
+    """Keep pairs LETTER=TEXT for the drawings that will be read."""
+    kept = ctx.meta.setdefault(_LOOKS, {}).setdefault(what, {})
     for word in (part for text in words for part in _COMMA.split(text)):
         letter, equals, text = word.partition("=")
         if not equals or not text.strip():
@@ -38,38 +59,22 @@ def _keep(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
 
 
 def keep_looks(ctx: click.Context, words: tuple[str, ...]) -> None:
-    """Keep pairs of an assignment and a look for what will be read."""
+    """Keep pairs of an assignment and a look for the drawings that will be read."""
     _keep(ctx, "colours", words)
 
 
-def _colours(ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]) -> None:
-    del parameter
-    keep_looks(ctx, words)
-
-
-def _layers(ctx: click.Context, parameter: click.Parameter, words: tuple[str, ...]) -> None:
-    del parameter
-    _keep(ctx, "layers", words)
-
-
 COLOUR = click.option(
-    "--colour",
-    multiple=True,
-    metavar=LOOK,
-    expose_value=False,
-    callback=_colours,
+    "--colour", multiple=True, metavar=LOOK, expose_value=False,
+    callback=lambda ctx, _parameter, words: keep_looks(ctx, words),
     help="For a drawing (.svg, .dxf): assignment of the lines of a colour, a dash pattern or "
     "both ('V=dashed #000000'). M mountain, V valley, B border, C cut, F flat, U "
     "unassigned, - leaves them out.",
-)
+)  # fmt: skip
 LAYER = click.option(
-    "--layer",
-    multiple=True,
-    metavar="M=NAME,...",
-    expose_value=False,
-    callback=_layers,
+    "--layer", multiple=True, metavar="M=NAME,...", expose_value=False,
+    callback=lambda ctx, _parameter, words: _keep(ctx, "layers", words),
     help="For a drawing (.svg, .dxf): assignment of the lines of a layer or group, by the same letters.",
-)
+)  # fmt: skip
 
 
 def DRAWN(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -77,19 +82,105 @@ def DRAWN(command: Callable[..., Any]) -> Callable[..., Any]:
     return COLOUR(LAYER(command))
 
 
+def _keep_precision(ctx: click.Context, _parameter: click.Parameter, length: float | None) -> None:
+    ctx.meta[_PRECISION] = length
+
+
+PRECISION = click.option(
+    "--precision", type=LENGTH_OR_NONE, metavar="LENGTH", expose_value=False,
+    callback=_keep_precision,
+    help="Largest error of a coordinate, in the unit of the file; 0 means exact. By default it "
+    "is estimated from the file.",
+)  # fmt: skip
+"""The option of commands that take files with coordinates; `precise` applies it."""
+
+ROW = click.option(
+    "--row", type=click.IntRange(min=1), metavar="N",
+    help="For a store, a list or a folder: number of the row to take, counted from 1.",
+)  # fmt: skip
+"""The option of commands that take one mechanism of many."""
+
+MODE = click.option(
+    "--mode", metavar="SD...", help="For an R/- string: its mode, as `synth enumerate strings --modes` lists it."
+)
+"""The option of commands that take R/- strings."""
+
+
 def stated() -> dict[str, Any]:
-    """Return what was stated of drawings, as keywords of `graphs.files.read`."""
+    """Return the values of --colour and --layer, as keywords of `graphs.files.read`."""
     context = click.get_current_context(silent=True)
-    kept = {} if context is None else context.meta.get(_KEY, {})
+    kept = {} if context is None else context.meta.get(_LOOKS, {})
     return {what: pairs for what, pairs in kept.items() if pairs}
 
 
 def read(file: str, *, warn: bool = True) -> Mechanism:
-    """Read a file as is stated; on standard error, say what was left out of a drawing, unless the answer does."""
+    """Read a file by the options on drawings; with `warn`, warn on stderr of lines that are left out."""
     from graphs.files.formats import read as read_file
 
-    thing = read_file(file, **stated())
-    reading = getattr(thing, "reading", None)
+    mechanism = read_file(file, **stated())
+    reading = getattr(mechanism, "reading", None)
     if warn and reading is not None and reading.warning:
         click.echo(f"{plain(file, 4096)}: {plain(reading.warning, 1000)}", err=True)
-    return thing
+    return mechanism
+
+
+def _stated_length() -> float | None:
+    """Return the length of --precision, None without it."""
+    length: float | None = click.get_current_context().meta.get(_PRECISION)
+    return length
+
+
+def precise(mechanism: Mechanism) -> Any:
+    """Return a mechanism with the precision of --precision: a crease pattern, or the configuration of another."""
+    from synth.moving.made import with_precision
+
+    return with_precision(mechanism, _stated_length())
+
+
+def precise_sheet(mechanism: Any) -> Any:
+    """Return a crease pattern with the precision of --precision, which is refused for any other mechanism."""
+    from graphs.mechanism.precision import stated as with_stated_precision
+    from graphs.mechanism.sheet import Sheet
+
+    length = _stated_length()
+    if length is None:
+        return mechanism
+    if not isinstance(mechanism, Sheet):
+        raise click.UsageError("--precision applies to the coordinates of a crease pattern only")
+    return with_stated_precision(mechanism, length)
+
+
+@dataclass(frozen=True, slots=True)
+class NamedMechanism:
+    """The mechanism of an argument, its name there (a file, an id, a string), and the mode of an R/- string."""
+
+    mechanism: Mechanism | ChainString | OrderOnCircle
+    name: str
+    mode: str | None = None
+
+
+def read_named(argument: str, row: int | None = None, mode: str | None = None) -> NamedMechanism:
+    """Return the mechanism that an argument names: a file, an id ``k1:...`` or ``m1:...``, an R/- string.
+
+    With a row, from 1, it is one of a store, a list or a folder. The mode is that of an R/- string; a row of a
+    list of modes has its own. Raise click.UsageError if a row is required and missing, or the other way round;
+    FileError if the file cannot be read, or has no such row.
+
+    >>> read_named("RR-R-RRR").mechanism
+    ChainString(clusters=(2, 1, 3))
+    """
+    from synth.drawing.catalogue.entries import entry_numbered, is_catalogue
+
+    if is_catalogue(argument):
+        if row is None:
+            raise click.UsageError("a store, a list or a folder requires --row N, the number of one of its rows")
+        entry = entry_numbered(argument, row)
+        return NamedMechanism(entry.mechanism, entry.name, mode or entry.mode)
+    if row is not None:
+        raise click.UsageError("--row requires a store, a list or a folder")
+    if argument and set(argument) <= set("R-"):  # a file so named has no extension, and would not be read
+        from enumerate.strings.panel_strings import ChainString
+
+        name = f"{argument} {mode}" if mode else argument
+        return NamedMechanism(ChainString.parse(argument), name, mode)
+    return NamedMechanism(read(argument), argument, mode)

@@ -1,4 +1,4 @@
-"""What all enumerating subcommands share: the options of the runner, progress, and where rows go."""
+"""The options of the runner, progress, and the sinks of rows, for all subcommands that enumerate."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from graphs.plain_text import LONGEST_CELL
-from synth.cli.output import FORCE, console, plain, print_json, table, tell_written
+from synth.cli.options import FORCE
+from synth.cli.output import console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:
     from enumerate.runner.columns import Column
     from enumerate.runner.job import Job, Progress, Row, Sink
 
 __all__ = [
-    "LimitsType",
     "RunOptions",
+    "check_method",
     "cores",
     "run_count",
     "run_resumable",
@@ -35,28 +36,8 @@ _PATIENCE = 1.0
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-class LimitsType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A number or a range: ``2``, ``2..4``, ``2..``, ``..4``."""
-
-    name = "limits"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return limits."""
-        from enumerate.runner.limits import Limits
-
-        if isinstance(value, Limits):
-            return value
-        low, dots, high = str(value).partition("..")
-        if not dots:
-            high = low
-        numbers = [part for part in (low, high) if part]
-        if not numbers or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in numbers):
-            self.fail(f"{plain(value)!r} is neither a number nor a range such as 2..4, 2.. or ..4", param, ctx)
-        return Limits(int(low or 0), int(high) if high else None)
-
-
 class RunOptions:
-    """How a job is to be run: the values of the options that `runner_options` adds."""
+    """The values of the options that `runner_options` adds."""
 
     def __init__(
         self,
@@ -71,15 +52,13 @@ class RunOptions:
         counting: bool = False,
     ) -> None:
         if resume and force:
-            raise click.UsageError("--resume goes on with a store, --force begins anew: give one of them")
+            raise click.UsageError("--resume and --force exclude each other: continue a store, or replace it")
         if resume and output is None:
-            raise click.UsageError("--resume needs the store to go on with: -o FILE.sqlite")
+            raise click.UsageError("--resume requires -o FILE.sqlite, the store to continue")
         if output is not None and counting and not output.lower().endswith(".sqlite"):
-            raise click.UsageError(
-                "--count keeps what it has counted in a store: name a .sqlite file, or leave out -o"
-            )
+            raise click.UsageError("--count keeps its counts in a store only; try -o FILE.sqlite, or no -o")
         if output is not None and as_json and not counting:
-            raise click.UsageError("give -o or --json, not both")
+            raise click.UsageError("-o and --json exclude each other; try one of them")
         self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
         self.force = force
         self.workers = workers or cores()
@@ -87,12 +66,12 @@ class RunOptions:
 
     @classmethod
     def taken_from(cls, options: dict[str, Any], *, counting: bool = False) -> RunOptions:
-        """Take the runner's own out of the options of a subcommand, which only counts or also lists."""
+        """Take the options of the runner out of those of a subcommand, which counts or lists."""
         names = ("output", "workers", "scheduler", "resume", "quiet", "as_json", "force")
         return cls(*(options.pop(name) for name in names), counting=counting)
 
     def kept_job(self) -> dict[str, Any] | None:
-        """Return the key of the job that is to be gone on with; None where there is none yet."""
+        """Return the key of the job to continue; None if there is none yet."""
         if not self.resume or self.output is None:
             return None
         from enumerate.runner.store import job_in
@@ -131,8 +110,14 @@ def runner_options(function: F) -> F:
     return function
 
 
+def check_method(method: str | None, only_count: bool) -> None:
+    """Refuse a counting method without --count."""
+    if method is not None and not only_count:
+        raise click.UsageError("--method requires --count")
+
+
 def run_count(job: Job, options: RunOptions) -> None:
-    """Run a job that counts, and print the number; what is counted is kept where the options say."""
+    """Run a job that counts, print the number, and keep the counts in the output, if there is one."""
     from enumerate.runner.store import SqliteSink
     from enumerate.runner.totals import CountSink
 
@@ -152,9 +137,9 @@ def run_count(job: Job, options: RunOptions) -> None:
 
 
 def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> None:
-    """Run a job and send its rows where the options say: a file, a JSON list, or a table.
+    """Run a job and send its rows to a file, a JSON list or a table, by the options.
 
-    ``wrapped`` makes of the sink another that does something with the rows before.
+    ``wrapped`` wraps the sink in another that handles the rows before it.
     """
     from enumerate.runner.sinks import RowSink, sink_for
     from graphs.errors import numbered
@@ -170,28 +155,27 @@ def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = la
             tell_written(options.output)
         return
     if options.as_json:
-        found: list[dict[str, Any]] = []
-        _run(
-            job,
-            wrapped(RowSink(lambda names, rows: found.extend(dict(zip(names, row, strict=True)) for row in rows))),
-            options,
-            meter,
-        )
-        print_json(found)
+        objects: list[dict[str, Any]] = []
+
+        def keep(names: tuple[str, ...], rows: list[Row]) -> None:
+            objects.extend(dict(zip(names, row, strict=True)) for row in rows)
+
+        _run(job, wrapped(RowSink(keep)), options, meter)
+        print_json(objects)
         return
     printer = _Printer(job.columns)
     _run(job, wrapped(RowSink(printer.take)), options, meter)
     printer.finish()
 
 
-def run_resumable(job: Job, made: Callable[..., Sink], options: RunOptions) -> None:
-    """Run a job into a sink that keeps what is done: ``made`` takes where to tell of a store, and to look."""
+def run_resumable(job: Job, sink_of: Callable[..., Sink], options: RunOptions) -> None:
+    """Run a job into a sink that keeps finished units: ``sink_of`` takes functions for messages and progress."""
     meter = _Meter.of(options)
-    _run(job, made(tell=meter.tell, looking=meter.look), options, meter, stored=True)
+    _run(job, sink_of(tell=meter.tell, looking=meter.look), options, meter, stored=True)
 
 
 def run_whole(job: Job, sink: Sink, options: RunOptions) -> None:
-    """Run a job into a sink that is whole or not there."""
+    """Run a job into a sink that is written whole or not at all."""
     _run(job, sink, options, _Meter.of(options))
 
 
@@ -217,25 +201,25 @@ class _Meter:
     def __init__(self, silent: bool, *, counting: bool = False) -> None:
         self._silent, self._next, self._width = silent, monotonic() + _PATIENCE, 0
         self.counting = counting
-        self._looked: tuple[float, float] | None = None  # when it began to look through a store, and the part then
+        self._looked: tuple[float, float] | None = None  # time and part when the check of a store began
 
     @classmethod
     def of(cls, options: RunOptions, *, counting: bool = False) -> _Meter:
-        """Return one that shows nothing where nobody would see it, or wants to."""
+        """Return a meter, silent with --quiet or without a terminal."""
         return cls(options.quiet or not sys.stderr.isatty(), counting=counting)
 
     def begin(self) -> None:
-        """Say what is done before there is any progress to show: large jobs take minutes to find their units."""
+        """Show the line before any progress: large jobs take minutes to list their units."""
         if not self._silent:
-            self._write("  0%  finding out what is to be done")
+            self._write("  0%  listing the units of the job")
 
     def look(self, part: float) -> None:
-        """Show how much of a store has been looked through, and how long the rest takes."""
+        """Show the part of a store that has been checked, and the time left."""
         now = monotonic()
         since, seen = self._looked = self._looked or (now, part)
         if self._is_time():
             left = (now - since) * (1 - part) / (part - seen) if part > seen else float("inf")
-            self._write(f"{part:4.0%}  looking through what is stored, {_time(left)} left")
+            self._write(f"{part:4.0%}  checking the store, {_time(left)} left")
 
     def tell(self, line: str) -> None:
         """Print a line that stays."""
@@ -243,11 +227,11 @@ class _Meter:
         click.echo(line, err=True)
 
     def show(self, progress: Progress) -> None:
-        """Show how far it has come, how fast it goes and how long it takes."""
+        """Show the part that is done, the speed, and the time left."""
         if not self._is_time():
             return
         part = progress.weight / progress.total_weight if progress.total_weight else 1.0
-        done = f"{progress.rows:,} rows, {progress.rate:,.0f} a second"
+        done = f"{progress.rows:,} rows, {progress.rate:,.0f} per second"
         if self.counting:
             done = f"{progress.done:,} of {progress.units:,} units counted"
         self._write(f"{part:4.0%}  {done}, {_time(progress.seconds_left)} left")
@@ -278,7 +262,7 @@ def _time(seconds: float) -> str:
 
 
 class _Printer:
-    """Prints a table, or lines parted by tabs where there are too many rows for one; whole files are left out."""
+    """Prints a table, or lines with tabs if there are too many rows for one; leaves out columns of files."""
 
     def __init__(self, columns: Mapping[str, Column]) -> None:
         self._shown = [(i, _text_of(columns[column])) for i, column in enumerate(columns) if column != "mechanism"]
@@ -299,7 +283,7 @@ class _Printer:
             self._kept = []
 
     def finish(self) -> None:
-        """Print the table, if there is one to print; what is the same in all rows goes above it."""
+        """Print the table, unless lines were printed; columns with one value in all rows go above it."""
         if self._streaming:
             return
         if not self._kept:
@@ -314,19 +298,19 @@ class _Printer:
             click.echo("  ".join(f"{self._title(i)} {self._kept[0][i] or '-'}" for i in common))
         left = [i for i in range(len(self._columns)) if i not in common]
         numbers = [self._title(i) for i in left if self._columns[i] in self._numbers]
-        made = table(*map(self._title, left), numbers=numbers)
+        shown = table(*map(self._title, left), numbers=numbers)
         for row in self._kept:
-            made.add_row(*(row[i] for i in left))
-        console().print(made)
+            shown.add_row(*(row[i] for i in left))
+        console().print(shown)
 
     def _title(self, column: int) -> str:
         return self._columns[column].replace("_", " ")
 
 
 def _text_of(column: Column) -> Callable[[Any], str]:
-    """Return what makes the text of a value of a column."""
-    made = _cell if isinstance(column, type) else column.text
-    return lambda value: plain(made(value), LONGEST_CELL)
+    """Return the function from a value of a column to its text."""
+    text = _cell if isinstance(column, type) else column.text
+    return lambda value: plain(text(value), LONGEST_CELL)
 
 
 def _cell(value: object) -> str:

@@ -1,10 +1,10 @@
 """Templates: sheets as lines to cut and to fold, at true scale on pages; panels as thin solids.
 
-`template_of` makes pieces of a thing with panels; `pages_of` puts them on pages of a `Paper`, whole or in tiles
-that overlap; `write_template` writes PDF, SVG or DXF. `panels_of_thing` takes types, `pictured` adds a picture.
-Below them: `lines` (what is drawn, how each kind looks), `marks` (gauge, frame, crosses), `tiles`;
-`synth.templates.pieces` (flat sheets, panels in space as nets with tabs), `synth.templates.note` (how it is put
-together). `write_solids` writes panels as thin solids. Theory: docs/theory/templates.md.
+`template_of` makes pieces of a mechanism with panels, `panels_of_thing` takes types, `pictured` adds a picture;
+`write_template` puts the pieces on pages of a `Paper`, and writes PDF, SVG or DXF; `write_solids` writes panels as
+thin solids. Files: `pieces` (lines, cuts, overlays, flat sheets), `unfolding` and `nets` (panels in space as nets
+with tabs), `hinges` (thick material), `template`, `on_surface` (linkages on cones and cylinders), `pages` (paper,
+tiles, the note of assembly), `writing`, `solids`. Theory: docs/theory/templates.md.
 """
 
 from __future__ import annotations

@@ -2,28 +2,364 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from math import prod
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import ceil, prod
+from textwrap import wrap
 
-from graphs.errors import UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.plain_text import plain
-from synth.templates.lines import Piece, Stroke, Text
-from synth.templates.marks import footer
-from synth.templates.note.page import note_page
-from synth.templates.note.steps import PRINTING, TILES
-from synth.templates.page import Page
-from synth.templates.paper import FOOTER, MARGIN, Paper
+from synth.drawing.scene.shapes import Scene
+from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template
-from synth.templates.tiles import Tile, tiles_across, tiles_of
 
-__all__ = ["laid_out", "pages_of"]
+__all__ = ["Page", "Paper", "Picture", "gauge", "laid_out", "pages_of", "paper_named"]
+
+
+MARGIN = 10.0
+"""Millimetres of each side of a page on which nothing is printed: what printers leave free."""
+FOOTER = 20.0
+"""Millimetres at the foot of a page, above the margin, for the gauge and what the lines mean."""
+OVERLAP = 10.0
+"""Millimetres by which tiles on pages that meet overlap."""
+_SIZES = {"a4": (210.0, 297.0), "a3": (297.0, 420.0), "letter": (215.9, 279.4)}
+_SHORTEST_SIDE, _LONGEST_SIDE = 130.0, 5000.0
+_NUMBER = r"(\d{1,4}(?:\.\d{1,3})?)"
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A size of paper.
+
+    Parameters
+    ----------
+    width, height : float
+        Millimetres.
+
+    Raises
+    ------
+    InvariantError
+        If a side is shorter than 130 mm, which has no room for the gauge, or longer than 5 m.
+
+    Examples
+    --------
+    >>> Paper(210, 297).window
+    (190.0, 257.0)
+    """
+
+    width: float
+    height: float
+
+    def __post_init__(self) -> None:
+        if not all(_SHORTEST_SIDE <= side <= _LONGEST_SIDE for side in (self.width, self.height)):
+            paper = f"paper of {self.width:g} x {self.height:g} mm"
+            raise InvariantError("paper", paper, f"sides from {_SHORTEST_SIDE:g} to {_LONGEST_SIDE:g} mm")
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Width and height of what a page holds of a template: all but margins and footer."""
+        return self.width - 2 * MARGIN, self.height - 2 * MARGIN - FOOTER
+
+    def turned(self) -> Paper:
+        """Return the same paper turned by a quarter."""
+        return Paper(self.height, self.width)
+
+
+def paper_named(name: str) -> Paper:
+    """Return the paper of a name: A4, A3, Letter, or WIDTHxHEIGHT in millimetres.
+
+    Parameters
+    ----------
+    name : str
+        In any case of letters.
+
+    Returns
+    -------
+    Paper
+
+    Raises
+    ------
+    InvariantError
+        If it is none of these.
+
+    Examples
+    --------
+    >>> paper_named("letter"), paper_named("300x200")
+    (Paper(width=215.9, height=279.4), Paper(width=300.0, height=200.0))
+    """
+    if name.lower() in _SIZES:
+        return Paper(*_SIZES[name.lower()])
+    match = re.fullmatch(f"{_NUMBER}x{_NUMBER}", name.strip().lower())
+    if match is None:
+        raise InvariantError("paper", f"paper {shown(name)}", "A4, A3, Letter, or WIDTHxHEIGHT in mm")
+    return Paper(float(match[1]), float(match[2]))
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A scene on a page; its corner is (left, low) in millimetres, its scale millimetres per point."""
+
+    scene: Scene
+    corner: Point
+    scale: float
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page: strokes and texts in millimetres from its lower left corner.
+
+    Nothing is cut from the page of assembly: it alone has a picture, and `is_note`.
+    """
+
+    paper: Paper
+    strokes: tuple[Stroke, ...]
+    texts: tuple[Text, ...]
+    picture: Picture | None = None
+    is_note: bool = False
+
+    @property
+    def ink(self) -> str:
+        """The colour of texts, ``#rrggbb``: on pages to be cut that of marks, which no machine cuts."""
+        return LOOKS["CUT" if self.is_note else "MARKS"].colour
+
+
+GAUGE = 100.0
+"""Length of the gauge, millimetres."""
+_TICK, _EACH = 1.5, 10
+_ARM = 4.0
+_ROWS = (3.0, 8.0, 12.0, 17.0)
+"""Heights of gauge, two rows of legend and caption over the margin, millimetres; they fill the footer."""
+_GAUGE_TEXT = 2.5
+
+
+def gauge(at: Point) -> tuple[list[Stroke], list[Text]]:
+    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge itself.
+
+    >>> gauge((10, 20))[0][0]
+    Stroke(kind='MARKS', start=(10, 20), end=(110.0, 20))
+    """
+    x, y = at
+    strokes = [Stroke("MARKS", at, (x + GAUGE, y))]
+    for tick in range(int(GAUGE) // _EACH + 1):
+        place = x + tick * _EACH
+        strokes.append(Stroke("MARKS", (place, y - _TICK), (place, y + _TICK)))
+    return strokes, [Text((x + GAUGE + 2, y), f"{GAUGE:g} mm", _GAUGE_TEXT, middle=False)]
+
+
+def footer(kinds: Iterable[Kind], caption: str) -> tuple[list[Stroke], list[Text]]:
+    """Return the foot of a page: gauge, what its kinds of lines mean in words, caption.
+
+    The meaning is in words only: a machine would cut or fold a line drawn to show it.
+    """
+    shown = set(kinds)
+    strokes, texts = gauge((MARGIN, MARGIN + _ROWS[0]))
+    meanings = [look.meaning for kind, look in LOOKS.items() if kind in shown and look.meaning]
+    legend = ["; ".join(meanings[:2]), "; ".join(meanings[2:])]
+    rows = zip(_ROWS[:0:-1], [caption, *legend], strict=True)
+    texts += [Text((MARGIN, MARGIN + row), words, _GAUGE_TEXT, middle=False) for row, words in rows if words]
+    return strokes, texts
+
+
+def frame(window: tuple[float, float]) -> list[Stroke]:
+    """Return the border of what a page shows of a larger piece: pages are laid together with it."""
+    left, low = MARGIN, MARGIN + FOOTER
+    right, high = left + window[0], low + window[1]
+    corners = [(left, low), (right, low), (right, high), (left, high)]
+    return [Stroke("MARKS", a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+
+
+def cross(at: Point, name: str) -> tuple[list[Stroke], Text]:
+    """Return a cross with a name: crosses of one name on two pages lie over each other."""
+    x, y = at
+    strokes = [Stroke("MARKS", (x - _ARM, y), (x + _ARM, y)), Stroke("MARKS", (x, y - _ARM), (x, y + _ARM))]
+    return strokes, Text((x + _ARM / 2, y + _ARM / 2), name, _GAUGE_TEXT)
+
+
+_ALONG = (0.2, 0.8)
+"""Where crosses are on an overlap, as parts of its length."""
+_TINY = 1e-9
+
+
+@dataclass(frozen=True)
+class Tile:
+    """The part of a larger piece that a page shows, in millimetres from the corner of the page.
+
+    The strokes of the piece end at the border of the tile; the frame and the crosses are added. `where` is column
+    and row, for the caption.
+    """
+
+    strokes: tuple[Stroke, ...]
+    texts: tuple[Text, ...]
+    where: str
+
+
+def tiles_across(size: tuple[float, float], window: tuple[float, float]) -> tuple[int, int]:
+    """Return how many columns and rows of windows cover a box, neighbours overlapping; all in millimetres.
+
+    >>> tiles_across((500, 100), (190, 261))
+    (3, 1)
+    """
+    wide, high = (
+        1 if side <= most else ceil((side - OVERLAP) / (most - OVERLAP) - _TINY)
+        for side, most in zip(size, window, strict=True)
+    )
+    return wide, high
+
+
+def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Iterator[Tile]:
+    """Yield the tiles of a piece, row by row from the top left, without those that it does not reach.
+
+    The lower left corner of the piece is the origin; `window` is (width, height) of a tile in millimetres. `name`
+    is that of the piece if several have tiles.
+    """
+    from shapely import box
+
+    counts = tiles_across(piece.size, window)
+    sides = zip(counts, piece.size, window, strict=True)
+    # All tiles together have the piece in their middle.
+    starts = [(side - (count * (most - OVERLAP) + OVERLAP)) / 2 for count, side, most in sides]
+    steps = [side - OVERLAP for side in window]
+    crosses = list(_crosses(counts, starts, window, name))
+    for row in reversed(range(counts[1])):
+        for column in range(counts[0]):
+            corner = (starts[0] + column * steps[0], starts[1] + row * steps[1])
+            area = (*corner, corner[0] + window[0], corner[1] + window[1])
+            if not piece.covered.intersects(box(*area)):
+                continue
+            strokes = [kept for stroke in piece.strokes if (kept := clipped(stroke, area)) is not None]
+            texts = [text for text in piece.texts if _holds(area, text.at)]
+            for at, label in crosses:
+                if _holds(area, at):
+                    arms, text = cross(at, label)
+                    strokes += arms
+                    texts.append(text)
+            right, up = MARGIN - corner[0], MARGIN + FOOTER - corner[1]
+            yield Tile(
+                (*(one.moved(right, up) for one in strokes), *frame(window)),
+                tuple(replace(one, at=(one.at[0] + right, one.at[1] + up)) for one in texts),
+                f"{f'piece {name}, ' if name else ''}column {column + 1} of {counts[0]} from the left, "
+                f"row {counts[1] - row} of {counts[1]} from the top",
+            )
+
+
+def clipped(stroke: Stroke, area: tuple[float, float, float, float]) -> Stroke | None:
+    """Return the part of a stroke in an area (left, low, right, high); None if it has no length.
+
+    The method is that of Liang and Barsky.
+
+    >>> clipped(Stroke("CUT", (-5, 0), (5, 10)), (0, 0, 20, 8))
+    Stroke(kind='CUT', start=(0.0, 5.0), end=(3.0, 8.0))
+    """
+    start, end = stroke.start, stroke.end
+    first, last = 0.0, 1.0
+    for axis in (0, 1):
+        way = end[axis] - start[axis]
+        low, high = area[axis] - start[axis], area[axis + 2] - start[axis]
+        if way == 0:
+            if low > 0 or high < 0:
+                return None
+            continue
+        enter, leave = sorted((low / way, high / way))
+        first, last = max(first, enter), min(last, leave)
+    if last - first <= _TINY:
+        return None
+
+    def at(part: float) -> Point:
+        return start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])
+
+    # An end that is not cut off stays as it is, to the last digit.
+    return Stroke(stroke.kind, at(first) if first > 0 else start, at(last) if last < 1 else end)
+
+
+def _crosses(
+    counts: tuple[int, int], starts: list[float], window: tuple[float, float], name: str
+) -> Iterator[tuple[Point, str]]:
+    """Yield crosses in the overlaps of neighbouring tiles, in the middle across, with their names."""
+    number = 0
+    for axis in (0, 1):
+        other = 1 - axis
+        for seam in range(1, counts[axis]):
+            across = starts[axis] + seam * (window[axis] - OVERLAP) + OVERLAP / 2
+            for place in range(counts[other]):
+                for part in _ALONG:
+                    along = starts[other] + place * (window[other] - OVERLAP) + part * window[other]
+                    number += 1
+                    yield ((across, along) if axis == 0 else (along, across)), name + _letters(number)
+
+
+def _letters(number: int) -> str:
+    """Return A, B, ..., Z, AA, ... for 1, 2, ...: numbers are for edges that are glued."""
+    letters = ""
+    while number:
+        number, place = divmod(number - 1, 26)
+        letters = chr(ord("A") + place) + letters
+    return letters
+
+
+def _holds(area: tuple[float, float, float, float], at: Point) -> bool:
+    return area[0] <= at[0] <= area[2] and area[1] <= at[1] <= area[3]
+
+
+_PRINTING = "Print at 100 %, not fitted to the page, and measure the gauge: it is 100 mm long."
+_TILES = "Lay the pages of a piece together, crosses of one name over each other, and tape them."
+_STEP_SIZE, _LINE = 3.6, 5.2
+"""Height of letters, and from line to line, millimetres."""
+_LETTER = 0.5
+"""Width of a letter in the mean, in units of its height."""
+_TITLE = 5.0
+"""Height of the letters of the title, millimetres."""
+_AIR = 6.0
+"""Millimetres between title, steps and picture."""
+_LARGEST = 140.0
+"""Millimetres of the longer side of the picture, at most."""
+
+
+def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | None) -> Page:
+    """Return the page that says how a template is put together; the steps are numbered here.
+
+    >>> page = note_page(Paper(210, 297), "bird base", ["Cut it out.", "Fold it."], None)
+    >>> [text.words for text in page.texts]
+    ['bird base', '1. Cut it out.', '2. Fold it.']
+    """
+    wide, high = paper.width - 2 * MARGIN, paper.height - 2 * MARGIN
+    top = MARGIN + high
+    heading = [Text((MARGIN, top - _TITLE / 2), title, _TITLE, middle=False)] if title else []
+    texts, taken = _written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
+    placed = None
+    if picture is not None:
+        room = max(high - _TITLE - 2 * _AIR - taken, FOOTER)
+        scale = min(wide / picture.width, room / picture.height, _LARGEST / max(picture.width, picture.height))
+        left = MARGIN + (wide - scale * picture.width) / 2
+        low = top - _TITLE - 2 * _AIR - taken - scale * picture.height
+        placed = Picture(picture, (left, low), scale)
+    return Page(paper, (), (*heading, *texts), placed, is_note=True)
+
 
 _APART = 6.0
 """Millimetres between pieces on a page."""
-_MOST = 500
-"""Pages at most: more were not meant."""
+_MOST_PAGES = 500
+"""Largest number of pages: more are a mistake."""
 _LONGEST_TITLE = 40
 _Laid = list[tuple[Piece, float, float]]
+
+
+def _written_steps(steps: Sequence[str], corner: tuple[float, float], width: float) -> tuple[list[Text], float]:
+    """Return steps as lines of text, and the height that they take.
+
+    `corner` is (left, top) and `width` the longest line; all in millimetres.
+    """
+    letters = int(width / (_LETTER * _STEP_SIZE))
+    lines: list[str] = []
+    for number, step in enumerate(steps, start=1):
+        first, rest = f"{number}. ", " " * 5
+        lines += wrap(step, letters, initial_indent=first, subsequent_indent=rest)
+    left, top = corner
+    texts = [
+        Text((left, top - (number + 0.5) * _LINE), line, _STEP_SIZE, middle=False)
+        for number, line in enumerate(lines)
+    ]
+    return texts, len(lines) * _LINE
 
 
 def pages_of(template: Template, paper: Paper) -> list[Page]:
@@ -34,15 +370,17 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     """
     ways = (paper, paper.turned())
     most = [_pages_at_most(template, way) for way in ways]
-    if min(most) > _MOST:
-        raise UnsolvableError(f"{min(most)} pages: expected a size or a paper with at most {_MOST} of them")
-    contents = [_contents(template, way) for way, pages in zip(ways, most, strict=True) if pages <= _MOST]
+    if min(most) > _MOST_PAGES:
+        raise UnsolvableError(
+            f"{min(most)} pages; expected at most {_MOST_PAGES}; try a smaller --size or a larger --page"
+        )
+    contents = [_contents(template, way) for way, pages in zip(ways, most, strict=True) if pages <= _MOST_PAGES]
     way, sheets = min(contents, key=lambda one: len(one[1]))
     pages = [_page(template, way, content, number, len(sheets)) for number, content in enumerate(sheets, start=1)]
     if not template.steps:
         return pages
     tiled = any(isinstance(content, Tile) for content in sheets)
-    steps = [PRINTING, *([TILES] if tiled else []), *template.steps]
+    steps = [_PRINTING, *([_TILES] if tiled else []), *template.steps]
     upright = min(paper, paper.turned(), key=lambda one: one.width)
     return [*pages, note_page(upright, plain(template.title, _LONGEST_TITLE), steps, template.picture)]
 
@@ -69,7 +407,7 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
 
 
 def _pages_at_most(template: Template, paper: Paper) -> int:
-    """Return how many pages there are where each piece has its own: told before any is made."""
+    """Return the number of pages with one piece each, which is known before any is made."""
     return sum(prod(tiles_across(piece.size, paper.window)) for piece in template.pieces)
 
 

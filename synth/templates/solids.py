@@ -1,30 +1,157 @@
-"""Panels as solids written to files, whole or not at all: STL, 3MF, OBJ, and glTF with the motion."""
+"""Panels as thin solids with open hinges, written to STL, 3MF, OBJ, and glTF with the motion."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import shapely
 
 from graphs.arrays import Floats
-from graphs.errors import FileError, UnsolvableError, numbered
+from graphs.errors import FileError, InvariantError, UnsolvableError, numbered
 from graphs.files.atomic import Beside, check_place
 from graphs.files.solids.gltf import gltf_text
 from graphs.files.solids.mesh import Mesh
 from graphs.files.solids.obj import obj_of_meshes
 from graphs.files.solids.stl import stl_bytes
 from graphs.files.solids.three_mf import three_mf_bytes
+from graphs.geometry import rigid_motion
 from graphs.mechanism.plane import in_space
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface
 from synth.conformed.linkages import OnSurface
-from synth.templates.developed.layered import Dimensions, layered
-from synth.templates.developed.solids import solids_on_surface
-from synth.templates.scale import millimetres, scale_of
-from synth.templates.thick import plates_in_space, plates_of
+from synth.templates.on_surface import Dimensions, layered, solids_on_surface
+from synth.templates.pieces import GRID, united
+from synth.templates.template import GREATEST, millimetres, scale_of
+from synth.templates.unfolding import Panels, Plane, panels_of
 
-__all__ = ["SOLIDS", "THICKNESS", "poses_of", "write_linkage_on_surface", "write_meshes", "write_solids"]
+__all__ = [
+    "SOLIDS",
+    "THICKNESS",
+    "Plates",
+    "plates_in_space",
+    "plates_of",
+    "poses_of",
+    "write_linkage_on_surface",
+    "write_meshes",
+    "write_solids",
+]
+
+
+_RIGID = 1e-4
+"""Largest change of the shape of a moving panel, as part of its extent."""
+_STRAIGHT = 1e-6
+"""Corners this close to a straight line, in millimetres, are left out."""
+
+
+@dataclass(frozen=True)
+class Plates:
+    """Panels as solids, each in the frame of its plane at the pose from which the plates are made.
+
+    `faces` gives the panel of each mesh: a panel whose middle is cut off by its hinges has several.
+    """
+
+    meshes: tuple[Mesh, ...]
+    faces: tuple[int, ...]
+    planes: tuple[Plane, ...]
+
+    def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
+        """Return rotations, float[poses, meshes, 3, 3], and translations, float[poses, meshes, 3], of plates.
+
+        Poses are float[poses, vertices, 3], millimetres. Raise UnsolvableError if a panel has another shape in a
+        pose.
+        """
+        turns = np.empty((len(poses), len(self.faces), 3, 3))
+        shifts = np.empty((len(poses), len(self.faces), 3))
+        for pose, places in enumerate(poses):
+            for mesh, face in enumerate(self.faces):
+                corners = places[list(sheet.faces[face])]
+                turns[pose, mesh], shifts[pose, mesh] = _frame(
+                    corners, self.planes[face], f"{face} in pose {pose}"
+                )
+        return turns, shifts
+
+
+def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> Plates:
+    """Return the panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
+
+    The places are float[vertices, 3]; all in millimetres. Raise InvariantError if the thickness is not positive,
+    the gap negative, or one of them larger than 1e6 mm; UnsolvableError if a panel is not planar, or narrower than
+    the gap.
+    """
+    if not 0 < thickness <= GREATEST:
+        raise InvariantError("thickness", f"thickness {thickness!r}", f"a positive number, at most {GREATEST:g}")
+    if not 0 <= gap <= GREATEST:
+        raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
+    panels = panels_of(sheet, places)
+    meshes, faces = [], []
+    for face in range(len(sheet.faces)):
+        for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
+            name = f"panel {face}" + (f" part {number}" if number else "")
+            meshes.append(_plate(polygon, thickness, name))
+            faces.append(face)
+    return Plates(tuple(meshes), tuple(faces), panels.planes)
+
+
+def plates_in_space(plates: Plates) -> list[Mesh]:
+    """Return plates where their panels stand."""
+    placed = zip(plates.meshes, plates.faces, strict=True)
+    return [
+        Mesh(mesh.name, mesh.corners @ plates.planes[face].axes.T + plates.planes[face].origin, mesh.triangles)
+        for mesh, face in placed
+    ]
+
+
+def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
+    """Return a panel without the strips along its sides where another hangs that moves, or is cut off."""
+    corners = panels.planes[face].flat
+    rest = shapely.Polygon(corners)
+    whole = rest.area
+    strips = [
+        shapely.LineString(corners[list(panels.ends(face, edge))]).buffer(width, cap_style="square")
+        for edge in panels.shared_by(face)
+        if panels.sheet.assignments[edge] not in FLAT
+    ]
+    if width and strips:
+        taken = united(strips)
+        rest = shapely.difference(rest, taken, grid_size=GRID).simplify(_STRAIGHT)
+    parts = [part for part in getattr(rest, "geoms", [rest]) if part.area > _STRAIGHT * whole]
+    if not parts:
+        raise UnsolvableError(
+            f"panel {face} is narrower than the gap of {2 * width:g} mm at its hinges; try a smaller --gap"
+        )
+    return parts
+
+
+def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
+    """Return a plate about the plane of a polygon."""
+    ring = np.array(shapely.orient_polygons(polygon).exterior.coords)[:-1]
+    index = {tuple(corner): number for number, corner in enumerate(ring.tolist())}
+    count = len(ring)
+    top = [
+        [index[tuple(corner)] for corner in shapely.orient_polygons(one).exterior.coords[:-1]]
+        for one in shapely.constrained_delaunay_triangles(polygon).geoms
+    ]
+    triangles = [[corner + count for corner in one] for one in top] + [one[::-1] for one in top]
+    for here in range(count):
+        after = (here + 1) % count
+        triangles += [[here, after, after + count], [here, after + count, here + count]]
+    heights = np.repeat([-thickness / 2, thickness / 2], count)
+    return Mesh(name, np.column_stack([np.tile(ring, (2, 1)), heights]), np.array(triangles))
+
+
+def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
+    """Return how the frame of a panel stands where its corners are now: its rotation, and its origin."""
+    was = np.column_stack([plane.flat, np.zeros(len(plane.flat))])
+    turn, shift = rigid_motion(was, corners)
+    apart = float(np.abs(was @ turn.T + shift - corners).max())
+    if apart > _RIGID * float(np.abs(plane.flat).max()):
+        raise UnsolvableError(f"panel {where} has another shape, by {apart:.3g} mm")
+    return turn, shift
+
 
 SOLIDS = (".stl", ".3mf", ".gltf", ".obj")
 """Extensions of files of solids."""
@@ -35,7 +162,7 @@ _WRITERS: dict[str, Callable[[Sequence[Mesh]], bytes]] = {
 }
 _HINGES = "hinges, but for the gaps"
 THICKNESS = 1.0
-"""Of panels, millimetres, where none is given."""
+"""Default thickness of panels, millimetres."""
 
 
 def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
@@ -47,7 +174,7 @@ def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
     """
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
-        raise UnsolvableError("solids need panels with coordinates, and the sheet has none")
+        raise UnsolvableError("solids require panels with coordinates, and the sheet has none")
     frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
     same = [one for one in frames if one.coordinates is not None and one.faces == first.faces]
     poses = [in_space(one.coordinates or ()) for one in (first, *same) if one.vertices == first.vertices]
@@ -74,25 +201,25 @@ def write_solids(
     thickness : float, optional
         Of panels, millimetres.
     gap : float, optional
-        Between two panels at a hinge, millimetres; twice the thickness without it.
+        Between two panels at a hinge, millimetres; by default twice the thickness.
     scale, size : float, optional
-        As of `synth.templates.template_of`.
+        As for `synth.templates.template_of`.
     force : bool, optional
-        Replace a file that is there.
+        Overwrite an existing file.
 
     Returns
     -------
     tuple of str
-        What the file does not hold.
+        Parts that the file cannot hold.
 
     Raises
     ------
     FileError
-        If the extension is not known, or the file cannot be written or is there already.
+        If the extension is unknown, or the file cannot be written or exists.
     InvariantError
-        If a number is not one that can be.
+        If a number is out of range.
     UnsolvableError
-        If there are no panels with coordinates, one is not plane, or narrower than the gap, or changes its shape.
+        If there are no panels with coordinates, one is not planar, or narrower than the gap, or changes its shape.
 
     Examples
     --------

@@ -27,8 +27,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.cli.main import main
 from synth.compliance.limited import limits
 from synth.moving.made import sheet_of
-from synth.templates.template import template_of
-from synth.templates.things import panels_of_thing
+from synth.templates.template import panels_of_thing, template_of
 from synth.viewer.shown import Shown, shown_of
 from tests.agreement.specimens import Placed
 

@@ -38,7 +38,7 @@ def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys)
 
     monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path))
     monkeypatch.setattr("synth.cli.main.main", compile_twice)
-    monkeypatch.setattr("synth.cli.streams.guard_output", lambda: None)  # capsys has no file to guard
+    monkeypatch.setattr("synth.cli.output.guard_output", lambda: None)  # capsys has no file to guard
     heeded = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     try:
         run()
@@ -57,7 +57,7 @@ def test_compiling_ahead_can_be_stopped(tmp_path):
         process.stdout.readline()
         process.send_signal(signal.SIGINT)
         told = process.communicate(timeout=60)[1]
-    assert (process.returncode, told) == (1, "stopped; what is left is compiled when it is asked for\n")
+    assert (process.returncode, told) == (1, "stopped; the rest is compiled at its first use\n")
 
 
 @pytest.mark.slow

@@ -26,8 +26,8 @@ def test_query(atlas):
     assert row["n"] == 12
     assert "[linsk]" in run("atlas", "query", atlas, "linsk = 4", code=2).output
     assert "not authorized" in run("atlas", "query", atlas, "--sql", "DELETE FROM type", code=2).output
-    assert "there are more than 2" in run("atlas", "query", atlas, "--limit", 2).output
-    assert "what it is" in run("atlas", "query", atlas, "--columns", "help").output
+    assert "more than 2 rows" in run("atlas", "query", atlas, "--limit", 2).output
+    assert "meaning" in run("atlas", "query", atlas, "--columns", "help").output
 
 
 def test_query_writes(atlas, tmp_path):
@@ -53,7 +53,7 @@ def test_show_and_find(atlas, tmp_path, data):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("build",), "needs a place"),
+        (("build",), "an atlas requires -o FILE.sqlite"),
         (("build", "-o", "a.sqlite", "--max-links", 3), "4 or more"),
         (("build", "-o", "a.sqlite", "--dof", 0), "1 or more"),
         (("query", "nowhere.sqlite"), "no such file"),

@@ -78,7 +78,8 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     assert "'sky' is no link; expected one of 0, 1, 2, 3, 4, 5" in result.stderr
     stephenson = data / "wiener" / "stephenson.json"
     assert (
-        "needs --ground LINK and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
+        "requires --ground LINK, and an --input JOINT"
+        in run("reduce", "--rule", "assur", stephenson, code=2).stderr
     )
     words = ("reduce", stephenson, "--rule", "assur", "--ground", 0, "--input", 0)
     out = run(*words).stdout
@@ -86,7 +87,7 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     assert out.count("(taken off)") == 2
     told = json.loads(run(*words, "--json").stdout)
     assert (told["before"]["mobility"], told["after"]["mobility"], told["after"]["links"]) == (1, 1, 2)
-    assert "belong to --rule assur" in run("reduce", stephenson, "--input", 0, code=2).stderr
+    assert "require --rule assur" in run("reduce", stephenson, "--input", 0, code=2).stderr
     assert "need one centre" in run("reduce", data / "wiener" / "watt.json", *words[2:], code=2).stderr
 
 
@@ -139,7 +140,7 @@ def test_an_edited_pattern_is_a_pattern(data, tmp_path):
             ["--add-crease", "0.3,0.1:2"],
             "the nearest are vertex 9 (0.585786, 0) and edge 0 (V) from vertex 0 (0, 0)",
         ),
-        (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease is for crease patterns"),
+        (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease requires a crease pattern"),
     ],
 )
 def test_edits_of_patterns_that_cannot_be(words, message, data):
@@ -150,11 +151,11 @@ def test_edits_of_patterns_that_cannot_be(words, message, data):
     ("words", "message"),
     [
         (["--lock", "99"], "'99' is no joint; expected one of 0, 1, 2, 3, 4, 5, 6"),
-        (["--implicit", "0"], "--implicit needs the sides of the links: an SCD graph"),
-        (["--add-ride-along", "0"], "'0' has 1 part(s), not 2"),
+        (["--implicit", "0"], "--implicit requires an SCD graph"),
+        (["--add-ride-along", "0"], "'0' has 1 part; expected 2"),
         (["--add-ride-along", "0,sky"], "'sky' is no link"),
         (["--add-loop", "0,1,x"], "'x' is not a number"),
-        ([], "name an edit"),
+        ([], "no edit; try"),
     ],
 )
 def test_edits_that_cannot_be(words, message, data):

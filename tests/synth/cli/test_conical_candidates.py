@@ -96,7 +96,7 @@ def test_formulas():
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--chain", "wat"], "no chain and no file; expected four-bar"),
+        (["--chain", "wat"], "neither a chain nor a file; expected four-bar"),
         (["--chain", "k1:!"], "the id 'k1:!'"),
         (["--chain", "nowhere.json"], "nowhere.json: no such file"),
         (["--chain", "watt", "--ground", "9"], "9"),
@@ -106,11 +106,11 @@ def test_formulas():
         (["--chain", "watt", "--slots", 8, "--lambda", 90], "cone angle is 90 degrees"),
         (["--chain", "watt", "--rank", 6], "no column 'rank'"),
         (["--chain", "watt", "--sort", "rank"], "no column 'rank'"),
-        (["--chain", "watt", "--formulas"], "--formulas needs a fixed link"),
-        (["--chain", "watt", "--method", "orbits"], "add --count"),
-        (["--chain", "watt", "--count", "--sort", "order"], "leave out --sort"),
-        (["--chain", "watt", "--count", "--open", 2, "--method", "orbits"], "leave out filters"),
-        (["--chain", "watt", "-o", "x.sqlite", "--resume", "--sort", "order"], "--resume does not go with"),
+        (["--chain", "watt", "--formulas"], "--formulas requires --ground LINK"),
+        (["--chain", "watt", "--method", "orbits"], "--method requires --count"),
+        (["--chain", "watt", "--count", "--sort", "order"], "--count excludes --sort"),
+        (["--chain", "watt", "--count", "--open", 2, "--method", "orbits"], "without filters"),
+        (["--chain", "watt", "-o", "x.sqlite", "--resume", "--sort", "order"], "--resume excludes"),
         (["--chain", "watt", "-o", "x.g6"], "graph6 has no place for angles"),
     ],
 )

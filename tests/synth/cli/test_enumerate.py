@@ -38,8 +38,8 @@ def test_enumerate_strings(tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--dof", 3, "--max-dof", 4], "give --dof or --max-dof, not both"),
-        (["--max-panels", "many"], "'many' is neither a number nor 'none'"),
+        (["--dof", 3, "--max-dof", 4], "--dof and --max-dof exclude each other"),
+        (["--max-panels", "many"], "'many' is neither a number nor none"),
         (["--max-cluster", 0], "max_cluster is 0; expected 1 or more"),
         (["--dof", 0], "0 is not in the range"),
         (["-o", "strings.txt"], "strings.txt: the extension is not known; expected .jsonl"),
@@ -115,13 +115,13 @@ def test_enumerate_inversions_and_inputs(tmp_path):
     [
         ("--links 8", "Missing option '--dof'"),
         ("--links 3 --dof 1", "3 is not in the range x>=4"),
-        ("--links 8 --dof 1 --assortment 4;4", "is no list of numbers such as 4,2"),
+        ("--links 8 --dof 1 --assortment 4;4", "is not a list of numbers such as 4,2"),
         ("--links 8 --dof 1 --symmetry 4...", "neither a number nor a range such as 2..4"),
         ("--links 8 --dof 1 --symmetry 4..2", "the range 4 to 2; expected the smaller number first"),
-        ("--links 8 --dof 1 --method orbits", "add --count"),
-        ("--links 8 --dof 1 --resume", "--resume needs the store to go on with"),
-        ("--links 8 --dof 1 --json -o x.g6", "give -o or --json, not both"),
-        ("--links 8 --dof 1 --count -o x.g6", "--count keeps what it has counted in a store: name a .sqlite file"),
+        ("--links 8 --dof 1 --method orbits", "--method requires --count"),
+        ("--links 8 --dof 1 --resume", "--resume requires -o FILE.sqlite"),
+        ("--links 8 --dof 1 --json -o x.g6", "-o and --json exclude each other"),
+        ("--links 8 --dof 1 --count -o x.g6", "--count keeps its counts in a store only"),
         ("--links 8 --dof 1 -o chains.xyz", "expected one of .csv .g6 .jsonl .parquet .sqlite, or a folder"),
         (
             "--links 8 --dof 1 -o no/such/chains.g6",
@@ -211,14 +211,14 @@ def test_enumerate_addenda(tmp_path, data):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["sc", "--links", 8, "--dof", 1, "--embeddings"], "add --count"),
+        (["sc", "--links", 8, "--dof", 1, "--embeddings"], "--method and --embeddings require --count"),
         (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma counts"),
         (["sc", "--links", 22, "--dof", 1], "9 at most"),
         (["sc", "--links", 8, "--dof", 1, "--per-chain", "--count"], "synth enumerate chains --planar"),
-        (["scd", "--max-degree", 4], "give --links and --dof, or --of FILE"),
+        (["scd", "--max-degree", 4], "expected --links and --dof, or --of FILE"),
         (["scd", "--max-degree", 2, "--links", 4, "--dof", 1], "2 is not in the range"),
         (["scd", "--max-degree", 4, "--of", "nowhere.json"], "nowhere.json"),
-        (["scd", "--max-degree", 4, "--of", "nowhere.json", "--links", 4], "give --of, or --links"),
+        (["scd", "--max-degree", 4, "--of", "nowhere.json", "--links", 4], "--of excludes --links"),
         (["addenda", "--of", "nowhere.json"], "nowhere.json"),
         (["addenda", "--of", "x.json", "--delta-dof", -5], "-5 is not in the range"),
     ],

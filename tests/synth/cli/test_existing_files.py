@@ -116,7 +116,7 @@ def test_a_store_begins_anew_by_force(tmp_path):
     assert store.execute("SELECT count(*) FROM type").fetchone() == (2,)
     store.close()
     assert (
-        "give one of them"
+        "--resume and --force exclude each other"
         in run("enumerate", "chains", "--links", 4, "--dof", 1, "-o", path, "--force", "--resume", code=2).stderr
     )
 

@@ -107,7 +107,7 @@ def test_four_bars_and_their_motion(data, tmp_path):
     moved, asked = read_orientations(motion).quaternions[::7], read_orientations(given).quaternions
     assert np.allclose(np.abs((moved * asked).sum(axis=1)), 1.0)
     out = run("fourbar", "--orientations", given, "--usable", "--best", 3).stdout
-    assert re.search(r"12 four-bar\(s\), \d without defects", out)
+    assert re.search(r"12 four-bars, \d without defects", out)
     assert "Grashof crank-rocker" in out
     assert "branch" not in out
     out = run("fourbar", "--orientations", given, "--motion", motion, "--force").stdout
@@ -138,7 +138,7 @@ def test_four_bars_on_cones(data):
 
 def test_without_a_usable_four_bar_there_is_no_motion(corrected, tmp_path):
     result = run("fourbar", "--orientations", corrected, "--motion", tmp_path / "m.json", code=2)
-    assert result.stderr == f"{corrected}: no four-bar without defects: there is no motion to write\n"
+    assert result.stderr == f"{corrected}: --motion requires a four-bar without defects, and there is none\n"
     assert not (tmp_path / "m.json").exists()
 
 
@@ -200,8 +200,8 @@ def test_turns_about_one_axis_are_a_plain_error(tmp_path):
 
 
 def test_axes_are_for_three_orientations(some):
-    assert "add --axis x,y,z" in run("dyads", "--orientations", some(3), code=2).output
-    assert "--axis is for three orientations; here are 5" in run(
+    assert "three orientations require --axis X,Y,Z" in run("dyads", "--orientations", some(3), code=2).output
+    assert "--axis requires three orientations, got 5" in run(
         "dyads", "--orientations", some(5), "--axis", "0,0,1", code=2
     ).output  # fmt: skip
 

@@ -36,7 +36,9 @@ def test_a_list_is_realised_into_a_folder(tmp_path):
     assert (found["realised"], found["types"][0]["code"]) == (1, FOUR_BAR)
 
 
-@pytest.mark.parametrize(("words", "told"), [((), "need a place"), (("-o", "things.fold"), "a folder or a store")])
+@pytest.mark.parametrize(
+    ("words", "told"), [((), "many types require -o FOLDER"), (("-o", "things.fold"), "a folder or a store")]
+)
 def test_many_types_need_a_folder_or_a_store(words, told, tmp_path):
     assert told in run("realise", tmp_path, *words, code=2).output
 

@@ -29,9 +29,9 @@ def altered(store):
 
 def test_looking_through_a_store_is_shown_while_it_lasts(tmp_path, terminal):
     store = tmp_path / "chains.sqlite"
-    assert "looking through" not in command_line(*CHAINS, store).stderr
+    assert "checking the store" not in command_line(*CHAINS, store).stderr
     shown = command_line(*CHAINS, store, "--resume").stderr
-    line = "100%  looking through what is stored, 0 s left"
+    line = "100%  checking the store, 0 s left"
     assert f"\r{line}\r{' ' * len(line)}\r" in shown
     assert command_line(*CHAINS, store, "--resume", "--quiet").stderr == ""
 
@@ -52,7 +52,7 @@ def test_how_long_looking_through_takes(capsys, monkeypatch):
     assert capsys.readouterr().err == ""  # not yet
     now[0] = 30.0
     meter.look(0.25)
-    assert capsys.readouterr().err == "\r 25%  looking through what is stored, 1 min 30 s left"
+    assert capsys.readouterr().err == "\r 25%  checking the store, 1 min 30 s left"
     meter.look(0.26)
     assert capsys.readouterr().err == ""
     meter.tell("was damaged")
@@ -65,7 +65,7 @@ def test_what_was_done_before_looking_began_is_not_counted(capsys, monkeypatch):
     meter = runner._Meter(silent=False)
     now[0] = 100.0  # the units of a large job take long to be found
     meter.look(0.5)
-    assert capsys.readouterr().err == "\r 50%  looking through what is stored, ? left"
+    assert capsys.readouterr().err == "\r 50%  checking the store, ? left"
     now[0] = 110.0
     meter.look(0.75)
     assert "10 s left" in capsys.readouterr().err
@@ -75,7 +75,7 @@ def test_a_count_shows_units_and_the_time_left(terminal):
     """Also what is done before the first unit: contracted graphs take minutes where there are many loops."""
     words = ("enumerate", "chains", "--links", 12, "--dof", 1, "--count", "--workers", 1)
     shown = command_line(*words).stderr
-    assert shown.startswith("\r  0%  finding out what is to be done\r")
+    assert shown.startswith("\r  0%  listing the units of the job\r")
     lines = [line.rstrip() for line in shown.split("\r") if line.strip()]
     assert all(
         re.fullmatch(rf" *\d+%  {done} of 7 units counted, \d+ s left", line)

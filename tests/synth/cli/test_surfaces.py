@@ -283,4 +283,6 @@ def test_the_inverse_of_a_candidate():
     assert {tuple(pair[:2]): pair[2] for pair in same["link_angles_deg"]} == pytest.approx(
         {tuple(pair[:2]): pair[2] for pair in steps[0]["link_angles_deg"]}, abs=1e-6
     )
-    assert "--by-angles is for a FILE" in run("cone", "map", "--angles", "60,70,80", "--by-angles", code=2).stderr
+    assert (
+        "--by-angles requires a FILE" in run("cone", "map", "--angles", "60,70,80", "--by-angles", code=2).stderr
+    )

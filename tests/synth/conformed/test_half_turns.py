@@ -94,7 +94,7 @@ def test_arcs_that_cannot_be_chosen_are_refused():
         linkage.curved({"2": "2"})
     with pytest.raises(InvariantError, match=r"one from joint '(1|4)' or '(1|4)'"):
         linkage.curved({"4": "2"})
-    assert "expected LINK=JOINT" in run("cone", "behaviour", "--steps", "40,50,90", "--arc", "4", code=2).output
+    assert "is not LINK=JOINT" in run("cone", "behaviour", "--steps", "40,50,90", "--arc", "4", code=2).output
 
 
 def test_a_ternary_link_half_a_turn_from_its_fixed_joint_is_not_intramobile():

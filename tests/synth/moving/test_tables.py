@@ -79,5 +79,5 @@ def test_frames_with_other_panels_are_told(framed, tmp_path):
 def test_a_table_and_a_csv_go_together(framed, tmp_path):
     for words in (["a.csv"], ["a.stl", "--table", "axes"]):
         words[0] = tmp_path / words[0]
-        assert "goes with the other" in run("convert", framed, *words, code=2).stderr
+        assert "require each other" in run("convert", framed, *words, code=2).stderr
     assert not (tmp_path / "a.csv").exists()

@@ -12,8 +12,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.patterns.generated import generate
-from synth.templates.pages import pages_of
-from synth.templates.paper import Paper, paper_named
+from synth.templates.pages import Paper, pages_of, paper_named
 from synth.templates.template import template_of
 
 NEAR = 0.01
@@ -150,7 +149,7 @@ def test_paper_of_a_stated_size_has_place_for_the_gauge(wide):
 
 def test_what_cannot_be_printed_is_refused_in_a_line(bird, tmp_path, data):
     assert "2 x 2 mm" in run("template", bird, "-o", tmp_path / "a.pdf", code=2).stderr
-    assert "500 of them" in run("template", bird, "--size", 9000, "-o", tmp_path / "a.pdf", code=2).stderr
+    assert "at most 500" in run("template", bird, "--size", 9000, "-o", tmp_path / "a.pdf", code=2).stderr
     assert "Letter" in run("template", bird, "--page", "B7", "-o", tmp_path / "a.pdf", code=2).stderr
     assert (
         "-1 is out of range; expected 1e-50 to 1e+50"
@@ -159,15 +158,15 @@ def test_what_cannot_be_printed_is_refused_in_a_line(bird, tmp_path, data):
     assert ".dxf" in run("template", bird, "-o", tmp_path / "a.doc", code=2).stderr
     assert list(tmp_path.iterdir()) == []
     bennett = data / "linkages" / "bennett.json"
-    assert "needs panels" in run("template", bennett, "-o", tmp_path / "a.pdf", code=2).stderr
+    assert "requires panels" in run("template", bennett, "-o", tmp_path / "a.pdf", code=2).stderr
 
 
 def test_cuts_are_what_has_one_panel_and_flat_edges_are_told():
     square = ((0, 0), (1, 0), (1, 1), (0, 1))
     flat = template_of(Sheet(4, ((0, 2), (0, 1)), "FM", ((0, 1, 2), (0, 2, 3)), square), size=50)
     assert [stroke.kind for stroke in flat.pieces[0].strokes] == ["CUT"] * 4
-    assert flat.told == ("1 flat edge",)
-    with pytest.raises(UnsolvableError, match="a template needs panels"):
+    assert flat.not_shown == ("1 flat edge",)
+    with pytest.raises(UnsolvableError, match="a template requires panels"):
         template_of(Sheet(2, (), "", (), ((0, 0), (1, 0))))
     with pytest.raises(InvariantError, match="a scale and a size"):
         template_of(Sheet(3, (), "", ((0, 1, 2),), square[:3]), scale=1, size=1)

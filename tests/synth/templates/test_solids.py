@@ -16,8 +16,7 @@ from graphs.files.formats import read
 from graphs.files.solids.mesh import is_watertight
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
-from synth.templates.solids import poses_of, write_solids
-from synth.templates.thick import plates_in_space, plates_of
+from synth.templates.solids import plates_in_space, plates_of, poses_of, write_solids
 
 FOLDED = {
     "miura": 1.0,
@@ -224,8 +223,8 @@ def test_the_command_says_what_is_of_solids_only_and_what_is_not_held(motion, tm
     assert "gaps" not in sheet.stdout
     run("convert", motion, tmp_path / "b.obj", "--thickness", 1, "--size", 90)
     assert "o panel_0" in (tmp_path / "b.obj").read_text(encoding="utf-8")
-    assert "--gap: of solids only" in run("convert", motion, tmp_path / "a.svg", "--gap", 1, code=2).stderr
-    assert "expected a larger scale" in run("convert", motion, tmp_path / "c.stl", code=2).stderr
+    assert "--gap: for solids only" in run("convert", motion, tmp_path / "a.svg", "--gap", 1, code=2).stderr
+    assert "try a larger --scale" in run("convert", motion, tmp_path / "c.stl", code=2).stderr
 
 
 @pytest.mark.parametrize(

@@ -13,9 +13,8 @@ from graphs.convert.table import to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.surfaces import Cylinder
-from synth.templates.developed.template import template_on_surface
-from synth.templates.template import template_of
-from synth.templates.things import linkage_on_a_surface, panels_of_thing
+from synth.templates.on_surface import template_on_surface
+from synth.templates.template import linkage_on_a_surface, panels_of_thing, template_of
 
 FOUR_BAR = "m1:a-b.ac-.b-d.cd-"
 LISTED = [(chain, mode) for creases in range(1, 7) for chain in strings(creases) for mode in chain.modes()]
@@ -59,9 +58,9 @@ def test_which_one_of_many_has_to_be_said_and_be_there(tmp_path):
     rows = tmp_path / "types.jsonl"
     rows.write_text(json.dumps({"code": FOUR_BAR}) + "\n")
     place = tmp_path / "a.svg"
-    assert "--row N says which" in run("template", rows, "-o", place, code=2).stderr
+    assert "requires --row N" in run("template", rows, "-o", place, code=2).stderr
     assert "a number up to 1" in run("template", rows, "--row", 2, "-o", place, code=2).stderr
-    assert "--row is of many" in run("template", FOUR_BAR, "--row", 1, "-o", place, code=2).stderr
+    assert "--row requires a store" in run("template", FOUR_BAR, "--row", 1, "-o", place, code=2).stderr
     assert not place.exists()
 
 
@@ -80,7 +79,7 @@ def test_modes_and_ways_to_realise_are_of_types(data):
 
 def test_a_type_gets_a_size(tmp_path):
     done = run("template", "RR-R-RRR", "-o", tmp_path / "ups.svg")
-    assert "its longer side is 150 mm; --size says another" in done.stderr
+    assert "its longer side is 150 mm; --size changes it" in done.stderr
     assert (tmp_path / "ups.svg").is_file()
 
 

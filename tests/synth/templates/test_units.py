@@ -32,9 +32,9 @@ def square(tmp_path):
 def test_edges_are_as_long_as_the_unit_of_the_file_says(unit, side, square, tmp_path):
     words = ("template", square(unit), "--page", "200x200", "--no-note", "-o", tmp_path / "a.svg")
     if side < 10:
-        assert "mm: expected a larger scale" in run(*words, code=2).stderr
+        assert "mm; try a larger --scale" in run(*words, code=2).stderr
     elif side > 1000:
-        assert "500 of them" in run(*words, code=2).stderr
+        assert "at most 500" in run(*words, code=2).stderr
     else:
         assert run(*words).stderr == ""
         assert lengths(lines_of_svg(tmp_path / "a.svg")[0]["CUT"]) == pytest.approx([side] * 4, abs=0.01)
@@ -53,12 +53,12 @@ def test_that_no_unit_is_given_is_told(unit, square, tmp_path):
     large = {**SQUARE, "vertices_coords": (10 * np.array(SQUARE["vertices_coords"])).tolist()}
     (tmp_path / "b.fold").write_text(json.dumps(large))
     told = run("template", tmp_path / "b.fold", "--no-note", "-o", tmp_path / "b.svg").stderr
-    assert told == "no unit is given: a unit of the coordinates is 1 mm\n"
+    assert told == "the file names no unit: a unit of the coordinates is 1 mm\n"
 
 
 def test_a_unit_that_nobody_knows_asks_for_a_size(square, tmp_path):
     words = ("template", square("cubit"), "--no-note", "-o", tmp_path / "a.svg")
-    assert "unit 'cubit' is none of" in run(*words, code=2).stderr
+    assert "unit is 'cubit'; expected mm" in run(*words, code=2).stderr
     run(*words, "--size", 60)
     assert "the name of a unit" in run("template", square(3), "-o", tmp_path / "b.svg", code=2).stderr
 

@@ -215,7 +215,7 @@ def test_files_of_orientations_are_drawn_as_maps_of_the_sphere(tmp_path, name):
 
 
 def test_the_command_knows_all_kinds(tmp_path):
-    from synth.cli.things import draw as command
+    from synth.cli.commands import drawing as command
 
     assert tuple(KINDS) == command._KINDS
     assert COLOURINGS == command._COLOURS

@@ -1,0 +1,1 @@
+"""The subcommands: each reads, calls one function, and prints."""

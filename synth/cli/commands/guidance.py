@@ -1,0 +1,315 @@
+"""``synth order``, ``synth dyads`` and ``synth fourbar``: a body guided through orientations."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from graphs.errors import numbered
+from synth.cli.options import FORCE, NumberList
+from synth.cli.output import (
+    about,
+    check_output,
+    check_picture,
+    console,
+    plain,
+    print_answer,
+    print_json,
+    table,
+    tell_written,
+)
+
+if TYPE_CHECKING:
+    from graphs.arrays import Floats
+    from synth.guidance.dyads import Dyad
+    from synth.guidance.fourbars import GuidedFourBar
+    from synth.guidance.hoop_method import Direction
+    from synth.guidance.orientations import Orientations
+    from synth.guidance.synthesis import GuidingDyads
+
+__all__ = ["dyads", "fourbar", "order"]
+
+
+_AXIS = NumberList(axis=True)
+
+_ORIENTATIONS = click.option(
+    "--orientations", "file", required=True, metavar="FILE",
+    help="File of three or more orientations (docs/native-json.md).",
+)  # fmt: skip
+
+
+@click.command(short_help="Check whether a crank about a fixed axis guides a body through orientations in order.")
+@_ORIENTATIONS
+@click.option(
+    "--axis", required=True, type=_AXIS, metavar="X,Y,Z",
+    help="Direction of the fixed axis G of the dyad, of any length.",
+)  # fmt: skip
+@click.option(
+    "--direction", type=click.Choice(["ccw", "cw"]), default="ccw", show_default=True,
+    help="Direction in which the crank turns, seen from the tip of the axis.",
+)  # fmt: skip
+@click.option(
+    "-o", "--picture", metavar="OUT", help="Draw the sphere and the hoop to this file (.svg, .png or .pdf)."
+)
+@FORCE
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def order(
+    file: str,
+    axis: tuple[float, float, float],
+    direction: Direction,
+    picture: str | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Check whether a crank guides a body through orientations in order (Tipparthi and Larochelle 2011).
+
+    The hoop, half a great circle through the ends of the axis, turns from S12 by 180 degrees; the order in which
+    it crosses the relative axes Sij decides. Inequalities and the crank angles of the best-fitting dyad check the
+    result. Exit status 1: the order is not kept.
+
+    \b
+    Example:
+      synth order --orientations data/orientations/tipparthi.json --axis -0.349,-0.144,0.926 --direction cw
+    """
+    from synth.guidance.order import analyse_order
+    from synth.guidance.orientations import read_orientations
+
+    check_picture(picture, force=force)
+    orientations = read_orientations(file)
+    with about(file):
+        analysis = analyse_order(orientations, axis, direction)
+    if picture is not None:
+        from synth.drawing.scene.writing import save_scene
+        from synth.drawing.sphere import draw_hoop
+
+        save_scene(draw_hoop(orientations, axis, analysis.hoop), picture, force=force)
+    if as_json:
+        print_json({"file": file, "axis": list(axis), **analysis.to_json()})
+    else:
+        print_answer(analysis)
+        tell_written(picture)
+    if not analysis.in_order:
+        sys.exit(1)
+
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+_AXES = click.option(
+    "--axis", "axes", type=_AXIS, multiple=True, metavar="X,Y,Z",
+    help="Direction of a fixed axis, required for three orientations; may be repeated.",
+)  # fmt: skip
+
+
+def _samples_option(most: int) -> Callable[[_Command], _Command]:
+    """Return the option for how many dyads to take from the curves of four orientations."""
+    return click.option(
+        "--samples", type=click.IntRange(8, most), default=36, show_default=True, metavar="N",
+        help="Number of dyads on each curve, for four orientations.",
+    )  # fmt: skip
+
+
+@click.command(short_help="Find the RR dyads that guide a body through orientations.")
+@_ORIENTATIONS
+@_AXES
+@_samples_option(100_000)
+@click.option(
+    "-o", "--picture", metavar="OUT",
+    help="Draw a map of the sphere, coloured by order, to this file (.svg, .png or .pdf).",
+)  # fmt: skip
+@FORCE
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def dyads(
+    file: str,
+    axes: tuple[tuple[float, float, float], ...],
+    samples: int,
+    picture: str | None,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Find the RR dyads, fixed axis G and moving axis W, that guide a body through orientations.
+
+    For three orientations every fixed axis has a dyad, so --axis is required. For four there are curves of dyads,
+    which are sampled. For five there are up to six dyads, and all are found. For more orientations the
+    best-fitting dyads are found. W is in the frame of the body. The residual is the largest |G . (Mi - M1) W|.
+
+    \b
+    Example:
+      synth dyads --orientations data/orientations/tipparthi.json
+    """
+    from synth.guidance.orientations import read_orientations
+
+    check_picture(picture, force=force)
+    orientations = read_orientations(file)
+    with about(file):
+        guiding = _guiding_dyads(orientations, axes, samples)
+        if picture is not None:
+            from synth.drawing.scene.writing import save_scene
+
+            save_scene(_drawn(orientations, guiding.dyads), picture, force=force)
+    if as_json:
+        print_json({"file": file, **guiding.to_json()})
+        return
+    print_answer(guiding)
+    tell_written(picture)
+
+
+def _guiding_dyads(
+    orientations: Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
+) -> GuidingDyads:
+    """Return the dyads of orientations; refuse an --axis for other than three, or its absence for three."""
+    from synth.guidance.synthesis import guiding_dyads
+
+    if axes and len(orientations) != 3:
+        raise click.UsageError(f"--axis requires three orientations, got {len(orientations)}")
+    if not axes and len(orientations) == 3:
+        raise click.UsageError("three orientations require --axis X,Y,Z: every fixed axis has a dyad")
+    return guiding_dyads(orientations, axes, samples)
+
+
+def _drawn(orientations: Orientations, guiding: tuple[Dyad, ...]) -> Any:
+    """Return the map of orders, with the dyads, or with the curve of fixed axes for four orientations."""
+    from synth.drawing.order_map import draw_map
+
+    if len(orientations) == 4:
+        from synth.guidance.four import centre_axes
+
+        return draw_map(orientations, (), centre_axes(orientations, 720))
+    return draw_map(orientations, guiding)
+
+
+@click.command(short_help="Find the four-bars that guide their coupler through orientations.")
+@_ORIENTATIONS
+@_AXES
+@_samples_option(200)
+@click.option(
+    "--best", type=click.IntRange(min=1), default=12, show_default=True, metavar="K",
+    help="Largest number of four-bars to list.",
+)  # fmt: skip
+@click.option("--usable", is_flag=True, help="List only four-bars without defects.")
+@click.option("--cones", is_flag=True, help="Map each four-bar listed to cones.")
+@click.option(
+    "--motion", metavar="OUT.json", help="Write the motion of the best four-bar without defects, as orientations."
+)
+@click.option("--steps", type=click.IntRange(1, 100_000), default=20, show_default=True, metavar="N",
+              help="Number of steps of the motion between two orientations.")  # fmt: skip
+@FORCE
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+def fourbar(
+    file: str,
+    axes: tuple[tuple[float, float, float], ...],
+    samples: int,
+    best: int,
+    usable: bool,
+    cones: bool,
+    motion: str | None,
+    steps: int,
+    force: bool,
+    as_json: bool,
+) -> None:
+    """Find the four-bars that guide their coupler through orientations, and rank them.
+
+    Each pair of dyads is listed twice, with either dyad as the driver. A circuit defect: the orientations cannot
+    be reached without taking the linkage apart. A branch defect: the driver would have to pass a dead point. An
+    order defect: the driver, turning one way within its range, reaches them in another order. For three
+    orientations, two axes are required. With --cones each four-bar listed is mapped to cones, by either end of
+    each of its axes.
+
+    \b
+    Examples:
+      synth fourbar --orientations data/orientations/tipparthi.json --best 5
+      synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
+    """
+    from synth.guidance.fourbars import four_bars
+    from synth.guidance.orientations import read_orientations, write_orientations
+
+    check_output(motion, force=force)
+    orientations = read_orientations(file)
+    with about(file):
+        ranked = four_bars(orientations, _guiding_dyads(orientations, axes, samples).dyads)
+    good = [four_bar for four_bar in ranked if not four_bar.defects]
+    frames = None
+    if motion is not None:
+        with about(file):
+            quaternions = _motion(orientations, good, steps)
+            write_orientations(quaternions, motion, force=force)
+            frames = len(quaternions)
+    listed = (good if usable else ranked)[:best]
+    if as_json:
+        print_json(
+            {
+                "file": file,
+                "orientations": len(orientations),
+                "fourbars": [{**each.to_json(), **(_cones_json(each) if cones else {})} for each in listed],
+                "found": len(ranked),
+                "usable": len(good),
+                "motion": None if motion is None else {"file": motion, "frames": frames},
+            }
+        )
+        return
+    out = console()
+    out.print(
+        f"{len(orientations)} orientations: {numbered(len(ranked), 'four-bar')}, {len(good)} without defects"
+    )
+    out.print(_table(listed))
+    if cones:
+        out.print(_table_of_cones(listed))
+    if motion is not None:
+        out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
+
+
+def _motion(orientations: Orientations, good: list[GuidedFourBar], steps: int) -> Floats:
+    """Return the motion of the best four-bar, as quaternions."""
+    from graphs.errors import UnsolvableError
+    from synth.guidance.fourbars import motion_of
+
+    if not good:
+        raise UnsolvableError("--motion requires a four-bar without defects, and there is none")
+    return motion_of(orientations, good[0], steps).quaternions
+
+
+def _cones_json(four_bar: GuidedFourBar) -> dict[str, Any]:
+    """Return every cone, and interval of cones, on which a four-bar can lie."""
+    from synth.guidance.on_cones import conical_forms
+
+    forms = conical_forms(four_bar)
+    return {
+        "cones": [cone for form in forms for cone in form.cones_json()],
+        "families": [family for form in forms for family in form.families_json()],
+    }
+
+
+def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
+    rows = table("row", "ground driver coupler follower", "cone angle", "circuit", numbers=["row", "cone angle"])
+    for number, four_bar in enumerate(listed, start=1):
+        forms = _cones_json(four_bar)
+        sizes = [(cone, f"{cone['lambda_deg']:.4f}") for cone in forms["cones"]]
+        sizes += [(family, "{:.4f} to {:.4f}".format(*family["interval_deg"])) for family in forms["families"]]
+        if not sizes:
+            rows.add_row(str(number), "on no cone", "", "")
+        for cone, size in sizes:
+            links = " ".join(f"{angle:7.2f}" for angle in cone["link_angles_deg"])
+            rows.add_row(str(number), links, size, cone["circuit"])
+    return rows
+
+
+def _table(listed: Sequence[GuidedFourBar]) -> Any:
+    from math import degrees
+
+    from synth.guidance.hoop_method import direction_words
+
+    rows = table(
+        "driver G", "follower G", "ground driver coupler follower", "type", "driver turns", "defects",
+        "transmission", numbers=["transmission"],
+    )  # fmt: skip
+    for four_bar in listed:
+        g, h = (" ".join(f"{x:7.4f}" for x in dyad.fixed) for dyad in (four_bar.driver, four_bar.follower))
+        links = " ".join(f"{degrees(angle):7.2f}" for angle in four_bar.link_angles)
+        kind = f"{four_bar.kind.grashof} {four_bar.kind.name}"
+        rows.add_row(
+            g, h, links, kind, direction_words(four_bar.direction), ", ".join(four_bar.defects) or "none",
+            f"{degrees(four_bar.transmission):.2f}",
+        )  # fmt: skip
+    return rows

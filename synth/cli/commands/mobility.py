@@ -1,0 +1,175 @@
+"""``synth mobility``: the mobility of the mechanisms in files."""
+
+from __future__ import annotations
+
+import gc
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from synth.cli.output import about, console, entries, plain, print_json, table
+from synth.cli.reading import DRAWN, PRECISION, precise
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from synth.verdict.judged import JudgedMobility
+
+__all__ = ["mobility"]
+
+
+_LONGEST_PATH = 4096
+
+
+@click.command(short_help="Report mobility, degrees of freedom and motion branches, with the evidence.")
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@DRAWN
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object per mechanism.")
+@click.option(
+    "--exact/--no-exact", default=None,
+    help="Compute the exact generic rank. By default it is computed unless the mechanism is large.",
+)  # fmt: skip
+@click.option("--hinge-flat", is_flag=True, help="Treat the flat (F) edges of a crease pattern as hinges too.")
+@click.option(
+    "--pose", type=click.IntRange(min=0), metavar="FRAME",
+    help="Analyse this frame of a FOLD file; 0 is the key frame.",
+)  # fmt: skip
+@click.option(
+    "--no-geometry", is_flag=True,
+    help="Treat every loop round a hole or cut as spatial, even if its axes meet in a point.",
+)  # fmt: skip
+@click.option(
+    "--no-pose", is_flag=True,
+    help="Leave out the infinitesimal degrees of freedom at the configuration of the file.",
+)  # fmt: skip
+@click.option(
+    "--motion/--no-motion", "look_for_motion", default=None,
+    help="Search for finite motions from the configuration of the file. By default the search "
+    "is made unless the mechanism is large.",
+)  # fmt: skip
+@PRECISION
+@click.option(
+    "--more", is_flag=True,
+    help="Search for motion branches with a hundred times the usual allowance, and list all of them.",
+)  # fmt: skip
+@click.option(
+    "--verbose", is_flag=True, help="List all equations of mobility, with the reason why each applies or does not."
+)
+def mobility(
+    files: tuple[str, ...],
+    as_json: bool,
+    exact: bool | None,
+    hinge_flat: bool,
+    pose: int | None,
+    no_pose: bool,
+    no_geometry: bool,
+    look_for_motion: bool | None,
+    more: bool,
+    verbose: bool,
+) -> None:
+    """Report how a mechanism moves: its degrees of freedom, its motion branches, and the evidence.
+
+    FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern (.fold,
+    .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file gives a
+    full report, several give a table.
+
+    The verdict comes first: whether a crease pattern is rigid-foldable from its configuration, with how many
+    degrees of freedom, and which creases are immobile; for a type without coordinates, what a generic realisation
+    does. The evidence follows: counts by formula, the exact generic mobility, and the infinitesimal degrees of
+    freedom of a crease pattern at its configuration. With --pose all numbers are those of another frame.
+
+    \b
+    Examples:
+      synth mobility data/wiener/fortune-teller.json
+      synth mobility data/patterns/bird-base.fold
+    """
+    from graphs.errors import FileError
+    from synth.verdict.judged import mobility as mobility_of
+
+    if no_pose and pose is not None:
+        raise click.UsageError("--pose and --no-pose exclude each other")
+    frame: int | Literal[False] | None = False if no_pose else pose
+    failures: list[str] = []
+    answers: list[tuple[str, JudgedMobility]] = []
+    with _no_collection():
+        for entry in entries(files, failures):
+            try:
+                with about(entry.label):
+                    answer = mobility_of(
+                        precise(entry.mechanism),
+                        exact=exact,
+                        hinge_flat=hinge_flat,
+                        pose=frame,
+                        geometry=not no_geometry,
+                        motion=look_for_motion,
+                        more=more,
+                    )
+                    answers.append((entry.label, answer))
+            except FileError as error:
+                failures.append(str(error))
+    if as_json:
+        print_json([{"file": label, **answer.to_json()} for label, answer in answers])
+    elif len(answers) == 1 and not failures:
+        _print_answer(*answers[0], verbose=verbose)
+    elif answers:
+        _print_table(console(), sorted(answers, key=lambda item: _in_number_order(item[0])), len(failures))
+    for line in failures:
+        click.echo(line, err=True)
+    if failures:
+        sys.exit(2)
+
+
+@contextmanager
+def _no_collection() -> Iterator[None]:
+    """Pause the garbage collector, whose passes over all that was read take as long as the rest."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
+
+
+def _in_number_order(label: str) -> list[str | int]:
+    """Return a key that sorts numbers in names by value: chains.g6:2 before chains.g6:10."""
+    return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
+
+
+def _print_answer(label: str, answer: JudgedMobility, *, verbose: bool) -> None:
+    out = console()
+    out.print(plain(label, _LONGEST_PATH), style="bold")
+    for block in answer.blocks(verbose=verbose):
+        out.print(block)
+
+
+def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed: int) -> None:
+    """Print one line per mechanism, with totals; of one file alone all notes are printed."""
+    from graphs.errors import numbered
+
+    rows = table(
+        "file",
+        "class",
+        *(numbers := ("DOF", "N", "J", "L", "centres", "M", "exact", "pose", "notes")),
+        numbers=numbers,
+    )
+    common = set.intersection(*(set(answer.warnings) for _, answer in answers))
+    for label, answer in answers:
+        notes = len(answer.repairs) + len(set(answer.warnings) - common)
+        rows.add_row(
+            plain(label, _LONGEST_PATH),
+            answer.mechanism_class,
+            plain(None if answer.verdict is None else answer.verdict.freedoms),
+            *map(plain, (answer.links, answer.joints, answer.loops, answer.centres, answer.mobility)),
+            plain(None if answer.exact is None else answer.exact.mobility),
+            plain(None if answer.pose is None else answer.pose.dof),
+            plain(notes or ""),
+        )
+    out.print(rows)
+    out.print(f"{numbered(len(answers), 'mechanism')} reported, {failed} failed")
+    for note in sorted(common):
+        out.print(f"note, for all: {note}")
+    if any(answer.repairs or set(answer.warnings) - common for _, answer in answers):
+        out.print("for the notes of a file, try that file alone")

@@ -1,1 +1,0 @@
-"""Subcommands about members that bend or come to their limit: what a mechanism is then."""

@@ -1,1 +1,0 @@
-"""``synth enumerate``: a module for each subcommand."""

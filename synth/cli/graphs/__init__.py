@@ -1,1 +1,0 @@
-"""``synth mobility``, ``reduce``, ``edit``, ``convert``, ``reconstruct``."""

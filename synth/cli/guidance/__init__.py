@@ -1,1 +1,0 @@
-"""``synth order``, ``dyads``, ``fourbar``."""

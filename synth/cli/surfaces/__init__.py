@@ -1,1 +1,0 @@
-"""``synth cone`` and ``synth cylinder``."""

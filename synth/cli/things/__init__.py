@@ -1,1 +1,0 @@
-"""Commands on things in space: folding."""

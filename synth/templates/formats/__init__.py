@@ -1,1 +1,0 @@
-"""Templates as files: pages as SVG and PDF, pieces side by side as DXF."""

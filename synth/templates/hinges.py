@@ -1,0 +1,219 @@
+"""Folds of thick material: strips of a stated width in their place, creased twice, cut in rows, or left out.
+
+A strip of half the width is taken off each panel along its folds. What is between two panels then is bent along
+both sides (offset creases, after J. S. Ku and E. D. Demaine, *Journal of Mechanisms and Robotics* 8, 2016), or
+made soft by rows of cuts (a living hinge), or is not there (a gap). Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, isfinite
+from typing import Any, Literal, get_args
+
+import numpy as np
+import shapely
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError, shown
+from synth.templates.pieces import (
+    GRID,
+    Kind,
+    Piece,
+    Point,
+    Stroke,
+    Text,
+    common_spans,
+    cut_once,
+    spans_on,
+    uncovered,
+    united,
+)
+
+__all__ = ["HingeKind", "Hinges", "with_hinges"]
+
+HingeKind = Literal["offset", "living", "gap"]
+_STRAIGHT = 5e-7
+"""Corners this close to a straight line, in millimetres, are none."""
+_THIN = 1e-5
+"""Millimetres: a fold of this width separates panels without changing them."""
+_SPECK = 1e-3
+"""Square millimetres: smaller areas are not parts of a panel."""
+_ROWS_APART, _CUT, _BRIDGE = 2.0, 15.0, 2.5
+"""Of a living hinge, in millimetres: distance of rows, and about the length of a cut and of a bridge."""
+_LETTERS: dict[Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
+
+
+@dataclass(frozen=True)
+class Hinges:
+    """The kind of the hinges made of folds, and their width in millimetres.
+
+    Raise InvariantError if the kind is unknown, or the width is not positive.
+    """
+
+    kind: HingeKind
+    width: float
+
+    def __post_init__(self) -> None:
+        if self.kind not in get_args(HingeKind):
+            raise InvariantError("hinges", f"hinges {shown(self.kind)}", ", ".join(get_args(HingeKind)))
+        if not (isfinite(self.width) and self.width > 0):
+            raise InvariantError("hinges", f"a width of {self.width!r} mm", "a positive number")
+
+
+@dataclass(frozen=True)
+class _Strip:
+    """The strip between two panels in place of a fold, from `first` to `last` along it, in millimetres."""
+
+    fold: Stroke
+    start: Floats
+    along: Floats
+    off: Floats
+    width: float
+    first: float
+    last: float
+
+    def at(self, along: float, across: float) -> Point:
+        """Return a place by millimetres along the fold, and by half widths across it."""
+        place = self.start + along * self.along + across * self.width / 2 * self.off
+        return float(place[0]), float(place[1])
+
+    def line(self, kind: Kind, across: float, first: float, last: float) -> Stroke:
+        """Return a line along the fold."""
+        return Stroke(kind, self.at(first, across), self.at(last, across))
+
+    def sides(self) -> list[Stroke]:
+        """Return its borders with the panels."""
+        return [self.line(self.fold.kind, across, self.first, self.last) for across in (-1, 1)]
+
+    def ends(self) -> list[Stroke]:
+        """Return the cuts at its ends."""
+        return [Stroke("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)]
+
+    def polygon(self) -> Any:
+        """Return its area."""
+        return shapely.Polygon([end for side in self.ends() for end in (side.start, side.end)]).convex_hull
+
+
+def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
+    """Return a piece with strips in the place of its folds.
+
+    `met` are the edges that meet others when it is put together; a gap is left there too. Raise UnsolvableError if
+    a panel is narrower than the hinges, or a fold too short for one.
+
+    >>> outline = [(0, 0), (50, 0), (100, 0), (100, 40), (50, 40), (0, 40)]
+    >>> cuts = [Stroke("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
+    >>> card = Piece((*cuts, Stroke("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))
+    >>> hinged = with_hinges(card, (), Hinges("offset", 3))
+    >>> [stroke.start[0] for stroke in hinged.strokes if stroke.kind == "VALLEY"]
+    [51.5, 48.5]
+    """
+    folds = [stroke for stroke in piece.strokes if stroke.kind not in ("CUT", "MARKS")]
+    apart = [*folds, *met] if hinges.kind == "gap" else folds
+    if not apart:
+        return piece
+    panels = _panels(piece, apart, hinges.width)
+    strips = [] if hinges.kind == "gap" else _all_strips(folds, panels, hinges)
+    cuts = _cuts(piece, panels, strips)
+    more = [line for strip in strips for line in (strip.sides() if hinges.kind == "offset" else _rows(strip))]
+    words = [] if hinges.kind == "offset" else list(_letters(folds))
+    marks = [stroke for stroke in piece.strokes if stroke.kind == "MARKS"]
+    covered = united([*panels, *(strip.polygon() for strip in strips)])
+    return Piece((*cut_once(cuts), *more, *marks), (*piece.texts, *words), covered)
+
+
+def _panels(piece: Piece, lines: Sequence[Stroke], width: float) -> list[Any]:
+    """Return the panels without the strips at their own hinges; each must remain in one part."""
+    every = [shapely.LineString([line.start, line.end]) for line in lines]
+    parted = united(shapely.buffer(every, _THIN, cap_style="square"))
+    panels = []
+    for part in _parts(shapely.difference(piece.covered, parted, grid_size=GRID)):
+        wider = part.buffer(2 * _THIN, join_style="mitre")
+        panel = shapely.intersection(wider, piece.covered, grid_size=GRID)
+        own = [line for line in every if line.intersection(panel).length > line.length / 10]
+        strips = united(shapely.buffer(own, width / 2, cap_style="square"))
+        left = _parts(shapely.difference(panel, strips, grid_size=GRID).simplify(_STRAIGHT))
+        if len(left) != 1:
+            raise UnsolvableError(
+                f"a panel has no room for hinges of {width:g} mm; try a smaller --hinge-width or a larger --size"
+            )
+        panels += left
+    return panels
+
+
+def _parts(shape: Any) -> list[Any]:
+    return [part for part in getattr(shape, "geoms", [shape]) if part.area > _SPECK]
+
+
+def _all_strips(folds: Sequence[Stroke], panels: Sequence[Any], hinges: Hinges) -> list[_Strip]:
+    rings = [ring for panel in panels for ring in (panel.exterior, *panel.interiors)]
+    sides = np.array([ends for ring in rings for ends in pairwise(ring.coords)]).reshape(-1, 2, 2)
+    strips = [strip for fold in folds for strip in _strips(fold, sides, hinges)]
+    areas = [strip.polygon() for strip in strips]
+    together = float(united(areas).area)
+    if sum(area.area for area in areas) - together > _SPECK:
+        raise UnsolvableError(
+            f"hinges of {hinges.width:g} mm overlap; try a smaller --hinge-width, or a larger --size"
+        )
+    return strips
+
+
+def _strips(fold: Stroke, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
+    """Yield the strips of a fold: where it has a panel on both sides."""
+    start, end = np.array(fold.start), np.array(fold.end)
+    length = float(np.linalg.norm(end - start))
+    along = (end - start) / length
+    off = np.array([-along[1], along[0]])
+    width, least = hinges.width, 3 * _BRIDGE if hinges.kind == "living" else _SPECK
+    beside = [spans_on(start + side * width / 2 * off, along, sides) for side in (-1, 1)]
+    there = common_spans([(0.0, length)], common_spans(*beside))  # another fold may go on in the same line
+    spans = [span for span in there if span[1] - span[0] > least]
+    if not spans:
+        raise UnsolvableError(
+            f"a fold of {length:.3g} mm is too short for a hinge {width:g} mm wide; try a smaller --hinge-width"
+        )
+    for first, last in spans:
+        yield _Strip(fold, start, along, off, width, first, last)
+
+
+def _cuts(piece: Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list[Stroke]:
+    """Return the outlines of panels except at strips, the slits, and the ends of strips."""
+    joined = np.array([(side.start, side.end) for strip in strips for side in strip.sides()]).reshape(-1, 2, 2)
+    cuts = []
+    for panel in panels:
+        for ring in (panel.exterior, *panel.interiors):
+            for start, end in pairwise(ring.coords):
+                cuts += uncovered(Stroke("CUT", start, end), joined)
+    removed = shapely.difference(piece.covered, united(panels), grid_size=GRID)
+    for stroke in piece.strokes:
+        if stroke.kind == "CUT":
+            rest = shapely.LineString([stroke.start, stroke.end]).difference(removed)
+            for part in getattr(rest, "geoms", [rest]):
+                cuts += [Stroke("CUT", start, end) for start, end in pairwise(part.coords)]
+    return cuts + [end for strip in strips for end in strip.ends()]
+
+
+def _rows(strip: _Strip) -> list[Stroke]:
+    """Return the cuts of a living hinge: in rows along it, every other row shifted by half a cut."""
+    rows = max(2, ceil(strip.width / _ROWS_APART))
+    length = strip.last - strip.first
+    count = max(1, round(length / (_CUT + _BRIDGE)))
+    pitch = length / count
+    cuts = []
+    for row in range(rows):
+        across = (2 * row + 1) / rows - 1
+        bridges = [pitch * (place + 0.5 * (row % 2)) for place in range(count + 1)]
+        ends = [(0.0, bridges[0] - _BRIDGE / 2)] if row % 2 else []
+        ends += [(one + _BRIDGE / 2, min(other - _BRIDGE / 2, length)) for one, other in pairwise(bridges)]
+        cuts += [strip.line("CUT", across, strip.first + one, strip.first + other) for one, other in ends]
+    return cuts
+
+
+def _letters(folds: Sequence[Stroke]) -> Iterator[Text]:
+    """Yield the letters of folds that are not lines any more."""
+    for fold in folds:
+        if letter := _LETTERS.get(fold.kind):
+            (ax, ay), (bx, by) = fold.start, fold.end
+            yield Text(((ax + bx) / 2, (ay + by) / 2), letter)

@@ -1,0 +1,235 @@
+"""Panels in space laid out in the plane: in nets, as large as they can be without a panel over another.
+
+Theory: docs/theory/templates.md.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from math import atan2
+from typing import Any
+
+import numpy as np
+import shapely
+
+from graphs.arrays import Floats
+from graphs.canonical import leading, trailing
+from graphs.errors import UnsolvableError
+from graphs.geometry import across, area_vector, unit
+from graphs.mechanism.sheet import COLLINEAR, FLAT, Edge, Sheet, sides_of_face
+from graphs.tolerances import DOUBLE
+from synth.templates.pieces import lies_over
+
+__all__ = ["Net", "Panels", "Plane", "laid_across", "nets_of", "panels_of"]
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A frame in the plane of a panel; its origin is the mean of the corners.
+
+    The columns of `axes`, float[3, 3], are two axes in the plane and the normal, round which the corners go
+    counter-clockwise; `flat`, float[corners, 2], are the corners in the frame.
+    """
+
+    origin: Floats
+    axes: Floats
+    flat: Floats
+
+    @property
+    def normal(self) -> Floats:
+        """The unit normal, float[3]."""
+        column: Floats = self.axes[:, 2]
+        return column
+
+
+def plane_of_panel(corners: Floats, face: int) -> Plane:
+    """Return the plane of a panel with corners float[corners, 3]; messages name its number, the face.
+
+    Raise UnsolvableError if the corners lie in no plane or in a line, a side has no length, or sides cross.
+
+    >>> plane_of_panel(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist()
+    [0.0, 0.0, 1.0]
+    """
+    origin: Floats = corners.mean(axis=0)
+    arms = corners - origin
+    area = 2 * area_vector(corners)
+    size = float(np.abs(arms).max())
+    if np.linalg.norm(area) <= COLLINEAR * size**2:
+        raise UnsolvableError(f"panel {face} has no area")
+    normal = unit(area)
+    if float(np.abs(arms @ normal).max()) > DOUBLE.flat * size:
+        raise UnsolvableError(f"panel {face} is not planar, so it cannot be cut from a sheet")
+    along = unit(across(np.eye(3)[trailing(np.abs(normal))], normal))
+    axes = np.column_stack([along, np.cross(normal, along), normal])
+    flat = arms @ axes[:, :2]
+    if np.linalg.norm(flat - np.roll(flat, -1, axis=0), axis=1).min() <= DOUBLE.same_point * size:
+        raise UnsolvableError(f"panel {face} has a side without length")
+    if not shapely.Polygon(flat).is_valid:
+        raise UnsolvableError(f"the border of panel {face} crosses or touches itself, so it cannot be cut out")
+    return Plane(origin, axes, flat)
+
+
+_CUT = "BC"
+
+
+@dataclass(frozen=True)
+class Panels:
+    """The panels of a sheet with all edges listed, each in its own plane, at places float[vertices, 3].
+
+    `joins` maps each edge at which two panels hang together to these, `slits` each edge between two that is cut.
+    """
+
+    sheet: Sheet
+    planes: tuple[Plane, ...]
+    joins: Mapping[int, tuple[int, int]]
+    slits: Mapping[int, tuple[int, int]]
+    places: Floats
+
+    def ends(self, face: int, edge: int) -> tuple[int, int]:
+        """Return which corners of a face the ends of an edge are, in the order of the face."""
+        around = self.sheet.faces[face]
+        a, b = (around.index(vertex) for vertex in self.sheet.edges[edge])
+        return (a, b) if (a + 1) % len(around) == b else (b, a)
+
+    def fold_angle(self, edge: int) -> float:
+        """Return how far two panels are folded, radians, valleys positive."""
+        first, second = self.joins[edge]
+        a, b = (self.sheet.faces[first][corner] for corner in self.ends(first, edge))
+        along = unit(self.places[b] - self.places[a])
+        c, _ = (self.sheet.faces[second][corner] for corner in self.ends(second, edge))
+        normal = self.planes[first].normal
+        other = self.planes[second].normal * (1 if c == b else -1)
+        return -atan2(along @ np.cross(normal, other), normal @ other)
+
+    def shared_by(self, face: int) -> list[int]:
+        """Return the edges between a panel and another, hinged or cut."""
+        return [edge for edge, faces in (*self.joins.items(), *self.slits.items()) if face in faces]
+
+
+@dataclass(frozen=True)
+class Net:
+    """Panels laid out beside each other: the corners, float[corners, 2], of each face.
+
+    `turned`: the face is seen from behind, as one whose corners go round the other way than its neighbour's.
+    """
+
+    corners: Mapping[int, Floats]
+    turned: Mapping[int, bool]
+
+    def polygons(self) -> list[Any]:
+        """Return the panels as shapely polygons."""
+        return [shapely.Polygon(corners) for corners in self.corners.values()]
+
+
+def panels_of(sheet: Sheet, places: Floats) -> Panels:
+    """Return the panels of a sheet with all edges listed, each in its plane; places are float[vertices, 3].
+
+    Raise UnsolvableError if a panel is not planar, or more than two meet in an edge.
+    """
+    planes = tuple(plane_of_panel(places[list(around)], face) for face, around in enumerate(sheet.faces))
+    faces: dict[frozenset[int], list[int]] = defaultdict(list)
+    for face, around in enumerate(sheet.faces):
+        for side in sides_of_face(around):
+            faces[frozenset(side)].append(face)
+    joins: dict[int, tuple[int, int]] = {}
+    slits: dict[int, tuple[int, int]] = {}
+    for edge, letter in _once(sheet):
+        at = faces[frozenset(sheet.edges[edge])]
+        if len(at) > 2:
+            a, b = sheet.edges[edge]
+            raise UnsolvableError(f"{len(at)} panels meet in the edge from vertex {a} to {b}; expected at most 2")
+        if len(at) == 2:
+            (slits if letter in _CUT else joins)[edge] = (at[0], at[1])
+    return Panels(sheet, planes, joins, slits, places)
+
+
+def _once(sheet: Sheet) -> list[tuple[int, str]]:
+    """Return the edges, each pair of vertices once, with their letters."""
+    first: dict[frozenset[int], int] = {}
+    for number, edge in enumerate(sheet.edges):
+        first.setdefault(frozenset(edge), number)
+    return [(number, sheet.assignments[number]) for number in first.values()]
+
+
+def nets_of(panels: Panels) -> list[Net]:
+    """Return nets of all panels: each begins with the largest panel left, and grows over the longest edges.
+
+    A panel that would lie over another waits for another of its edges, and else begins a net of its own. Panels
+    that hang together flat are laid first, so that no rigid part is cut where that can be helped.
+    """
+    edges_at: dict[int, list[int]] = defaultdict(list)
+    for edge, faces in panels.joins.items():
+        for face in faces:
+            edges_at[face].append(edge)
+    areas = np.array([shapely.Polygon(plane.flat).area for plane in panels.planes])
+    left = set(range(len(panels.planes)))
+    nets = []
+    while left:
+        faces_left = sorted(left)
+        root = faces_left[leading(areas[faces_left])]
+        net = _grown(panels, root, left, edges_at)
+        left -= set(net.corners)
+        nets.append(net)
+    return nets
+
+
+def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> Net:
+    """Return the net that grows from a panel over those that are left."""
+    corners, turned = {root: panels.planes[root].flat}, {root: False}
+    polygons = [shapely.Polygon(panels.planes[root].flat)]
+    waiting: list[tuple[tuple[bool, float, int], int, int]] = []
+
+    def reach(face: int) -> None:
+        for edge in edges_at[face]:
+            heappush(waiting, (_rank(panels, edge), edge, face))
+
+    reach(root)
+    while waiting:
+        _, edge, face = heappop(waiting)
+        other = _other(panels.joins[edge], face)
+        if other not in left or other in corners:
+            continue
+        laid, flipped = laid_across(panels, edge, face, corners[face], turned=turned[face])
+        polygon = shapely.Polygon(laid)
+        if lies_over(polygon, polygons):
+            continue
+        corners[other], turned[other] = laid, flipped
+        polygons.append(polygon)
+        reach(other)
+    return Net(corners, turned)
+
+
+def _rank(panels: Panels, edge: int) -> tuple[bool, float, int]:
+    """Order edges: those that are flat first, then the longest."""
+    a, b = panels.sheet.edges[edge]
+    length = float(np.linalg.norm(panels.places[a] - panels.places[b]))
+    return panels.sheet.assignments[edge] not in FLAT, -round(length, 9), edge
+
+
+def _other(pair: Edge, face: int) -> int:
+    return pair[1] if pair[0] == face else pair[0]
+
+
+def laid_across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
+    """Return the laid corners of the panel across an edge, and whether it is seen from behind.
+
+    `face` is the panel already laid, `laid` its corners, float[corners, 2]; `turned`: it is seen from behind.
+    """
+    other = _other(panels.joins[edge], face)
+    a, b = panels.ends(face, edge)
+    c, d = panels.ends(other, edge)
+    same_way = panels.sheet.faces[face][a] == panels.sheet.faces[other][c]
+    flipped = turned != same_way
+    flat = panels.planes[other].flat * ((-1, 1) if flipped else (1, 1))
+    if not same_way:
+        c, d = d, c
+    was, now = flat[d] - flat[c], laid[b] - laid[a]
+    # As complex numbers, the turn that takes one side to the other.
+    turn = complex(*now) / complex(*was)
+    turn /= abs(turn)
+    matrix = np.array([[turn.real, turn.imag], [-turn.imag, turn.real]])
+    moved: Floats = (flat - flat[c]) @ matrix + laid[a]
+    return moved, flipped
