@@ -26,9 +26,9 @@ import networkx as nx
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.running import rows_of
-from graphs.edit.sc import Edit, add_loop
+from graphs.edit.edits import Edit, add_loop
 from graphs.errors import InvariantError
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.identity.chains import chain_id
 from graphs.identity.classes import class_code, symmetries_of_links
 from graphs.ids import JointId, LinkId

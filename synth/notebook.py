@@ -69,7 +69,7 @@ def picture_of(thing: Any) -> str | None:
 
     Examples
     --------
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> picture_of(mechanism_of_id("k1:Cr"))[:4]
     '<svg'
     """

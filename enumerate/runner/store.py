@@ -22,8 +22,7 @@ from enumerate.runner.job import Job, Row
 from enumerate.runner.store_repair import examined, rebuilt
 from enumerate.runner.store_units import FORMAT, VERSION, UnitTable, make_tables, meta_in, named, reading
 from graphs.errors import StoreError
-from graphs.files.atomic import check_place
-from graphs.files.unfinished import remove_left
+from graphs.files.atomic import check_place, remove_left
 
 __all__ = ["SqliteSink", "job_in", "read_meta", "read_rows"]
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from enumerate.runner.store_units import COMPLAINTS, UnitTable, is_damage, make_tables, meta_in, named, reading
 from graphs.errors import OpenError
-from graphs.files.unfinished import Unfinished, remove_folder
+from graphs.files.atomic import Unfinished, remove_folder
 
 __all__ = ["Findings", "examined", "rebuilt"]
 

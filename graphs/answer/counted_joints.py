@@ -13,8 +13,7 @@ from graphs.count.equations import loop_form, modified_cgk, spherical_system, tr
 from graphs.count.report import EquationResult, MobilityReport, mechanism_class, mobility_report
 from graphs.errors import numbered
 from graphs.joints.as_points import points_of, rods_between_balls
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
 
 __all__ = ["report_of_joints"]
 

@@ -21,10 +21,9 @@ from graphs.count.equations import traditional_cgk
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
 from graphs.ids import JointId
-from graphs.joints.as_revolutes import revolutes_of
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs
 from graphs.joints.placing import placed
+from graphs.joints.revolutes import revolutes_of
 from graphs.loops.cycle_space import signed_cycle
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph

@@ -11,8 +11,7 @@ import numpy as np
 
 from graphs.geometry import unit
 from graphs.ids import JointId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.precision import precision_of_axes
 from graphs.mechanism.sc import SCGraph

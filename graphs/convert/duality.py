@@ -14,8 +14,7 @@ from math import dist
 
 import networkx as nx
 
-from graphs.convert.centres import loops_with_centres
-from graphs.convert.cycles import Hinged, boundary_cycles, vertex_cycles
+from graphs.convert.cycles import Hinged, boundary_cycles, loops_with_centres, vertex_cycles
 from graphs.convert.hinges import HingeLines, lines_of_hinges
 from graphs.errors import InvariantError, numbered
 from graphs.loops.cycle_space import added_independent, split_dependent

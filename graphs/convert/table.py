@@ -1,8 +1,7 @@
-"""From any object that a file may hold to any other.
+"""From any object that a file may hold to any other, by functions or by the names of kinds and forms.
 
-One function a target; each says what stands in the way where there is no road. The roads themselves are in
-:mod:`graphs.convert.reconstruction`, :mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and
-:mod:`graphs.mechanism.vertex_edge`.
+One function for each target; each says what stands in the way if there is no road. The roads themselves are in
+:mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and :mod:`graphs.mechanism.vertex_edge`.
 """
 
 from __future__ import annotations
@@ -14,13 +13,13 @@ import networkx as nx
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.panels import oriented_panels, scd_from_panels, scd_of_placed_panels
-from graphs.convert.reconstruction import polyhedron_of
-from graphs.errors import UnsolvableError
+from graphs.convert.panels import oriented_panels, polyhedron_of, scd_from_panels, scd_of_placed_panels
+from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.given import check_given
 from graphs.ids import JointId
-from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.linkage import JointedLinkage
-from graphs.joints.recognising import recognised
+from graphs.joints.revolutes import recognised, revolutes_of
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -32,7 +31,9 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, v
 
 __all__ = [
     "CONVERSIONS",
+    "FORMS",
     "Mechanism",
+    "convert",
     "graph_of",
     "to_joints",
     "to_polyhedron",
@@ -259,7 +260,7 @@ def to_joints(thing: Mechanism) -> JointedLinkage:
 
     Raise UnsolvableError if there are no axes by which to recognise them.
 
-    >>> from graphs.joints.kinds import JointKind
+    >>> from graphs.joints.linkage import JointKind
     >>> ball = JointedLinkage(SCGraph(2, [(0, 1)]), {0: JointKind.SPHERICAL})
     >>> to_solids(ball), to_joints(to_solids(ball))
     (<HingedSolids: <SCGraph: 4 links, 3 joints, 0 centres>>, <JointedLinkage: 2 links, 1 joint: S, placed>)
@@ -302,3 +303,46 @@ def _solids_of_sheet(sheet: Sheet) -> HingedSolids:
         u, v, w = (corners[b] - corners[a]).tolist()
         axes[joint] = (x, y, z), (u, v, w)
     return HingedSolids(mechanism.sc, axes)
+
+
+FORMS = {"planar": planar_analogue, "spherical": spherical_analogue, "general": generalised_form}
+"""Name of a form to the function that changes the centres."""
+
+
+def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None = None) -> Mechanism:
+    """Convert a mechanism to another kind, or change its centres, or both in this order.
+
+    Parameters
+    ----------
+    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, SurfaceLinkage, HingedSolids, ...
+    kind : {"sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"}, optional
+        "solids": revolutes with axes, those that stand for joints of other kinds; "joints": such chains seen as
+        the joints that they are.
+    form : {"planar", "spherical", "general"}, optional
+        Planar analogue, spherical analogue, or most general form; of its SC graph.
+
+    Raises
+    ------
+    InvariantError
+        If a name is not known.
+    UnsolvableError
+        If there is no road to that kind.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> convert(fan, "polyhedron")
+    <PolyhedronModel: 5 vertices, 8 rods>
+    >>> convert(fan, "sc", form="planar").loops[0].centre
+    <Centre.INFINITE: 'infinite'>
+    """
+    check_given("convert", mechanism, Mechanism)
+    for name, what, known in ((kind, "kind", tuple(CONVERSIONS)), (form, "form", tuple(FORMS))):
+        if name is not None and name not in known:
+            raise InvariantError(what, f"the {what} {shown(name)}", "one of " + ", ".join(known))
+    if kind is not None:
+        mechanism = CONVERSIONS[kind](mechanism)
+    if form is None:
+        return mechanism
+    return FORMS[form](graph_of(mechanism))

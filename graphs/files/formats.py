@@ -1,30 +1,32 @@
-"""One path from a file to a mechanism and back: formats by extension.
+"""One path from a file to a mechanism and back: formats by extension, ids, lines of files of many.
 
 To add a format, write a reader or a writer and enter it in ``READERS`` or ``WRITERS`` (docs/architecture.md).
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, OpenError, UnsolvableError
+from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
     as_sc,
+    edge_list_text,
     graph6_text,
     graphml_text,
+    read_edge_list,
     read_graph6,
     read_graphml,
 )
-from graphs.files.edge_lists import edge_list_text, read_edge_list
-from graphs.files.ids import is_id, line_named, mechanism_of_id
-from graphs.files.kept_type import change_of_type
 from graphs.files.losses import (
+    change_of_type,
     lost_as_bare_graph,
     lost_as_cp,
     lost_as_dxf,
@@ -34,18 +36,74 @@ from graphs.files.losses import (
     lost_as_svg,
     lost_as_typed_graph,
 )
-from graphs.files.native.documents import dumps, from_document
+from graphs.files.native import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.legend import UNSTATED, Legend, Told
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
 from graphs.given import check_given
+from graphs.identity.chains import chain_from_id
+from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import flattened
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_linkage", "write"]
+__all__ = [
+    "READERS",
+    "WRITERS",
+    "Entry",
+    "is_id",
+    "line_named",
+    "mechanism_of_id",
+    "read",
+    "read_all",
+    "read_linkage",
+    "write",
+]
+
+_IDS = ("k1:", "m1:")
+
+
+def is_id(path: str | Path) -> bool:
+    """Say whether the name of a file is the id of a mechanism.
+
+    >>> is_id("k1:Cr"), is_id("./k1:Cr")
+    (True, False)
+    """
+    return str(path).startswith(_IDS) and not isinstance(path, Path)
+
+
+def mechanism_of_id(code: str) -> SCGraph:
+    """Return the mechanism of an id; a chain gets finite centres, as a bare link-joint graph does.
+
+    Raise FileError if it is not an id.
+    """
+    try:
+        if code.startswith("k1:"):
+            return sc_from_link_joint_graph(chain_from_id(code))
+        return mechanism_from_map_id(code)
+    except InvariantError as error:
+        raise FileError(code, "", error.offender, error.expected) from None
+
+
+_LINE = re.compile(r"(.+\.[gs]6):([1-9][0-9]{0,17})", re.IGNORECASE | re.DOTALL)
+
+
+def line_named(path: str | Path) -> tuple[Path, str | None]:
+    """Return the file of a line of a graph6 file, ``chains.g6:7``, and the line; None for a whole file.
+
+    An existing file with the whole name takes precedence.
+
+    >>> path, line = line_named("chains.g6:7")
+    >>> path.name, line
+    ('chains.g6', '7')
+    """
+    parts = _LINE.fullmatch(str(path))
+    if parts is None or Path(path).exists():
+        return Path(path), None
+    return Path(parts[1]), parts[2]
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,19 +360,19 @@ def _read_edges(path: Path) -> Iterator[tuple[str, Mechanism]]:
 
 
 def _read_cp(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.cp import sheet_from_cp  # tracing loads shapely
+    from graphs.files.patterns.lines import sheet_from_cp
 
     yield "", sheet_from_cp(path)
 
 
 def _read_opx(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.opx import sheet_from_opx
+    from graphs.files.patterns.lines import sheet_from_opx
 
     yield "", sheet_from_opx(path)
 
 
 def _read_dxf(path: Path, legend: Legend = UNSTATED) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.dxf.sheets import sheet_from_dxf
+    from graphs.files.patterns.dxf import sheet_from_dxf
 
     yield "", sheet_from_dxf(path, legend)
 
@@ -360,14 +418,14 @@ def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
 
 
 def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    from graphs.files.patterns.cp import cp_text
+    from graphs.files.patterns.lines import cp_text
 
     sheet = to_sheet(mechanism)
     return cp_text(sheet), (*lost_as_cp(mechanism, sheet), *_how_it_stood(sheet))
 
 
 def _write_dxf(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    from graphs.files.patterns.dxf.sheets import dxf_text
+    from graphs.files.patterns.dxf import dxf_text
 
     sheet = to_sheet(mechanism)
     return dxf_text(sheet), (*lost_as_dxf(mechanism, sheet), *_how_it_stood(sheet))

@@ -12,8 +12,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 

@@ -22,7 +22,7 @@ from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.running import rows_of
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.identity.chains import chain_id
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.on_surface import SurfaceLinkage

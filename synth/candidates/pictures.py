@@ -10,8 +10,7 @@ from typing import Any
 from enumerate.runner.columns import row_as_dict
 from enumerate.runner.job import Row, Sink
 from graphs.errors import UnsolvableError
-from graphs.files.atomic import FolderBeside
-from graphs.files.unfinished import remove_left
+from graphs.files.atomic import FolderBeside, remove_left
 from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
 from synth.conformed.layers import links_in_layers

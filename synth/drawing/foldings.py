@@ -7,7 +7,7 @@ from pathlib import Path
 from graphs.arrays import Floats
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import check_place, write_text
-from graphs.files.patterns.fold_poses import fold_text_of_poses
+from graphs.files.patterns.fold import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet

@@ -15,9 +15,8 @@ from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.geometry import lines_meet
 from graphs.ids import JointId
-from graphs.joints.as_revolutes import revolutes_of
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
+from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel

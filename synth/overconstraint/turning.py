@@ -11,9 +11,8 @@ import numpy as np
 
 from graphs.arrays import Floats
 from graphs.geometry import unit
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, Leg, legs, plain_vector
-from graphs.joints.recognising import recognised
+from graphs.joints.linkage import JointedLinkage, JointKind, Leg, legs, plain_vector
+from graphs.joints.revolutes import recognised
 from graphs.loops.loop import Centre
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.spaces import null_space

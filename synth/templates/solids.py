@@ -11,10 +11,7 @@ from graphs.arrays import Floats
 from graphs.errors import FileError, UnsolvableError, numbered
 from graphs.files.atomic import Beside, check_place
 from graphs.files.solids.gltf import gltf_text
-from graphs.files.solids.mesh import Mesh
-from graphs.files.solids.obj import obj_of_meshes
-from graphs.files.solids.stl import stl_bytes
-from graphs.files.solids.three_mf import three_mf_bytes
+from graphs.files.solids.meshes import Mesh, obj_of_meshes, stl_bytes, three_mf_bytes
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface

@@ -14,7 +14,7 @@ import shapely
 
 from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.files.solids.mesh import Mesh
+from graphs.files.solids.meshes import Mesh
 from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import FLAT, Sheet
 from synth.templates.pieces.overlaps import GRID, united

@@ -1,13 +1,17 @@
-"""FOLD files, 1.0 to 1.2: the frame that holds the pattern; faces that are not given are traced.
+"""FOLD files, 1.0 to 1.2: the frame that holds the pattern; missing faces are traced.
 
 Read as a :class:`graphs.mechanism.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The
 format is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
-demands, and told of when the sheet is written (:mod:`graphs.files.losses`).
+demands, and named when the sheet is written (:mod:`graphs.files.losses`).
+
+FOLD 1.1, "file_frames": a frame with ``frame_inherit`` takes every key it lacks from its ``frame_parent``, the key
+frame (0) or an earlier or later one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from math import isclose
@@ -16,19 +20,118 @@ from typing import Any, cast
 
 import numpy as np
 
-from graphs.convert.loose_creases import creases_on_no_face, joins_faces, traced_anew
+from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.errors import FileError, numbered
-from graphs.files.check import Checker
-from graphs.files.patterns.fold_frames import resolved_frame
-from graphs.files.patterns.simple import with_simple_faces
-from graphs.files.text import json_text, load_json
+from graphs.files.text import Checker, json_text, load_json
 from graphs.mechanism.plane import flattened
 from graphs.mechanism.precision import written_by
 from graphs.mechanism.reading import WrittenPrecision
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet
 from graphs.work_limits import most
 
-__all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
+__all__ = ["FoldFrames", "fold_text", "fold_text_of_poses", "read_fold", "resolved_frame", "sheet_from_fold"]
+
+_OLD_NAMES = {
+    "edges_foldAngles": "edges_foldAngle",
+    "edges_lengths": "edges_length",
+    "edges_crease_angle_os": "edges_foldAngle",
+}
+"""Names of FOLD 1.0 and of early Origami Simulator to those of today."""
+
+
+def resolved_frame(
+    document: Mapping[str, Any], check: Checker, frame: int | None = None
+) -> tuple[dict[str, Any], list[str]]:
+    """Return the frame that holds the pattern, and notes on how it was found.
+
+    It is the key frame (number 0) if that has edges or faces, else the first frame that does; or the chosen frame.
+    Raise FileError if there is no such frame, or frames are not as FOLD has them, or inherit in a circle.
+    """
+    frames = [document]
+    if document.get("file_frames") is not None:
+        listed = check.list(document["file_frames"], "file_frames", what="a list of frames")
+        for i, one in enumerate(listed):
+            if not isinstance(one, dict):
+                check.fail(f"file_frames[{i}]", one, "a frame (an object)")
+        frames += listed
+    notes: list[str] = []
+    if frame is not None:
+        if frame >= len(frames):
+            raise FileError(check.path, "", f"no frame {frame}", f"a frame from 0 to {len(frames) - 1}")
+        return _inherited(frames, frame, check, notes), list(dict.fromkeys(notes))
+    which = _first_with_pattern(frames, check, notes)
+    chosen = _inherited(frames, which, check, notes)
+    if which:
+        notes.append(f"the key frame is empty; frame {which} of {len(frames) - 1} was read")
+    elif len(frames) > 1:
+        notes.append(f"{numbered(len(frames) - 1, 'more frame')} not read")
+    return chosen, list(dict.fromkeys(notes))
+
+
+_PATTERN = ("faces_vertices", "edges_vertices")
+
+
+def _first_with_pattern(frames: list[Mapping[str, Any]], check: Checker, notes: list[str]) -> int:
+    """Return the number of the first frame that has faces or edges, its own or inherited; else 0.
+
+    What a frame has is found from what its parent has: a chain of frames is gone through once, not from each.
+    """
+    has: dict[int, dict[str, bool]] = {}
+    for index in range(len(frames)):
+        for one in reversed(_ancestors(frames, index, check, has)):
+            own, parent = _named_today(frames[one], notes), _parent(frames, one, check)
+            above = {} if parent is None else has[parent]
+            has[one] = {key: bool(own[key]) if key in own else above.get(key, False) for key in _PATTERN}
+        if any(has[index].values()):
+            return index
+    return 0
+
+
+def _ancestors(
+    frames: list[Mapping[str, Any]], index: int, check: Checker, known: Container[int] = ()
+) -> list[int]:
+    """Return a frame, its parent, and so on up to one that is known or inherits nothing."""
+    chain: dict[int, None] = {}
+    above: int | None = index
+    while above is not None and above not in known:
+        if above in chain:
+            place = f"file_frames[{above - 1}].frame_parent"
+            raise FileError(check.path, place, "frames inherit in a circle", "an end to it")
+        chain[above] = None
+        above = _parent(frames, above, check)
+    return list(chain)
+
+
+def _parent(frames: list[Mapping[str, Any]], index: int, check: Checker) -> int | None:
+    frame = frames[index]
+    if not index or frame.get("frame_inherit") is not True:
+        return None
+    place = f"file_frames[{index - 1}].frame_parent"
+    return check.integer(frame.get("frame_parent", 0), place, most=len(frames) - 1)
+
+
+def _inherited(frames: list[Mapping[str, Any]], index: int, check: Checker, notes: list[str]) -> dict[str, Any]:
+    """Return a frame with what it inherits."""
+    merged: dict[str, Any] = {}
+    for one in reversed(_ancestors(frames, index, check)):
+        merged |= _named_today(frames[one], notes)
+    return merged
+
+
+def _named_today(frame: Mapping[str, Any], notes: list[str]) -> dict[str, Any]:
+    """Return a frame without old key names, null keys and the list of frames."""
+    renamed = {}
+    for key, value in frame.items():
+        if key == "file_frames" or value is None:
+            continue
+        today = _OLD_NAMES.get(key, key)
+        if today != key and today in frame:
+            continue
+        if today != key:
+            notes.append(f"old key {key} read as {today}")
+        renamed[today] = value
+    return renamed
+
 
 _FAR = 1e300
 _SPREAD = "synthedra:spread"
@@ -166,9 +269,11 @@ def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
 
 def _traced(sheet: Sheet, check: Checker) -> Sheet:
     """Trace the faces of a pattern that comes without; it must be flat."""
-    from graphs.convert.tracing import MOST  # tracing loads shapely
-    from graphs.convert.welding import Lines
-    from graphs.files.patterns.traced import traced_sheet
+    from graphs.convert.tracing import (
+        MOST,  # tracing loads shapely
+        Lines,
+    )
+    from graphs.files.patterns.lines import traced_sheet
 
     if not sheet.edges or sheet.coordinates is None:
         raise FileError(check.path, "faces_vertices", "missing", "faces, or edges with coordinates to trace them")
@@ -306,3 +411,32 @@ def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[flo
             if x is not None:
                 check.number(x, f"edges_foldAngle[{i}]")
     return tuple(None if x is None else float(x) for x in listed)
+
+
+def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
+    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it.
+
+    A pose is the same sheet with other coordinates and fold angles.
+
+    >>> from dataclasses import replace
+    >>> flat = Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)))
+    >>> pose = replace(flat, coordinates=((0, 0, 0), (1, 0, 0), (0, 0, 1)))
+    >>> document = json.loads(fold_text_of_poses(flat, [pose]))
+    >>> document["file_frames"][0]["vertices_coords"]
+    [[0, 0, 0], [1, 0, 0], [0, 0, 1]]
+    """
+    document = json.loads(fold_text(sheet))
+    document["file_classes"] = ["animation"]
+    document["file_frames"] = [
+        {
+            "frame_classes": ["foldedForm"],
+            "frame_attributes": ["3D"],
+            "frame_title": f"pose {number}",
+            "frame_parent": 0,
+            "frame_inherit": True,
+            "vertices_coords": [list(place) for place in pose.coordinates or ()],
+            **({} if pose.fold_angles is None else {"edges_foldAngle": list(pose.fold_angles)}),
+        }
+        for number, pose in enumerate(poses)
+    ]
+    return json_text(document)

@@ -12,10 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
+from graphs.convert.faces import with_simple_faces
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import Checker
-from graphs.files.patterns.simple import with_simple_faces
-from graphs.files.text import read_text
+from graphs.files.text import Checker, read_text
 from graphs.mechanism.precision import written_by
 from graphs.mechanism.sheet import Sheet
 

@@ -6,35 +6,259 @@ Shapes, transforms and styles are read by svgelements; curves become polylines.
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from io import BytesIO
 from itertools import pairwise
-from math import isfinite
+from math import hypot, isfinite, sqrt
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+from xml.etree import ElementTree
 from xml.etree.ElementTree import ParseError
 from xml.sax.saxutils import escape
 
 import numpy as np
 
-from graphs.convert.tracing import MOST
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import MOST, Lines
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import Checker
-from graphs.files.patterns.css_colours import rgb_of_css
-from graphs.files.patterns.legend import LEFT_OUT, UNSTATED, Legend
-from graphs.files.patterns.strokes import COLOURS, Stroke, dash_of_lengths, name_of_rgb
-from graphs.files.patterns.svg_digits import precision_of_shapes
-from graphs.files.patterns.svg_work import check_work_of_svg
-from graphs.files.patterns.traced import traced_sheet
-from graphs.files.text import read_text
+from graphs.files.patterns.legend import (
+    COLOURS,
+    LEFT_OUT,
+    UNSTATED,
+    Legend,
+    Stroke,
+    dash_of_lengths,
+    name_of_rgb,
+    rgb_of_css,
+)
+from graphs.files.patterns.lines import traced_sheet
+from graphs.files.text import Checker, read_text
+from graphs.mechanism.evidence.digits import digits_of
 from graphs.mechanism.plane import flat_places
+from graphs.mechanism.reading import WrittenPrecision
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.plain_text import plain
+from graphs.work_limits import how_to_raise, most
 
-__all__ = ["sheet_from_svg", "svg_text"]
+__all__ = ["check_work_of_svg", "precision_of_shapes", "sheet_from_svg", "svg_text"]
+
+_LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
+
+_LONG_NUMBER = re.compile(r"[0-9]{101}")
+
+
+def check_work_of_svg(text: str, path: Path) -> None:
+    """Refuse shapes that use shapes too often, or themselves, or nest too deeply; found without drawing any.
+
+    Raise FileError if shapes are drawn by use more often than the limit ``shapes``, elements (used ones included)
+    are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform or style sheet is
+    too long; ElementTree.ParseError if the text is not XML.
+    """
+    root = ElementTree.fromstring(text)
+    named = {one.get("id"): one for one in root.iter() if one.get("id") is not None}
+    drawn: dict[ElementTree.Element, int] = {}
+    levels: dict[ElementTree.Element, int] = {}
+    waiting, open_ones = [root], set[ElementTree.Element]()
+    while waiting:  # depth first, without recursion: files nest as deep as they like
+        element = waiting[-1]
+        if element in drawn:
+            waiting.pop()
+            continue
+        inner = [*element, *_used(element, named)]
+        missing = [one for one in inner if one not in drawn]
+        if not missing:
+            drawn[element] = 1 + sum(drawn[one] for one in inner)
+            levels[element] = 1 + max((levels[one] for one in inner), default=0)
+            open_ones.discard(element)
+            waiting.pop()
+            continue
+        open_ones.add(element)
+        if around := [one for one in missing if one in open_ones]:
+            raise FileError(path, "", f"the shape {shown(around[0].get('id'))} uses itself", "an end to it")
+        waiting += missing
+    for element in drawn:
+        _check_text(element, path)
+    _check(path, "shapes", drawn[root] - len(drawn), "shapes drawn by 'use'")
+    _check(path, "levels", levels[root], "levels of elements in elements")
+
+
+def _check_text(element: ElementTree.Element, path: Path) -> None:
+    """Refuse text that the patterns by which svgelements reads it would look through again and again."""
+    name = element.tag.rpartition("}")[2]
+    for key, value in element.items():
+        if key not in (*_LINKS, "id") and _LONG_NUMBER.search(value):
+            raise FileError(path, f"{name}: {key}", "a number of more than 100 digits", "coordinates")
+        if key == "transform":
+            _check(path, "letters", len(value), "letters in a transform")
+    if name == "style":
+        text = element.text or ""
+        _check(path, "letters", len(text), "letters in a style sheet")
+        if "{" in text.rpartition("}")[2]:
+            raise FileError(path, "style", "a rule that does not end", "'}' after the last rule")
+
+
+def _check(path: Path, limit: str, needed: int, what: str) -> None:
+    if needed > most(limit):
+        raise FileError(path, "", f"{needed} {what}", how_to_raise(limit, needed))
+
+
+def _used(element: ElementTree.Element, named: dict[str | None, ElementTree.Element]) -> list[ElementTree.Element]:
+    if element.tag.rpartition("}")[2] != "use":
+        return []
+    targets = (element.get(key, "").removeprefix("#") for key in _LINKS)
+    return [named[target] for target in targets if target in named][:1]
+
+
+_WRITTEN = {
+    "path": ("d",),
+    "line": ("x1", "y1", "x2", "y2"),
+    "polyline": ("points",),
+    "polygon": ("points",),
+    "rect": ("x", "y", "width", "height"),
+    "circle": ("cx", "cy", "r"),
+    "ellipse": ("cx", "cy", "rx", "ry"),
+}
+"""The attributes with coordinates, by element."""
+_UNITS = {"px": 1.0, "pt": 4 / 3, "pc": 16.0, "mm": 96 / 25.4, "cm": 96 / 2.54, "in": 96.0}
+_LENGTH = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(px|pt|pc|mm|cm|in)?")
+_COMMAND = re.compile(r"([MLHVCSQTAZmlhvcsqtaz])([^MLHVCSQTAZmlhvcsqtaz]*)")
+_TO_A_STEP = {"h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "a": 7}
+"""Numbers of each step of a relative command; of the others two."""
+_FUNCTION = re.compile(r"([a-zA-Z]+)\s*\(([^)]*)\)")
+_SHIFT = slice(4, None)
+_ROUNDED = 4
+"""Entries of a matrix with fewer decimals are taken to be exact."""
+
+
+class _Shape(NamedTuple):
+    """The numbers of a shape, by the factor of their unit; how many errors add up; its transform."""
+
+    numbers: dict[float, list[float]]
+    steps: int
+    transform: str
+    reach: float
+
+
+class _Digit(NamedTuple):
+    """Half of what the last decimal of the file's matrices, and of its shifts, is worth."""
+
+    of_matrices: float
+    of_shifts: float
+
+
+def precision_of_shapes(shapes: Iterable[Any]) -> WrittenPrecision | None:
+    """Return how precise shapes of svgelements are as they are written, None if nothing says that.
+
+    The length is in the unit that they are drawn in, after units and transforms.
+    """
+    read = [_as_written(shape) for shape in shapes]
+    of_unit: defaultdict[float, list[float]] = defaultdict(list)
+    for one in read:
+        for unit, numbers in one.numbers.items():
+            of_unit[unit] += numbers
+    digits = {unit: digits_of(numbers, float(np.ptp(numbers)) / 2.0) for unit, numbers in of_unit.items()}
+    transforms = {one.transform for one in read}
+    digit = _Digit(_last_decimal(transforms, "matrix", slice(4), _ROUNDED), _last_shift(transforms))
+    worst, source = 0.0, ""
+    for one in read:
+        scale = _stretch(one.transform)
+        own = [(found.error * unit, found.source) for unit in one.numbers if (found := digits[unit]) is not None]
+        length, why = max(own, default=(0.0, ""))
+        turned = _error_of_transform(one.transform, one.reach, digit)
+        error = length * sqrt(one.steps) * scale + turned
+        if error > worst:
+            worst, source = error, why or "digits of a transform"
+    return WrittenPrecision(worst, source) if worst > 0.0 else None
+
+
+def _as_written(shape: Any) -> _Shape:
+    values = shape.values
+    words = [str(values.get(name) or "") for name in _WRITTEN.get(str(values.get("tag")), ())]
+    numbers: defaultdict[float, list[float]] = defaultdict(list)
+    reach = 0.0
+    for word in words:
+        for number, unit in _LENGTH.findall(word):
+            factor = _UNITS.get(unit, 1.0)
+            numbers[factor].append(float(number))
+            reach = max(reach, abs(float(number)) * factor)
+    around = str(values.get("viewport_transform") or "")
+    transform = str(values.get("transform") or "").removeprefix(around)
+    steps = _steps(words[0]) if values.get("tag") == "path" and words else 1
+    return _Shape(dict(numbers), steps, transform if _same(around) else f"{_scaled(around)} {transform}", reach)
+
+
+def _same(around: str) -> bool:
+    """Tell whether the view box changes no size: where it is does not matter, since all shapes are moved alike."""
+    return "scale" not in around and "matrix" not in around
+
+
+def _scaled(around: str) -> str:
+    """Return the size that a view box is drawn in; its digits are not written, but those of a division."""
+    return f"scale({_stretch(around):.3g})"
+
+
+def _steps(path: str) -> int:
+    """Return how many numbers in turn are relative to the last, at most, and so add up their errors."""
+    most = steps = 0
+    for letter, told in _COMMAND.findall(path):
+        if letter in "Zz":
+            continue
+        many = len(_LENGTH.findall(told))
+        steps = steps + many // _TO_A_STEP.get(letter, 2) if letter.islower() else 1
+        most = max(most, steps)
+    return max(most, 1)
+
+
+def _functions(transform: str) -> Iterator[tuple[str, list[str], str]]:
+    """Yield the functions of a transform, the texts of their numbers, and what is written before each."""
+    for found in _FUNCTION.finditer(transform):
+        yield found[1].lower(), [number for number, _ in _LENGTH.findall(found[2])], transform[: found.start()]
+
+
+def _error_of_transform(transform: str, reach: float, digit: _Digit) -> float:
+    """Return how far off a shape is drawn for the digits of its transform."""
+    error = 0.0
+    for name, numbers, before in _functions(transform):
+        if name == "matrix" and len(numbers) == 6:
+            error += _stretch(before) * (digit.of_matrices * reach + digit.of_shifts)
+        elif name == "translate":
+            error += _stretch(before) * digit.of_shifts
+    return error
+
+
+def _last_shift(transforms: set[str]) -> float:
+    """Return half of what the last decimal of shifts is worth; 0 where all shapes are shifted alike."""
+    if len(transforms) < 2:
+        return 0.0
+    shifts = (
+        _last_decimal(transforms, name, part, 1) for name, part in (("matrix", _SHIFT), ("translate", slice(2)))
+    )
+    return min((one for one in shifts if one), default=0.0)
+
+
+def _last_decimal(transforms: set[str], function: str, part: slice, least: int) -> float:
+    """Return half of what the last decimal of a function is worth; 0 of fewer decimals than the least."""
+    numbers = [
+        number
+        for one in transforms
+        for name, told, _ in _functions(one)
+        if name == function
+        for number in told[part]
+    ]
+    decimals = max((len(one.partition(".")[2]) for one in numbers if "e" not in one.lower()), default=0)
+    return 0.5 * 10.0**-decimals if decimals >= least else 0.0
+
+
+def _stretch(transform: str) -> float:
+    """Return how much longer a transform makes a length, at most."""
+    import svgelements
+
+    matrix = svgelements.Matrix(transform)
+    a, b, c, d = (float(x) for x in (matrix.a, matrix.b, matrix.c, matrix.d))
+    # The larger singular value: half the sums of lengths of what turns and what mirrors.
+    return (hypot(a + d, b - c) + hypot(a - d, b + c)) / 2.0
+
 
 _LONGEST_TITLE = 1_000
 _DECIMALS = 12
@@ -55,7 +279,7 @@ _PIECES = 8
 def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
     """Read the lines of an SVG file and trace its faces; the legend says what strokes are, where that was stated.
 
-    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.traced`), or most are not
+    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.lines`), or most are not
     understood.
     """
     check = Checker(path)

@@ -9,7 +9,7 @@ from typing import Any
 
 from enumerate.strings.graphs import chain_scd
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.files.patterns.fold import sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.catalogue.atlas_types import drawable_of_type

@@ -15,7 +15,7 @@ from enumerate.contracted.listing import orbits_of
 from enumerate.strings.graphs import chain_scd
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.errors import SynthedraError
-from graphs.files.ids import mechanism_of_id
+from graphs.files.formats import mechanism_of_id
 from graphs.identity.chains import automorphisms_of, chain_id
 from graphs.identity.drawings import map_id
 from graphs.mechanism.arrangement import arrangement_of

@@ -20,7 +20,7 @@ from enumerate.scd.jobs import AllMechanisms, SCDJob
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.strings.panel_strings import strings
 from graphs.errors import InvariantError
-from graphs.files.ids import mechanism_of_id
+from graphs.files.formats import mechanism_of_id
 from synth.candidates.job import CandidateJob
 
 __all__ = ["AtlasPlan"]

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import numpy as np
 
 from graphs.errors import SynthedraError
-from graphs.files.ids import mechanism_of_id
+from graphs.files.formats import mechanism_of_id
 from graphs.files.patterns.fold import fold_text
 from synth.motion.driving import Asked
 from synth.motion.motion import motion_of

@@ -204,8 +204,7 @@ def _chain(name: str) -> SCGraph:
     from graphs.convert.link_joint import sc_from_link_joint_graph
     from graphs.convert.table import graph_of
     from graphs.errors import FileError
-    from graphs.files.formats import read
-    from graphs.files.ids import is_id
+    from graphs.files.formats import is_id, read
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name

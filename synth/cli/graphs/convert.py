@@ -111,7 +111,7 @@ def convert(
       synth convert stewart.json creases.json --to solids
       synth convert creases.json platform.json --to joints
     """
-    from graphs.convert.by_name import convert as converted
+    from graphs.convert.table import convert as converted
     from graphs.files.formats import write
 
     check_output(target, force=force)

@@ -23,8 +23,7 @@ def pattern_edits(
 
     Edges keep their numbers until creases are removed; those are named before.
     """
-    from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
-    from graphs.creasing.named import joint_of_sheet_named
+    from graphs.creasing.edits import crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
     from graphs.mechanism.sheet import with_all_edges
 
     if branch is not None:

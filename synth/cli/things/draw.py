@@ -129,7 +129,7 @@ def draw(
 
 def _read(file: str) -> Drawable:
     """Return what a file holds: a mechanism, or orientations."""
-    from graphs.files.native.orientations import holds_orientations
+    from graphs.files.native import holds_orientations
 
     if not holds_orientations(file):
         return read(file)

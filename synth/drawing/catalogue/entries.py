@@ -11,8 +11,7 @@ from enumerate.chains.names import name_of
 from enumerate.runner.limits import Limits
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, shown
-from graphs.files.formats import read_all
-from graphs.files.ids import is_id, mechanism_of_id
+from graphs.files.formats import is_id, mechanism_of_id, read_all
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.catalogue.atlas_types import drawable_of_type
 from synth.drawing.catalogue.rows import ROWS, Row, order_of_row, rows_of_file

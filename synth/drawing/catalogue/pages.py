@@ -38,7 +38,7 @@ def catalogue_pages(
 
     Examples
     --------
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> four_bar = CatalogueEntry(1, mechanism_of_id("k1:Cr"), "k1:Cr", "M = 1")
     >>> [label.text for label in next(catalogue_pages([four_bar])).labels()][-4:]
     ['page 1', '1', 'k1:Cr', 'M = 1']

@@ -77,7 +77,7 @@ def order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
     follow each other; a point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another
     row.
 
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
     >>> order = order_of_row(row, mechanism_of_id("k1:Cr"))
     >>> order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs

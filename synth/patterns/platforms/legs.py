@@ -11,8 +11,7 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import unit
 from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Vector
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
 

@@ -15,7 +15,7 @@ from enumerate.runner.columns import Column
 from enumerate.runner.job import Row, Unit
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import SynthedraError, UnsolvableError
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
-from graphs.files.solids.mesh import Mesh
+from graphs.files.solids.meshes import Mesh
 from synth.templates.developed.layered import LayeredLink, LayeredLinkage
 
 __all__ = ["solids_on_surface"]

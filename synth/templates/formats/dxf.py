@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from graphs.files.patterns.dxf.written import DxfLayer, DxfLine, DxfWord, dxf_of
+from graphs.files.patterns.dxf import DxfLayer, DxfLine, DxfWord, dxf_of
 from synth.templates.lines import LOOKS, Piece, Stroke, Text
 from synth.templates.marks import gauge
 from synth.templates.pages import laid_out

@@ -10,8 +10,7 @@ import re
 from collections.abc import Sequence
 
 from graphs.convert.table import Mechanism
-from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
-from graphs.creasing.panels import take_off_panels
+from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease, take_off_panels
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids

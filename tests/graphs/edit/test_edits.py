@@ -6,8 +6,18 @@ from strategies import randoms, sc_graphs, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
 from graphs.count.relative import relative_polyhedron
-from graphs.edit.sc import add_crease, add_loop, add_ride_along, fresh, lock_joint
-from graphs.edit.scd import crease_link, lock_hinge, make_explicit, make_implicit, ride_along
+from graphs.edit.edits import (
+    add_crease,
+    add_loop,
+    add_ride_along,
+    crease_link,
+    fresh,
+    lock_hinge,
+    lock_joint,
+    make_explicit,
+    make_implicit,
+    ride_along,
+)
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.drawing import FaceKind

@@ -6,9 +6,7 @@ import pytest
 
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, read_all
-from graphs.files.patterns.css_colours import rgb_of_css
-from graphs.files.patterns.legend import Legend
-from graphs.files.patterns.strokes import letter_of_colour
+from graphs.files.patterns.legend import Legend, letter_of_colour, rgb_of_css
 
 INKSCAPE = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 RED = 'stroke="red"'

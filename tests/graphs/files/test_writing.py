@@ -9,9 +9,8 @@ import pytest
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.atomic import FolderBeside, check_new_folder, check_place
-from graphs.files.formats import READERS, WRITERS, read, write
-from graphs.files.ids import mechanism_of_id
-from graphs.files.kept_type import change_of_type
+from graphs.files.formats import READERS, WRITERS, mechanism_of_id, read, write
+from graphs.files.losses import change_of_type
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges

@@ -10,14 +10,14 @@ from strategies import randoms, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
-from graphs.edit.sc import add_ride_along
+from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import reduce
-from graphs.reduce.taking import RULES
+from graphs.reduce.working import RULES
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 
