@@ -28,12 +28,7 @@ _FARTHEST = 1e3
 
 
 def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: Mapping[int, Edge]) -> list[Loop]:
-    """Return those cycles of joints whose axes are parallel or meet in a point, by the coordinates, as loops.
-
-    >>> sheet = Sheet(6, (), "", (), ((0, 0), (1, 0), (0, 1), (2, 1), (0, 3), (1, 3)))
-    >>> loops_with_centres(sheet, [(7, 8, 9)], {7: (0, 1), 8: (2, 3), 9: (4, 5)})[0].centre
-    <Centre.INFINITE: 'infinite'>
-    """
+    """Return those cycles of joints whose axes are parallel or meet in a point, by the coordinates, as loops."""
     points = in_space(sheet.coordinates or ())
     points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
     tolerance = Tolerances.of(precision_as_written(sheet).size).meant
@@ -185,16 +180,6 @@ def boundary_cycles(sheet: Sheet, hinged: Hinged) -> list[tuple[int, ...]]:
     """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
 
     Along a boundary the creases that end there are passed in order. Four squares in a ring:
-
-    Four squares in a ring:
-
-    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-    >>> sides = {(0, 1): [0], (1, 2): [1], (2, 3): [2], (0, 3): [3]}
-    >>> sides |= {(4, 5): [0], (5, 6): [1], (6, 7): [2], (4, 7): [3]}
-    >>> creases = {(1, 5): [0, 1], (2, 6): [1, 2], (3, 7): [2, 3], (0, 4): [3, 0]}
-    >>> joints = {edge: joint for joint, edge in enumerate(creases)}
-    >>> boundary_cycles(Sheet(8, (), "", faces), Hinged(sides | creases, joints, range(4)))
-    [(0, 1, 2, 3)]
     """
     edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
     for index, around in enumerate(sheet.faces):

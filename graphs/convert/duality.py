@@ -225,10 +225,7 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
 
 
 def _merge_flat(
-    sheet: Sheet,
-    faces_at: Mapping[Edge, list[int]],
-    assignment: Mapping[Edge, tuple[str, int]],
-    hinges: str,
+    sheet: Sheet, faces_at: Mapping[Edge, list[int]], assignment: Mapping[Edge, tuple[str, int]], hinges: str
 ) -> tuple[list[int], tuple[tuple[int, ...], ...]]:
     """Merge faces across flat edges; return the panel of each face, and the faces of each panel."""
     if not any(letter in sheet.assignments for letter in FLAT if letter not in hinges):

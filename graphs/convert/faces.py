@@ -25,11 +25,7 @@ _OVERLAP = 1e-6
 
 
 def creases_on_no_face(sheet: Sheet) -> int:
-    """Return how many edges of hinges are no side of a face.
-
-    >>> creases_on_no_face(Sheet(4, ((0, 2), (1, 3)), "MV", ((0, 1, 2), (0, 2, 3))))
-    1
-    """
+    """Return how many edges of hinges are no side of a face."""
     hinges = [edge for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter in HINGES]
     sides: set[Edge] = set()
     for face in sheet.faces:
@@ -38,11 +34,7 @@ def creases_on_no_face(sheet: Sheet) -> int:
 
 
 def joins_faces(sheet: Sheet) -> bool:
-    """Say whether an edge that is a hinge lies between two faces.
-
-    >>> joins_faces(Sheet(4, ((0, 2), (1, 3)), "FV", ((0, 1, 2), (0, 2, 3))))
-    False
-    """
+    """Say whether an edge that is a hinge lies between two faces."""
     faces_at = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
     return any(
         letter in HINGES and faces_at[frozenset(edge)] > 1
@@ -55,13 +47,6 @@ def traced_anew(sheet: Sheet) -> Sheet | None:
 
     Return None if the sheet does not lie flat, or its faces lie over each other, folded flat. The paper as one
     face, and a crease across it:
-
-    The paper as one face, and a crease across it:
-
-    >>> square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-    >>> found = traced_anew(Sheet(4, ((0, 2),), "M", ((0, 1, 2, 3),), square))
-    >>> len(found.faces), found.assignments.count("M")
-    (2, 1)
     """
     from graphs.convert.tracing import MOST, Lines, trace_sheet  # tracing loads shapely
 
@@ -96,12 +81,6 @@ def with_simple_faces(sheet: Sheet) -> Sheet:
     """Return a sheet; refuse a flat one with a face that crosses itself, by an InvariantError with face and point.
 
     Faces of sheets that do not lie flat need not be planar, and pass.
-
-    >>> square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-    >>> with_simple_faces(Sheet(4, (), "", ((0, 1, 3, 2),), square))
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: face 0 crosses itself at (0.5, 0.5); expected sides that do not cross [face]
     """
     if all(len(face) == 3 for face in sheet.faces):
         return sheet

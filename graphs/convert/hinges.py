@@ -74,10 +74,7 @@ class HingeLines:
 
 
 def lines_of_hinges(
-    coordinates: Sequence[Sequence[float]] | None,
-    bundles: Sequence[Sequence[Edge]],
-    *,
-    rounding: float = 0.0,
+    coordinates: Sequence[Sequence[float]] | None, bundles: Sequence[Sequence[Edge]], *, rounding: float = 0.0
 ) -> HingeLines:
     """Group the hinges between the same two panels, a bundle, by the lines on which they lie.
 

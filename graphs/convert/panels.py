@@ -229,11 +229,6 @@ def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
     `graphs.convert.panels.scd_from_panels`.
 
     Four panels round a square hole, the creases on its diagonals: they meet in its middle.
-
-    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-    >>> corners = ((-2, -2), (2, -2), (2, 2), (-2, 2), (-1, -1), (1, -1), (1, 1), (-1, 1))
-    >>> [loop.centre for loop in scd_of_placed_panels(Sheet(8, (), "", faces, corners)).loops]
-    [<Centre.FINITE: 'finite'>]
     """
     panels = oriented_panels(dict(enumerate(sheet.faces)))
     if sheet.coordinates is None:
@@ -261,11 +256,7 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
 
 
 def rings_of(after: Mapping[int, int]) -> list[tuple[int, ...]]:
-    """Return the rings of vertices that follow each other, each from the first in the mapping.
-
-    >>> rings_of({0: 1, 5: 6, 1: 2, 6: 5, 2: 0})
-    [(0, 1, 2), (5, 6)]
-    """
+    """Return the rings of vertices that follow each other, each from the first in the mapping."""
     rings, seen = [], set[int]()
     for start in after:
         ring, here = [], start
@@ -344,9 +335,6 @@ def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
 
     Two fans of n - 3 diagonals, from two neighbouring vertices, are with the n sides a triangulated sphere, which
     is rigid in general position (thesis 2.3.3).
-
-    >>> internal_rods((0, 1, 2, 3))
-    [(0, 2), (1, 3)]
     """
     first, second = around[0], around[1]
     from_first = [(first, other) for other in around[2:-1]]

@@ -90,9 +90,6 @@ def graph_of(thing: Mechanism | nx.Graph) -> SCGraph:
     """Return the SC or SCD graph that something is, or the SC graph that it has; the errors are those of `to_sc`.
 
     A plain networkx graph is a link-joint graph: each face of a drawing of it gets a finite centre.
-
-    >>> graph_of(nx.cycle_graph(4)), graph_of(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
-    (<SCGraph: 4 links, 4 joints, 1 centre>, <SCGraph: 2 links, 1 joint, 0 centres>)
     """
     if isinstance(thing, SCGraph):
         return thing
@@ -240,11 +237,6 @@ def to_solids(thing: Mechanism) -> HingedSolids:
 
     Each joint of a linkage with joints of all kinds becomes the chain of revolutes that stands for it, each crease
     of a pattern the axis on which it lies; the panels are dropped.
-
-    >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1), (0, -1), (1, -1))
-    >>> book = Sheet(6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
-    >>> dict(to_solids(book).axes)
-    {0: ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))}
     """
     if isinstance(thing, HingedSolids):
         return thing
@@ -259,11 +251,6 @@ def to_joints(thing: Mechanism) -> JointedLinkage:
     """Return a linkage with joints of all kinds, in which chains of revolutes are the joints that they stand for.
 
     Raise UnsolvableError if there are no axes by which to recognise them.
-
-    >>> from graphs.joints.linkage import JointKind
-    >>> ball = JointedLinkage(SCGraph(2, [(0, 1)]), {0: JointKind.SPHERICAL})
-    >>> to_solids(ball), to_joints(to_solids(ball))
-    (<HingedSolids: <SCGraph: 4 links, 3 joints, 0 centres>>, <JointedLinkage: 2 links, 1 joint: S, placed>)
     """
     return thing if isinstance(thing, JointedLinkage) else recognised(to_solids(thing))
 

@@ -211,9 +211,6 @@ def crossings(ends: Floats, tolerance: float) -> Floats:
     """Return the points where two lines, float[n, 2, 2], cross away from all four ends; where many do, once.
 
     Closer than the tolerance to an end they do not cross.
-
-    >>> crossings(np.array([[[0, 0], [2, 2]], [[2, 0], [0, 2]], [[0, 0], [2, 0]]], dtype=float), 0.01).tolist()
-    [[1.0, 1.0]]
     """
     found, apart = _meeting_points(ends, shapely.linestrings(ends))
     return _once(found[apart > tolerance], tolerance)
@@ -354,11 +351,7 @@ def _straightened(welded: Network, tolerance: float) -> Network:
 
 
 def either_way(a: int, b: int) -> Edge:
-    """Return an edge as a key, whichever end comes first.
-
-    >>> either_way(5, 2)
-    (2, 5)
-    """
+    """Return an edge as a key, whichever end comes first."""
     return (a, b) if a < b else (b, a)
 
 

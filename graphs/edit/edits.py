@@ -86,11 +86,7 @@ class Edit:
 
 
 def fresh(taken: Iterable[Hashable], number: int) -> list[int]:
-    """Return new integer ids whose text is not taken.
-
-    >>> fresh([0, 1, "2"], 2)
-    [3, 4]
-    """
+    """Return new integer ids whose text is not taken."""
     texts = {str(name) for name in taken}
     start = len(texts)
     found: list[int] = []

@@ -16,11 +16,7 @@ _MOST = 12
 
 
 def known(names: Iterable[Hashable], asked: str) -> str:
-    """Return what is known in the place of a name: the names, how many, the nearest (of a number, none is).
-
-    >>> known(["crank", "rocker"], "cranck")
-    "one of 'crank', 'rocker'; the nearest is 'crank'"
-    """
+    """Return what is known in the place of a name: the names, how many, the nearest (of a number, none is)."""
     every = list(names)
     if not every:
         return "there is none"
@@ -44,10 +40,6 @@ def joint_named(sc: SCGraph, name: str) -> JointId:
     Numbers in the list are for joints that have names: where ids are numbers themselves, another number is none.
     Names are ``3``, ``hinge``, or ``A,B``. Raises `InvariantError` if there is no such joint, or there are several
     between the links.
-
-    >>> two = SCGraph(["A", "B", "C"], {"a": ("A", "B"), "b": ("B", "C")})
-    >>> joint_named(two, "b"), joint_named(two, "1"), joint_named(two, "C, B")
-    ('b', 'b', 'b')
     """
     for joint in sc.joints:
         if str(joint) == name:

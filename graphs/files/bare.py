@@ -51,22 +51,14 @@ _INTEGER = re.compile(r"0|-?[1-9]\d{0,17}")
 
 
 def names_from_text(words: Iterable[str]) -> dict[str, str | int]:
-    """Return word to name: integers if all are, else the words.
-
-    >>> names_from_text(["3", "-1"]), names_from_text(["3", "a"]), names_from_text(["01", "1"])
-    ({'3': 3, '-1': -1}, {'3': '3', 'a': 'a'}, {'01': '01', '1': '1'})
-    """
+    """Return word to name: integers if all are, else the words."""
     every = list(dict.fromkeys(words))
     whole = all(map(_INTEGER.fullmatch, every))
     return {word: int(word) if whole else word for word in every}
 
 
 def are_kept(names: Collection[Hashable]) -> bool:
-    """Say whether names are the same when they are written as text and read again.
-
-    >>> are_kept([1, 2]), are_kept(["1", "2"]), are_kept([1, "a"])
-    (True, False, False)
-    """
+    """Say whether names are the same when they are written as text and read again."""
     return list(names_from_text(map(str, names)).values()) == list(names)
 
 

@@ -67,11 +67,7 @@ _IDS = ("k1:", "m1:")
 
 
 def is_id(path: str | Path) -> bool:
-    """Say whether the name of a file is the id of a mechanism.
-
-    >>> is_id("k1:Cr"), is_id("./k1:Cr")
-    (True, False)
-    """
+    """Say whether the name of a file is the id of a mechanism."""
     return str(path).startswith(_IDS) and not isinstance(path, Path)
 
 
@@ -95,10 +91,6 @@ def line_named(path: str | Path) -> tuple[Path, str | None]:
     """Return the file of a line of a graph6 file, ``chains.g6:7``, and the line; None for a whole file.
 
     An existing file with the whole name takes precedence.
-
-    >>> path, line = line_named("chains.g6:7")
-    >>> path.name, line
-    ('chains.g6', '7')
     """
     parts = _LINE.fullmatch(str(path))
     if parts is None or Path(path).exists():

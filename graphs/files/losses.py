@@ -42,32 +42,19 @@ _KEYS = 12
 
 
 def lost_as_json(mechanism: Mechanism) -> Lost:
-    """Return what a native file does not hold; for a sheet, all but its mechanism.
-
-    >>> lost_as_json(Sheet(3, ((0, 1),), "B", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)), "Kite"))
-    ('the title', 'coordinates of 3 vertices', 'the shape of 1 face')
-    """
+    """Return what a native file does not hold; for a sheet, all but its mechanism."""
     if not isinstance(mechanism, Sheet):
         return ()
     return (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
 
 
 def lost_as_fold(mechanism: Mechanism) -> Lost:
-    """Return what a FOLD file does not hold; for a sheet read from one, its other frames and keys.
-
-    >>> lost_as_fold(SCGraph(["A", "B"], [("A", "B")]))
-    ('names of 2 links',)
-    """
+    """Return what a FOLD file does not hold; for a sheet read from one, its other frames and keys."""
     return _of_its_file(mechanism) if isinstance(mechanism, Sheet) else _lost_as_sheet(mechanism)
 
 
 def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the ``.cp`` file of the sheet of a mechanism does not hold.
-
-    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, 90.0))
-    >>> lost_as_cp(sheet, sheet)
-    ('1 cut: as borders', '1 unassigned crease: as valleys', '1 fold angle', 'which lines bound which of 1 face')
-    """
+    """Return what the ``.cp`` file of the sheet of a mechanism does not hold."""
     letters = with_all_edges(sheet).assignments
     told = [
         *_letters(letters, "C", "cut", "as borders"),
@@ -80,12 +67,7 @@ def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
 
 
 def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the DXF file of the sheet of a mechanism does not hold.
-
-    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
-    >>> lost_as_dxf(sheet, sheet)
-    ('1 fold angle', 'which lines bound which of 1 face')
-    """
+    """Return what the DXF file of the sheet of a mechanism does not hold."""
     return (*lost_as_fold(mechanism), *_angles(sheet), *_title(sheet), *_precision(sheet), _bounds(sheet))
 
 
@@ -93,10 +75,6 @@ def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
     """Return what the SVG file of the sheet of a mechanism does not hold.
 
     Opacity holds fold angles up to 180 degrees, of mountains below zero and of valleys above it.
-
-    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
-    >>> lost_as_svg(sheet, sheet)
-    ('1 join: as flat edges', '1 fold angle', 'which lines bound which of 1 face')
     """
     letters = with_all_edges(sheet).assignments
     wrong = sum(
@@ -114,11 +92,7 @@ def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
 
 
 def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
-    """Return what a bare link-joint graph, with names or without, does not hold.
-
-    >>> lost_as_bare_graph(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))]), names=False)
-    ('1 loop and its centre',)
-    """
+    """Return what a bare link-joint graph, with names or without, does not hold."""
     sc = to_sc(mechanism)
     loops = (*sc.loops, *sc.closing)
     told = (
@@ -146,11 +120,7 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
 
 
 def lost_as_typed_graph(linkage: JointedLinkage) -> Lost:
-    """Return what a link-joint graph with the types of joints does not hold.
-
-    >>> lost_as_typed_graph(JointedLinkage(SCGraph(2, [(0, 1)], ground=0), {}))
-    ('the ground link',)
-    """
+    """Return what a link-joint graph with the types of joints does not hold."""
     chain = linkage.chain
     told = list(_some(len(chain.loops) + len(chain.closing), "loop and its centre", "loops and their centres"))
     if linkage.places:

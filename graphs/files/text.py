@@ -208,10 +208,7 @@ class Checker:
         return value
 
     def build(
-        self,
-        make: Callable[[], T],
-        place_of: Callable[[tuple[str, object]], str] = lambda _: "",
-        place: str = "",
+        self, make: Callable[[], T], place_of: Callable[[tuple[str, object]], str] = lambda _: "", place: str = ""
     ) -> T:
         """Build an object; turn a breach of its invariants into an error with a place in the file.
 

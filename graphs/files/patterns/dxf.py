@@ -100,12 +100,7 @@ class Record:
 
 
 def records(text: str, path: Path) -> Iterator[Record]:
-    r"""Yield the records of a DXF text that are in sections; a FileError names the line if it is not DXF.
-
-    >>> text = "\n".join("0 SECTION 2 ENTITIES 0 POINT 8 CUT 10 1.5 0 ENDSEC 0 EOF".split())
-    >>> [(one.section, one.name, one.number(10)) for one in records(text, Path("a.dxf"))]
-    [('ENTITIES', 'POINT', 1.5)]
-    """
+    """Yield the records of a DXF text that are in sections; a FileError names the line if it is not DXF."""
     section, name, begun = "", "", 0
     groups: list[tuple[int, str]] = []
     for line, code, value in _pairs(text, path):
@@ -153,11 +148,6 @@ def drawn_shapes(records: Sequence[Record]) -> Iterator[Drawn]:
     """Yield the shapes among the records of the section ``ENTITIES``.
 
     A FileError names the record if a number is missing or invalid, or points are at several heights.
-
-    >>> from pathlib import Path
-    >>> groups = ((10, "0"), (20, "0"), (11, "3"), (21, "4"))
-    >>> [pieces for _, pieces in drawn_shapes([Record("ENTITIES", "LINE", groups, Path("a.dxf"), 1)])]
-    [[((0.0, 0.0), (3.0, 4.0))]]
     """
     at = 0
     while at < len(records):
@@ -275,9 +265,6 @@ def rgb_of_number(number: int) -> Rgb | None:
     """Return a numbered colour; None if there is none.
 
     From 10 on each ten is a hue, 15 degrees from the last; odd numbers are pale.
-
-    >>> rgb_of_number(7), rgb_of_number(30), rgb_of_number(174), rgb_of_number(300)
-    ((0, 0, 0), (255, 128, 0), (0, 0, 128), None)
     """
     if number in _FIRST:
         return _FIRST[number]
@@ -327,10 +314,6 @@ def dxf_of(
     """Return the DXF text of lines and words on given layers; the remark is the first line of the file.
 
     Coordinates are written so that they are read back to the last digit.
-
-    >>> text = dxf_of([DxfLayer("CUT", 7)], [DxfLine("CUT", (0.0, 0.0), (30.5, 0.0))])
-    >>> text.split("ENTITIES")[1].split()[:10]
-    ['0', 'LINE', '8', 'CUT', '10', '0.0', '20', '0.0', '30', '0.0']
     """
     pairs: list[tuple[int, object]] = [(999, plain(remark, _LONGEST_WORDS))] if remark else []
     pairs += [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009"), *_extent(lines), (0, "ENDSEC")]
@@ -487,10 +470,6 @@ def dxf_text(sheet: Sheet) -> str:
     """Return the DXF text (R12) of a flat sheet, a layer for each assignment.
 
     Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
-
-    >>> text = dxf_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
-    >>> text.split("ENTITIES")[1].split()[:4]
-    ['0', 'LINE', '8', 'MOUNTAIN']
     """
     places = flat_places(sheet, "a DXF crease pattern")
     if not (sheet.edges or sheet.faces):

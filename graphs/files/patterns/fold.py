@@ -309,11 +309,7 @@ def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
 
 def fold_text(sheet: Sheet) -> str:
     """Return the text of a FOLD 1.2 file; without coordinates the frame is marked abstract."""
-    document: dict[str, Any] = {
-        "file_spec": 1.2,
-        "file_creator": "synthedra",
-        "file_classes": ["singleModel"],
-    }
+    document: dict[str, Any] = {"file_spec": 1.2, "file_creator": "synthedra", "file_classes": ["singleModel"]}
     if sheet.title:
         document["frame_title"] = sheet.title
     if sheet.spread:
@@ -417,13 +413,6 @@ def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
     """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it.
 
     A pose is the same sheet with other coordinates and fold angles.
-
-    >>> from dataclasses import replace
-    >>> flat = Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)))
-    >>> pose = replace(flat, coordinates=((0, 0, 0), (1, 0, 0), (0, 0, 1)))
-    >>> document = json.loads(fold_text_of_poses(flat, [pose]))
-    >>> document["file_frames"][0]["vertices_coords"]
-    [[0, 0, 0], [1, 0, 0], [0, 0, 1]]
     """
     document = json.loads(fold_text(sheet))
     document["file_classes"] = ["animation"]

@@ -51,13 +51,7 @@ _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(%|deg|grad|rad|turn)?")
 
 @lru_cache(maxsize=1000)
 def rgb_of_css(text: str) -> Rgb | None:
-    """Return red, green and blue, 0 to 255, of a colour of CSS without its opacity; None if it is none.
-
-    >>> rgb_of_css("#C1272D"), rgb_of_css("hsl(240deg 100% 50% / 0.5)"), rgb_of_css("crimson !important")
-    ((193, 39, 45), (0, 0, 255), (220, 20, 60))
-    >>> rgb_of_css("url(#gradient)"), rgb_of_css("none")
-    (None, None)
-    """
+    """Return red, green and blue, 0 to 255, of a colour of CSS without its opacity; None if it is none."""
     text = text.replace("!important", "").strip().lower()
     if _HEX.fullmatch(text):
         digits = text[1:] if len(text) > 5 else "".join(2 * digit for digit in text[1:])
@@ -168,16 +162,7 @@ class Stroke:
 
 @lru_cache(maxsize=1000)
 def letter_of_colour(red: int, green: int, blue: int) -> str | None:
-    """Return the assignment that a stroke colour stands for, or None.
-
-    >>> letter_of_colour(230, 10, 10), letter_of_colour(128, 128, 128), letter_of_colour(255, 165, 0)
-    ('M', None, None)
-
-    Reds and blues of Illustrator, and the black of CorelDRAW:
-
-    >>> [letter_of_colour(*colour) for colour in ((193, 39, 45), (0, 113, 188), (41, 171, 226), (55, 52, 53))]
-    ['M', 'V', 'V', 'B']
-    """
+    """Return the assignment that a stroke colour stands for, or None."""
     colour = (red, green, blue)
     found, far = min(
         ((letter, _apart(colour, pure)) for letter, pure in COLOURS.items()), key=lambda item: item[1]
@@ -203,22 +188,14 @@ def _apart(one: Sequence[int], other: Sequence[int]) -> int:
 
 @lru_cache(maxsize=1000)
 def letter_of_name(name: str) -> str | None:
-    """Return the assignment that the name of a layer or a group tells by one of its words, if it tells one.
-
-    >>> letter_of_name("Mountain_x5F_folds-2"), letter_of_name("valley folds"), letter_of_name("mountain + valley")
-    ('M', 'V', None)
-    """
+    """Return the assignment that the name of a layer or a group tells by one of its words, if it tells one."""
     words = re.split(r"[^a-z]+", re.sub(r"_x[0-9a-f]{2}_", " ", name[:200].lower()))
     letters = {_LETTERS[word] for word in words if word in _LETTERS}
     return letters.pop() if len(letters) == 1 else None
 
 
 def dash_of_lengths(lengths: Sequence[float]) -> Dash:
-    """Return the kind of dash that strokes and gaps in turn make, as in SVG; without gaps a line is solid.
-
-    >>> dash_of_lengths([]), dash_of_lengths([4, 2]), dash_of_lengths([6, 2, 1, 2]), dash_of_lengths([0, 3])
-    ('solid', 'dashed', 'dash-dot', 'dotted')
-    """
+    """Return the kind of dash that strokes and gaps in turn make, as in SVG; without gaps a line is solid."""
     row = [length for length in lengths if isfinite(length)] * (1 + len(lengths) % 2)
     drawn, gaps = row[::2], row[1::2]
     if not any(gap > 0 for gap in gaps):
@@ -229,11 +206,7 @@ def dash_of_lengths(lengths: Sequence[float]) -> Dash:
 
 
 def dash_of_line_type(name: str) -> Dash:
-    """Return the kind of dash of a line type of DXF; whatever is not continuous has gaps.
-
-    >>> dash_of_line_type("Continuous"), dash_of_line_type("HIDDEN2"), dash_of_line_type("ACAD_ISO10W100")
-    ('solid', 'dashed', 'dash-dot')
-    """
+    """Return the kind of dash of a line type of DXF; whatever is not continuous has gaps."""
     name = name.upper()
     if name in ("CONTINUOUS", "BYBLOCK"):
         return "solid"
@@ -317,10 +290,6 @@ class Legend:
 
         A look is a colour of CSS, or the number of a colour in DXF, with or without the kind of dash before it, or
         the kind alone. Raise InvariantError if a letter or a look is none.
-
-        >>> legend = Legend.of({"M": "#c1272d", "V": ["teal", "dashed #000000"]})
-        >>> legend.understood([Stroke((0, 128, 128)), Stroke((0, 0, 0), "dashed"), Stroke((0, 0, 0))]).letters
-        ('V', 'V', 'B')
         """
         looks = [(letter, _look(text)) for letter, text in _pairs(colours or {}, "colour")]
         return cls(tuple(looks), tuple(_pairs(layers or {}, "layer")))
@@ -409,11 +378,7 @@ def _by_colour(stroke: Stroke) -> str | None:
 
 
 def described_strokes(kinds: Counter[str]) -> str:
-    """Return the strokes that were not understood, by kind and number; empty if none.
-
-    >>> described_strokes(Counter({"#ffa500": 3, "dashed #000000": 12}))
-    '15 shapes with strokes not understood left out: 12 dashed #000000, 3 #ffa500'
-    """
+    """Return the strokes that were not understood, by kind and number; empty if none."""
     if not kinds:
         return ""
     return f"{numbered(kinds.total(), 'shape')} with strokes not understood left out: {_listed(kinds)}"

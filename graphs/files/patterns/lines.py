@@ -48,14 +48,6 @@ def traced_sheet(
     assignment. `understood` says what was made of the strokes of a drawing. Raise FileError if
     there is no border, no face, no crease between two faces although creases were drawn, or several faces and no
     crease. One face with nothing in it is a panel.
-
-    >>> import numpy as np
-    >>> from pathlib import Path
-    >>> ends = np.array([[[0, 0], [1, 0]], [[1, 0], [0, 1]], [[0, 1], [0, 0]]], dtype=float)
-    >>> traced_sheet(Lines(ends, "MMM"), Checker(Path("a.cp")), border="border lines (type 1)")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.cp: no border among 3 lines; expected border lines (type 1)
     """
     left_out = "" if understood is None else understood.left_out
     unread = f"; {left_out}" if left_out else ""

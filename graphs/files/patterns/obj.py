@@ -76,11 +76,7 @@ def sheet_from_obj(path: Path) -> Sheet:
 
 
 def obj_text(sheet: Sheet) -> str:
-    """Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates.
-
-    >>> obj_text(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).splitlines()[-1]
-    'f 1 2 3'
-    """
+    """Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates."""
     if sheet.coordinates is None:
         raise UnsolvableError("an OBJ file needs coordinates, and the sheet has none")
     rows = ["v " + " ".join(repr(x) for x in (*place, 0.0)[:3]) for place in sheet.coordinates]

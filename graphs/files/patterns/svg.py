@@ -264,12 +264,7 @@ _LONGEST_TITLE = 1_000
 _DECIMALS = 12
 """Of fold angles in degrees: what is finer comes of dividing by 180."""
 _LONGEST_LOOK = 40
-_NAMES = (
-    "class",
-    "id",
-    "data-name",
-    "{http://www.inkscape.org/namespaces/inkscape}label",
-)
+_NAMES = ("class", "id", "data-name", "{http://www.inkscape.org/namespaces/inkscape}label")
 """Attributes with names of groups, layers and shapes: of Illustrator, of Inkscape."""
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
 _PIECES = 8
