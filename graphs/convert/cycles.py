@@ -24,7 +24,7 @@ from graphs.tolerances import DOUBLE, Tolerances
 __all__ = ["Hinged", "axes_meet", "boundary_cycles", "loops_with_centres", "vertex_cycles"]
 
 _FARTHEST = 1e3
-"""A point where lines meet that is farther than this, in units of the extent, is not told from infinity."""
+"""Lines that meet farther than this, in units of the extent, may as well be parallel."""
 
 
 def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: Mapping[int, Edge]) -> list[Loop]:
@@ -39,10 +39,7 @@ def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: 
 
 
 def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centre:
-    """Return where two or more lines, each through two points, float[n, 3], meet.
-
-    The tolerance is that of each point.
-    """
+    """Return the centre of two or more lines, each through two points, float[n, 3], with a tolerance for each."""
     ends = np.array(hinges)
     start, along = points[ends[:, 0]], points[ends[:, 1]] - points[ends[:, 0]]
     lengths = np.linalg.norm(along, axis=1)
@@ -59,10 +56,9 @@ def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centr
 
 @dataclass(frozen=True)
 class Hinged:
-    """Which faces of a sheet meet at each edge, and in which panel each face is.
+    """The faces of a sheet at each edge, and the panel of each face.
 
-    `joint_of_edge` has the hinges (None for one inside a panel); edges inside a panel that are no hinges are not
-    in it.
+    `joint_of_edge` has the hinges, None for one inside a panel; other edges inside a panel are not in it.
     """
 
     faces_at: Mapping[Edge, Sequence[int]]
@@ -179,7 +175,7 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
 def boundary_cycles(sheet: Sheet, hinged: Hinged) -> list[tuple[int, ...]]:
     """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
 
-    Along a boundary the creases that end there are passed in order. Four squares in a ring:
+    Along a boundary the creases that end there are passed in order.
     """
     edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
     for index, around in enumerate(sheet.faces):

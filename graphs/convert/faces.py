@@ -45,8 +45,7 @@ def joins_faces(sheet: Sheet) -> bool:
 def traced_anew(sheet: Sheet) -> Sheet | None:
     """Trace the faces of a sheet from its edges and the sides of its faces together.
 
-    Return None if the sheet does not lie flat, or its faces lie over each other, folded flat. The paper as one
-    face, and a crease across it:
+    Return None if the sheet does not lie flat, or its faces lie over each other, folded flat.
     """
     from graphs.convert.tracing import MOST, Lines, trace_sheet  # tracing loads shapely
 
@@ -61,13 +60,13 @@ def traced_anew(sheet: Sheet) -> Sheet | None:
     letters = sheet.assignments + "".join("U" if faces_at[side] > 1 else "B" for side in unlisted)
     angles = (*(sheet.fold_angles or (None,) * len(sheet.edges)), *(None for _ in unlisted))
     ends = flat.places[np.array([*sheet.edges, *(tuple(side) for side in unlisted)])]
-    found = trace_sheet(Lines(ends, letters, angles), title=sheet.title)
+    traced = trace_sheet(Lines(ends, letters, angles), title=sheet.title)
     turned = (flat.turned,) if flat.turned else ()
-    return replace(found, repairs=(*turned, *sheet.repairs, *found.repairs), precision=sheet.precision)
+    return replace(traced, repairs=(*turned, *sheet.repairs, *traced.repairs), precision=sheet.precision)
 
 
 def _overlap(places: Floats, faces: tuple[tuple[int, ...], ...]) -> bool:
-    """Tell whether faces cover less than the sum of their areas."""
+    """Return whether faces cover less than the sum of their areas."""
     import shapely
 
     polygons = np.array([shapely.Polygon(places[list(face)]) for face in faces], dtype=object)
@@ -90,13 +89,13 @@ def with_simple_faces(sheet: Sheet) -> Sheet:
     for face in _not_convex(flat.places, sheet.faces):
         if (point := _own_crossing(flat.places[list(sheet.faces[face])])) is not None:
             place = "({:.6g}, {:.6g})".format(*point) + (" of its plane" if flat.turned else "")
-            found = f"face {face} crosses itself at {place}"
-            raise InvariantError("face", found, "sides that do not cross", ("faces", face))
+            wrong = f"face {face} crosses itself at {place}"
+            raise InvariantError("face", wrong, "sides that do not cross", ("faces", face))
     return sheet
 
 
 def _not_convex(places: Floats, faces: tuple[tuple[int, ...], ...]) -> Iterator[int]:
-    """Yield the faces that turn both ways, or more than once round; what does neither cannot cross itself."""
+    """Yield the faces that turn both ways, or more than once round; no other face can cross itself."""
     of_size: dict[int, list[int]] = defaultdict(list)
     for index, face in enumerate(faces):
         of_size[len(face)].append(index)

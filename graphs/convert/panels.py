@@ -41,7 +41,7 @@ __all__ = [
 Panel = tuple[Any, ...]
 
 Remote = Callable[[Mapping[JointId, tuple[Any, ...]], Sequence[tuple[JointId, ...]]], Sequence[Loop]]
-"""Says which loops round holes have a centre."""
+"""Returns the loops round holes that have a centre."""
 
 
 def scd_from_panels(
@@ -50,7 +50,7 @@ def scd_from_panels(
     outer: tuple[Hashable, Hashable] | None = None,
     remote: Remote | None = None,
 ) -> SCDGraph:
-    """Return the SCD graph of panels given by their vertices.
+    """Return the SCD graph of panels, each a row of vertices.
 
     Parameters
     ----------
@@ -60,8 +60,8 @@ def scd_from_panels(
         A side on the outer boundary. Without it the boundary with the most open edges is the outer one; on a
         closed surface the last interior vertex is the closing loop.
     remote : callable, optional
-        Called with the ends of the joints and the cycles of joints round holes in whose every corner lies an open
-        edge; returns those that have a centre, as loops. Without it loops round holes are spatial.
+        Called with the ends of the joints and the cycles of joints round holes with an open edge in every corner;
+        returns those that have a centre, as loops. Without it loops round holes are spatial.
 
     Returns
     -------
@@ -97,11 +97,10 @@ def scd_from_panels(
         for i, side in enumerate(sides_of_face(vertices))
         if rotation[link][i] is None
     }
-    found: Callable[[list[tuple[JointId, ...]]], Sequence[Loop]] | None = None
-    if remote is not None:
-        ends = {joint: tuple(side) for side, joint in joint_at.items()}
-        found = partial(remote, ends)
-    return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)), found)
+    ends = {joint: tuple(side) for side, joint in joint_at.items()}
+    centred = None if remote is None else partial(remote, ends)
+    outer_side = None if outer is None else open_side.get(frozenset(outer))
+    return _with_faces(around, joints, rotation, outer_side, centred)
 
 
 def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
@@ -226,7 +225,7 @@ def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
     The outer boundary is the one round the largest area. Where the creases of a loop round a hole meet in a point
     or are parallel, within the precision of the coordinates, it has an implicit centre there. Without coordinates
     loops round holes are spatial, and the boundary with the most open edges is the outer. The errors are those of
-    `graphs.convert.panels.scd_from_panels`.
+    `scd_from_panels`.
 
     Four panels round a square hole, the creases on its diagonals: they meet in its middle.
     """
@@ -246,7 +245,7 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
     sides = {side for panel in panels.values() for side in sides_of_face(panel)}
     after = {b: a for a, b in sides if (b, a) not in sides}
     if len(after) < sum((b, a) not in sides for a, b in sides):
-        return None  # boundaries that touch in a vertex are not told apart
+        return None  # boundaries that touch in a vertex are one
     places = in_space(sheet.coordinates or ())
     rings = rings_of(after)
     if len(rings) < 2:
@@ -279,7 +278,7 @@ class VertexStep:
     face : int
         The face of the SCD graph in which it lies.
     kind : FaceKind
-        What lies in that face; the vertex *is* the centre where it is explicit.
+        The kind of that face; the vertex *is* its centre if that is explicit.
     links : tuple of link ids
         The links that meet in the vertex, in the order of the walk round the face.
 
@@ -298,7 +297,7 @@ class VertexStep:
 
 
 def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
-    """Walk round each face and yield its vertices: one for each run of links between open edges.
+    """Walk round each face and yield its vertices, one for each run of links between open edges.
 
     Parameters
     ----------
@@ -331,7 +330,7 @@ def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
 
 
 def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
-    """Return the 2n - 6 rods that make a body of n vertices rigid, given its n sides.
+    """Return the 2n - 6 rods that make a body of n vertices and n sides rigid.
 
     Two fans of n - 3 diagonals, from two neighbouring vertices, are with the n sides a triangulated sphere, which
     is rigid in general position (thesis 2.3.3).
@@ -372,13 +371,13 @@ def polyhedron_of(scd: SCDGraph) -> PolyhedronModel:
     return PolyhedronModel(
         scd.counts.vertices,
         rods.values(),
-        centres=[_remote_centre(scd, face.index) for face in scd.faces if _is_implicit(scd, face.index)],
+        centres=[
+            _remote_centre(scd, face.index)
+            for face in scd.faces
+            if scd.drawing.kind_of_face(face.index) is FaceKind.IMPLICIT
+        ],
         links=dict(scd.vertices),
     )
-
-
-def _is_implicit(scd: SCDGraph, face: int) -> bool:
-    return scd.drawing.kind_of_face(face) is FaceKind.IMPLICIT
 
 
 def _remote_centre(scd: SCDGraph, face: int) -> RemoteCentre:

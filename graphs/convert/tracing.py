@@ -44,7 +44,7 @@ _SAME = 1e-3
 _MARGIN = 4 * _SAME
 """Distances nearer than this to a tolerance, in its units, may be on either side of it."""
 _PIECE = 256
-"""Lines whose meetings are looked for at once."""
+"""Lines whose meetings are searched at once."""
 _RANK = "MVUFJBC"
 """Of two lines in one place the one whose letter comes first here counts."""
 
@@ -124,7 +124,7 @@ def networks_of(lines: Lines, tolerances: Sequence[float]) -> list[Network]:
 
 
 def _alike(ends: Floats, tolerances: Sequence[float]) -> list[list[float]]:
-    """Part tolerances into runs that weld alike: no distance that welding looks at lies between them."""
+    """Part tolerances into runs that weld alike: no distance of welding lies between them."""
     groups = [[tolerances[0]]]
     distances = _distances(ends, tolerances[0], tolerances[-1]) if len(tolerances) > 1 else np.empty(0)
     for finer, coarser in pairwise(tolerances):
@@ -136,9 +136,9 @@ def _alike(ends: Floats, tolerances: Sequence[float]) -> list[list[float]]:
 
 
 def _distances(ends: Floats, finest: float, coarsest: float) -> Floats:
-    """Return what welding compares with a tolerance, up to the coarsest.
+    """Return the distances that welding compares with a tolerance, up to the coarsest.
 
-    It is the lengths of lines; the distances of crossings from ends, of both from each other, and from lines.
+    These are the lengths of lines; the distances of crossings from ends, of both from each other, and from lines.
     """
     reach = coarsest * (1 + _MARGIN)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
@@ -232,13 +232,13 @@ def _meeting_points(ends: Floats, segments: npt.NDArray[np.object_]) -> tuple[Fl
 
 
 def _once(found: Floats, tolerance: float) -> Floats:
-    """Leave one of crossings that were found more than once."""
+    """Leave one of equal crossings."""
     _, first = np.unique(np.round(found / (tolerance * _SAME)), axis=0, return_index=True)
     return found[np.sort(first)]
 
 
 def _welded(points: Floats, tolerance: float) -> tuple[Floats, npt.NDArray[np.int64]]:
-    """Make points that hang together within a tolerance one, at the place of the first; return which is which."""
+    """Return one point for each cluster within a tolerance, the first, and the cluster of each point."""
     geometry = shapely.points(points)
     pairs = _pairs(shapely.STRtree(geometry), geometry, predicate="dwithin", distance=tolerance)
     near = coo_array((np.ones(len(pairs[0]), dtype=np.int8), pairs), shape=(len(points), len(points)))
@@ -442,7 +442,7 @@ def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None
 
 @dataclass(frozen=True)
 class _Traced:
-    """A network, and what is seen of it only when it is walked round."""
+    """A network with its faces, which are walked round when they are first needed."""
 
     network: Network
 
@@ -501,32 +501,32 @@ class _Traced:
 
 
 def _standing(traced: Sequence[_Traced], short: float) -> _Traced:
-    """Choose the network that stands, of some in the order of their tolerances: see :func:`trace_sheet`."""
+    """Choose one of the networks, which are in the order of their tolerances, by the rules of `trace_sheet`."""
     chosen = _stablest(traced, short)
     if chosen.simple:
         return chosen
-    dangling = [one.network.dangling for one in traced]
-    able = traced[dangling.index(min(dangling)) :]
-    simple = [one for one in able if one.simple]
+    dangling = [candidate.network.dangling for candidate in traced]
+    coarse_enough = traced[dangling.index(min(dangling)) :]
+    simple = [candidate for candidate in coarse_enough if candidate.simple]
     return _stablest(simple, short) if simple else chosen
 
 
 def _stablest(traced: Sequence[_Traced], short: float) -> _Traced:
-    left = _least(traced, lambda one: one.network.dangling)
-    left = _commonest(left, lambda one: one.surplus)
-    left = _least(left, lambda one: one.signs_of_splits(short))
-    left = _commonest(left, lambda one: one.vertices)
-    return max(left, key=lambda one: one.gap)
+    left = _least(traced, lambda candidate: candidate.network.dangling)
+    left = _commonest(left, lambda candidate: candidate.surplus)
+    left = _least(left, lambda candidate: candidate.signs_of_splits(short))
+    left = _commonest(left, lambda candidate: candidate.vertices)
+    return max(left, key=lambda candidate: candidate.gap)
 
 
 def _least(traced: Sequence[_Traced], number: Callable[[_Traced], int]) -> list[_Traced]:
-    numbers = [number(one) for one in traced]
-    return [one for one, found in zip(traced, numbers, strict=True) if found == min(numbers)]
+    least = min(map(number, traced))
+    return [candidate for candidate in traced if number(candidate) == least]
 
 
 def _commonest(traced: Sequence[_Traced], number: Callable[[_Traced], int]) -> list[_Traced]:
     (commonest, _), *_ = Counter(map(number, traced)).most_common(1)
-    return [one for one in traced if number(one) == commonest]
+    return [candidate for candidate in traced if number(candidate) == commonest]
 
 
 def _faces(network: Network) -> list[tuple[int, ...]]:

@@ -1,7 +1,7 @@
 """Edits of sheets: a pattern edited is a pattern. Theory: docs/theory/edits.md.
 
-Vertices keep their numbers, and edges theirs, except where a crease is removed or panels are taken off. What is
-added comes last.
+Vertices keep their numbers, and edges theirs, except where a crease is removed or panels are taken off. New
+ones come last.
 """
 
 from __future__ import annotations
@@ -53,14 +53,14 @@ class SheetEdit:
 
     @property
     def predicted(self) -> int:
-        """The change of mobility that the links and joints added or taken away make, all about centres."""
-        before, after = (one.sc for one in self._mechanisms)
+        """The change of mobility by the numbers of links and joints, all about centres."""
+        before, after = (mechanism.sc for mechanism in self._mechanisms)
         return relative_spherical_system(len(after) - len(before), len(after.joints) - len(before.joints))
 
     @property
     def counted(self) -> int:
         """The change of mobility as the difference of the two counts."""
-        before, after = (mobility_report(one.sc).mobility for one in self._mechanisms)
+        before, after = (mobility_report(mechanism.sc).mobility for mechanism in self._mechanisms)
         assert before is not None
         assert after is not None
         return after - before
@@ -167,7 +167,7 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
     InvariantError
         If there is no such joint.
     UnsolvableError
-        If the faces meet in other edges too, so that the face made of them would not be simple.
+        If the faces meet in other edges too, so that they would not make a simple face.
 
     Examples
     --------
@@ -212,7 +212,7 @@ def _pieces(sheet: Sheet, joint: int) -> tuple[Sheet, set[frozenset[int]]]:
 def _merged(
     first: Sequence[int], second: Sequence[int], between: Collection[frozenset[int]], joint: int
 ) -> tuple[int, ...]:
-    """Return the face made of two without the edges between them."""
+    """Return the face that two make without the edges between them."""
     sides = [side for side in sides_of_face(first) if frozenset(side) not in between]
     shared = next(side for side in sides_of_face(first) if frozenset(side) in between)
     if shared in sides_of_face(second):  # they are walked round in opposite senses
@@ -223,10 +223,8 @@ def _merged(
     while around and following[around[-1]] != around[0] and len(around) <= len(sides):
         around.append(following[around[-1]])
     if len(around) != len(sides) or len(following) != len(sides):
-        raise UnsolvableError(
-            f"crease {joint} cannot be removed: the faces beside it meet in other edges too, "
-            "and would surround them"
-        )
+        wrong = "the faces beside it meet in other edges too, and would surround them"
+        raise UnsolvableError(f"crease {joint} cannot be removed: {wrong}")
     return tuple(around)
 
 
@@ -298,7 +296,7 @@ def joint_of_sheet_named(sheet: Sheet, name: str) -> int:
     Raises
     ------
     InvariantError
-        If there is none; edges are told with their coordinates.
+        If there is none; the message has the coordinates of edges.
 
     Examples
     --------

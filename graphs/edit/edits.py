@@ -6,14 +6,15 @@ Wiener 2016, sections 4.2 and 6.3.2, Eqs. 5 to 7. Theory: docs/theory/edits.md.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Collection, Container, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import count, islice
 from typing import Any
 
 from graphs.count.relative import relative_cgk, relative_polyhedron, relative_spherical_system
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.ids import JointId, Joints, LinkId
 from graphs.loops.cycle_space import cut_into_cycles, dependent_loop
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import FaceKind
@@ -85,16 +86,11 @@ class Edit:
         }
 
 
-def fresh(taken: Iterable[Hashable], number: int) -> list[int]:
-    """Return new integer ids whose text is not taken."""
-    texts = {str(name) for name in taken}
-    start = len(texts)
-    found: list[int] = []
-    while len(found) < number:
-        if str(start) not in texts:
-            found.append(start)
-        start += 1
-    return found
+def fresh(used: Iterable[Hashable], number: int) -> list[int]:
+    """Return new integer ids whose text is not used."""
+    texts = {str(name) for name in used}
+    unused = (candidate for candidate in count(len(texts)) if str(candidate) not in texts)
+    return list(islice(unused, number))
 
 
 def add_loop(
@@ -130,7 +126,7 @@ def add_loop(
     InvariantError
         If a or b is no link, or the loop is no cycle.
     UnsolvableError
-        If a and b are not joined by one joint and ``through`` is not given.
+        If a and b are not joined by one joint, without ``through``.
 
     Examples
     --------
@@ -147,10 +143,8 @@ def add_loop(
     if through is None:
         between = list(sc[a][b]) if sc.has_edge(a, b) else []
         if len(between) != 1:
-            raise UnsolvableError(
-                f"links {shown(a)} and {shown(b)} have {len(between)} joints between them: say which joints the "
-                "new loop goes through"
-            )
+            wrong = f"links {shown(a)} and {shown(b)} have {numbered(len(between), 'joint')} between them"
+            raise UnsolvableError(f"{wrong}: say which joints the new loop goes through")
         through = between
     new_links = fresh(sc.nodes, links)
     new_joints = fresh(sc.joints, links + 1)
@@ -161,7 +155,7 @@ def add_loop(
     predicted = relative_cgk(links, links + 1, 6) if spatial else relative_spherical_system(links, links + 1)
     graph = SCGraph([*sc.nodes, *new_links], joints, [*sc.loops, loop], closing=sc.closing, ground=sc.ground)
     kind = "spatial" if spatial else "spherical" if loop.centre is Centre.FINITE else "planar"
-    what = f"{kind} loop of {links} new link(s) between {shown(a)} and {shown(b)}"
+    what = f"{kind} loop of {numbered(links, 'new link')} between {shown(a)} and {shown(b)}"
     return Edit(what, sc, graph, predicted, "Eq. 5" if spatial else "Eq. 6")
 
 
@@ -225,15 +219,11 @@ def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
     beyond = set(moved)
     for joint in moved:
         if joint not in sc.joints or link not in sc.joints[joint]:
-            raise InvariantError(
-                "crease", f"joint {shown(joint)} is not at link {shown(link)}", "one of its joints"
-            )
+            wrong = f"joint {shown(joint)} is not at link {shown(link)}"
+            raise InvariantError("crease", wrong, "one of its joints")
     (half,) = fresh(sc.nodes, 1)
     (crease,) = fresh(sc.joints, 1)
-    joints = {
-        joint: tuple(half if end == link and joint in beyond else end for end in ends)
-        for joint, ends in sc.joints.items()
-    }
+    joints = _moved_joints(sc, link, half, beyond)
     at_link = {joint for joint, ends in sc.joints.items() if link in ends}
 
     def creased(loop: Loop) -> Loop:
@@ -243,12 +233,31 @@ def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
 
     graph = SCGraph(
         [*sc.nodes, half],
-        {**{joint: (ends[0], ends[1]) for joint, ends in joints.items()}, crease: (link, half)},
+        {**joints, crease: (link, half)},
         map(creased, sc.loops),
         closing=map(creased, sc.closing),
         ground=sc.ground,
     )
     return Edit(f"crease in {shown(link)}", sc, graph, relative_spherical_system(1, 1), "Eq. 6")
+
+
+def _moved_joints(sc: SCGraph, link: LinkId, half: LinkId, moved: Container[object]) -> Joints:
+    """Return the joints of a graph; those of a link that are moved end at its other half."""
+
+    def end_of(joint: JointId, end: LinkId) -> LinkId:
+        return half if end == link and joint in moved else end
+
+    return {joint: (end_of(joint, a), end_of(joint, b)) for joint, (a, b) in sc.joints.items()}
+
+
+def _joints_of_locked(sc: SCGraph, joint: JointId) -> Joints:
+    """Return the joints but a locked one, its second link replaced by its first."""
+    kept, gone = sc.joints[joint]
+    return {
+        other: (kept if a == gone else a, kept if b == gone else b)
+        for other, (a, b) in sc.joints.items()
+        if other != joint
+    }
 
 
 def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
@@ -283,11 +292,7 @@ def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
     beside = [other for other in sc[kept][gone] if other != joint]
     if beside:
         raise UnsolvableError(f"joint {shown(beside[0])} joins the same two links as joint {shown(joint)}")
-    joints = {
-        other: (kept if a == gone else a, kept if b == gone else b)
-        for other, (a, b) in sc.joints.items()
-        if other != joint
-    }
+    joints = _joints_of_locked(sc, joint)
     loops = _contracted(sc.loops, joint, joints)
     closing = [
         loop
@@ -304,8 +309,8 @@ def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
     return Edit(f"lock joint {shown(joint)}", sc, graph, relative_spherical_system(-1, -1), "Eq. 6")
 
 
-def _contracted(loops: Sequence[Loop], joint: JointId, joints: dict[JointId, tuple[LinkId, LinkId]]) -> list[Loop]:
-    """Take a joint out of loops; of a loop that then passes a link twice keep a part independent of the rest."""
+def _contracted(loops: Sequence[Loop], joint: JointId, joints: Joints) -> list[Loop]:
+    """Take a joint out of loops; if a loop then passes a link twice, keep a part independent of the rest."""
     result = [tuple(other for other in loop.joints if other != joint) for loop in loops]
     for i, around in enumerate(result):
         parts = cut_into_cycles(around, joints)
@@ -368,18 +373,13 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
         second = _place(scd, link, end)
         apart = (second - first) % len(sides)
         if apart in (0, 1, len(sides) - 1):
-            raise InvariantError(
-                "crease", f"vertices {start} and {end} of link {shown(link)} are neighbours, or one", "a diagonal"
-            )
+            wrong = f"vertices {start} and {end} of link {shown(link)} are neighbours or equal"
+            raise InvariantError("crease", wrong, "a diagonal")
         predicted = relative_polyhedron(0, 0, -1)
     (half,), (crease,) = fresh(scd.nodes, 1), fresh(scd.joints, 1)
     turned = sides[first + 1 :] + sides[: first + 1]
     cut = (second - first) % len(sides)
     beyond, kept = turned[:cut], turned[cut:]
-    joints = {
-        joint: tuple(half if one == link and joint in beyond else one for one in ends)
-        for joint, ends in scd.joints.items()
-    }
 
     def creased(loop: Loop) -> Loop:
         here = [joint for joint in sides if joint in loop.joints]
@@ -389,7 +389,7 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
     graph = _rebuilt(
         scd,
         links=[*scd.nodes, half],
-        joints={**{joint: (a, b) for joint, (a, b) in joints.items()}, crease: (link, half)},
+        joints={**_moved_joints(scd, link, half, beyond), crease: (link, half)},
         rotation={**scd.rotation, link: [*kept, crease], half: [*beyond, crease]},
         loops=[creased(loop) for loop in scd.loops],
         closing=[creased(loop) for loop in scd.closing],
@@ -464,10 +464,8 @@ def make_explicit(scd: SCDGraph, loop: int) -> Edit:
     rotation = {link: list(sides) for link, sides in scd.rotation.items()}
     for corner in scd.faces[face].corners:
         sides = rotation[corner.link]
-        start = sides.index(corner.leaving)
         for _ in range(corner.open_edges):
-            del sides[(start + 1) % len(sides)]
-            start = sides.index(corner.leaving)
+            del sides[(sides.index(corner.leaving) + 1) % len(sides)]
     k = scd.faces[face].open_edges
     graph = _rebuilt(scd, rotation=rotation)
     what = f"explicit centre in {scd.loops[loop].label}"
@@ -559,18 +557,11 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     for loop in (*scd.loops, *scd.closing):
         ends = [link for other in loop.joints for link in scd.joints[other]]
         if joint not in loop.joints and kept in ends and gone in ends:
-            raise UnsolvableError(
-                f"{loop.label} would pass the locked links twice; lock the joint of the SC graph"
-            )
+            raise UnsolvableError(f"{loop.label} would pass the locked links twice; try the SC graph")
     i, k = scd.rotation[kept].index(joint), scd.rotation[gone].index(joint)
     inserted = [*scd.rotation[gone][k + 1 :], *scd.rotation[gone][:k]]
     rotation: dict[LinkId, Sequence[Side]] = {link: sides for link, sides in scd.rotation.items() if link != gone}
     rotation[kept] = [*scd.rotation[kept][:i], *inserted, *scd.rotation[kept][i + 1 :]]
-    joints = {
-        other: (kept if a == gone else a, kept if b == gone else b)
-        for other, (a, b) in scd.joints.items()
-        if other != joint
-    }
 
     def without(loop: Loop) -> Loop:
         return replace(loop, joints=tuple(other for other in loop.joints if other != joint))
@@ -578,7 +569,7 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     graph = _rebuilt(
         scd,
         links=[link for link in scd.nodes if link != gone],
-        joints=joints,
+        joints=_joints_of_locked(scd, joint),
         rotation=rotation,
         loops=[without(loop) for loop in scd.loops],
         closing=[without(loop) for loop in scd.closing],
@@ -590,16 +581,8 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
 
 def _rebuilt(scd: SCDGraph, **changes: Any) -> SCDGraph:
     """Return the graph with some of its parts changed."""
-    parts: dict[str, Any] = {
-        "links": scd.nodes,
-        "joints": scd.joints,
-        "loops": scd.loops,
-        "rotation": scd.rotation,
-        "outer": scd.outer,
-        "closing": scd.closing,
-        "ground": scd.ground,
-    }
-    return SCDGraph(**(parts | changes))
+    keys = ("joints", "loops", "rotation", "outer", "closing", "ground")
+    return SCDGraph(**({"links": scd.nodes} | {key: getattr(scd, key) for key in keys} | changes))
 
 
 def _sides(scd: SCDGraph, link: LinkId) -> tuple[Side, ...]:
@@ -628,12 +611,10 @@ def _opposite_open_edge(scd: SCDGraph, link: LinkId, vertex: int, place: int) ->
 def _face_with(scd: SCDGraph, loop: int, kind: FaceKind) -> int:
     if not 0 <= loop < len(scd.loops):
         raise InvariantError("edit", f"there is no loop {shown(loop)}", f"0 to {len(scd.loops) - 1}")
-    if (
-        loop not in scd.drawing.face_loops
-        or scd.drawing.kind_of_face(scd.drawing.face_loops.index(loop)) is not kind
-    ):
+    face = scd.drawing.face_loops.index(loop) if loop in scd.drawing.face_loops else None
+    if face is None or scd.drawing.kind_of_face(face) is not kind:
         raise InvariantError("edit", f"the centre of {scd.loops[loop].label} is not {kind.value}", kind.value)
-    return scd.drawing.face_loops.index(loop)
+    return face
 
 
 def _with_ride_along(

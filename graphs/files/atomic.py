@@ -45,7 +45,7 @@ if sys.platform != "win32":
 
 _ENDING = ".unfinished"
 _LONGEST = 32
-"""Letters of a name that are kept in that of what is not finished; a digest stands for the rest."""
+"""Letters of a name that are kept in that of an unfinished file; a digest stands for the rest."""
 
 _PATIENCE = 1.0
 """Seconds in which whoever stops a run may wait for files to be removed."""
@@ -66,10 +66,10 @@ class Unfinished:
     def __init__(self, place: Path, *, folder: bool = False) -> None:
         self._lock: int | None = None
         while True:
-            self.path = _made(place, folder)
+            self.path = _new_beside(place, folder)
             try:
                 self._lock = _locked(self.path)
-            except (BlockingIOError, FileNotFoundError):  # another run just took it for left over
+            except (BlockingIOError, FileNotFoundError):  # another run has just removed it as left over
                 continue
             return
 
@@ -80,7 +80,7 @@ class Unfinished:
             self._lock = None
 
 
-def _made(place: Path, folder: bool) -> Path:
+def _new_beside(place: Path, folder: bool) -> Path:
     if folder:
         return Path(tempfile.mkdtemp(_ENDING, _beginning(place), place.parent))
     handle, name = tempfile.mkstemp(_ENDING, _beginning(place), place.parent)
@@ -118,7 +118,7 @@ def _locked(path: Path) -> int | None:
 
 
 def _unlock(descriptor: int) -> None:
-    if descriptor in _locks:  # a process that was forked has given it up
+    if descriptor in _locks:  # a forked process does not hold it
         _locks.remove(descriptor)
         os.close(descriptor)
 
@@ -156,7 +156,7 @@ def remove_left(place: Path) -> None:
 
 
 def remove_folder(folder: Path) -> None:
-    """Remove a folder of files; what takes longer than a second is left to another process."""
+    """Remove a folder of files; after a second another process does the rest."""
     deadline = time.monotonic() + _PATIENCE
     with suppress(OSError), os.scandir(folder) as files:
         for file in files:
@@ -171,20 +171,14 @@ def _remover(folder: Path) -> subprocess.Popen[bytes]:
     """Return a process that removes a folder and does not end with this one, or with its terminal."""
     program = "import shutil, sys; shutil.rmtree(sys.argv[1], ignore_errors=True)"
     silent = subprocess.DEVNULL
-    return subprocess.Popen(
-        [sys.executable, "-c", program, folder.resolve()],
-        stdin=silent,
-        stdout=silent,
-        stderr=silent,
-        start_new_session=True,
-    )
+    command = [sys.executable, "-c", program, str(folder.resolve())]
+    return subprocess.Popen(command, stdin=silent, stdout=silent, stderr=silent, start_new_session=True)
 
 
 def check_place(path: Path, *, force: bool) -> None:
-    """Refuse a place where something must not be replaced; with ``force`` a plain file may be.
+    """Raise OpenError at the place of a file (without ``force``), a folder, a symbolic link or a special file.
 
-    Raise OpenError for a file (without ``force``), a folder, a symbolic link, wherever it leads, a special file,
-    or if there is no folder to write to.
+    Also if there is no folder to write to.
     """
     try:
         mode = path.lstat().st_mode
@@ -218,13 +212,13 @@ def _check_parent(path: Path) -> None:
 def write_text(path: Path, text: str, *, force: bool = False) -> None:
     """Write a file beside its place and move it there, so that it is never half written.
 
-    Raise OpenError if it cannot be written, or exists and ``force`` is not set; the file there is kept.
+    Raise OpenError if it cannot be written, or exists and ``force`` is not set; an existing file is kept.
     """
     write_chunks(path, [text], force=force)
 
 
 def write_chunks(path: Path, chunks: Iterable[str], *, force: bool = False) -> None:
-    """Write text that comes piece by piece, as :func:`write_text` writes one piece."""
+    """Write text piece by piece, as :func:`write_text` writes one piece."""
     beside = Beside(path, force=force)
     try:
         for chunk in chunks:
@@ -256,7 +250,7 @@ class FolderBeside:
         self._unfinished.release()
 
     def discard(self) -> None:
-        """Remove the folder, unless it was moved; what takes longer than a second is left to another process."""
+        """Remove the folder, unless it was moved; after a second another process does the rest."""
         remove_folder(self.path)
         self._unfinished.release()
 
@@ -264,8 +258,8 @@ class FolderBeside:
 class Beside:
     """A file that is written beside its place and moved there when it is complete.
 
-    A file at its place is kept until :meth:`commit`, and replaced only with `force`. Raise OpenError if the folder
-    cannot be written to, or something there must not be replaced.
+    A file at its place is kept until :meth:`commit`, and replaced only with `force`. The errors are those of
+    `check_place`, and OpenError if the folder cannot be written to.
     """
 
     def __init__(self, path: Path, *, force: bool = False) -> None:
@@ -285,16 +279,13 @@ class Beside:
             self.stream.write(data)
 
     def closed(self) -> Path:
-        """Return where the file is before it is moved, written out so that it can be read."""
+        """Close the file and return its present path, where it can be read before it is moved."""
         with self._named():
             self.stream.close()
         return self._beside
 
     def commit(self) -> None:
-        """Move the file to its place.
-
-        Raise OpenError if that fails, or something is there now that must not be replaced.
-        """
+        """Move the file to its place; OpenError if that fails, or would replace what must not be replaced."""
         with self._named():
             self.stream.close()
             check_place(self._path, force=self._force)
@@ -304,7 +295,7 @@ class Beside:
 
     def discard(self) -> None:
         """Remove the file, unless it was committed."""
-        with suppress(OSError):  # closing writes what is left, to a disk that may be full
+        with suppress(OSError):  # closing writes the rest, to a disk that may be full
             self.stream.close()
         self._beside.unlink(missing_ok=True)
         self._unfinished.release()
@@ -318,7 +309,7 @@ class Beside:
 
 
 def reason_of(error: OSError | ValueError) -> str:
-    """Return what the system says of an error, without its number and the file."""
+    """Return the words of the system for an error, without its number and the file."""
     return error.strerror or "" if isinstance(error, OSError) else str(error)
 
 

@@ -27,7 +27,7 @@ from xml.etree.ElementTree import ParseError
 import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.errors import FileError, UnsolvableError, shown
+from graphs.errors import FileError, UnsolvableError, numbered, shown
 from graphs.files.text import Checker, read_text
 from graphs.ids import JointId
 from graphs.joints.linkage import JointedLinkage, JointKind, kind_named
@@ -47,7 +47,7 @@ __all__ = [
 ]
 
 _INTEGER = re.compile(r"0|-?[1-9]\d{0,17}")
-"""As Python writes one: ``01`` is another name than ``1``."""
+"""An integer as Python writes it: ``01`` is another name than ``1``."""
 
 
 def names_from_text(words: Iterable[str]) -> dict[str, str | int]:
@@ -133,13 +133,13 @@ def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
     joints = names_from_text(keys) if all(isinstance(key, str) for key in keys) else {key: key for key in keys}
     named = nx.MultiGraph()
     named.add_nodes_from(links.values())
-    for a, b, key, told in graph.edges(keys=True, data=True):
-        named.add_edge(links[a], links[b], joints[key], **({"type": told["type"]} if "type" in told else {}))
+    for a, b, key, kind in graph.edges(keys=True, data="type"):
+        named.add_edge(links[a], links[b], joints[key], **({} if kind is None else {"type": kind}))
     return named
 
 
 def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyType({})) -> str:
-    """Return the GraphML text of the link-joint graph, with the types of joints that are given.
+    """Return the GraphML text of the link-joint graph, with the types of the joints in `kinds`.
 
     Raise UnsolvableError if a name has a character that XML does not allow.
     """
@@ -158,16 +158,16 @@ def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
 
     The errors are those of `as_sc`.
     """
-    told = {key: kind for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
-    if not told:
+    words = {key: str(kind) for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
+    if not words:
         return as_sc(graph, path)
     joints = {key: (a, b) for a, b, key in graph.edges(keys=True)}
 
-    def made() -> JointedLinkage:
-        kinds = {joint: kind_named(str(kind)) for joint, kind in told.items()}
+    def linkage() -> JointedLinkage:
+        kinds = {joint: kind_named(word) for joint, word in words.items()}
         return JointedLinkage(SCGraph(graph.nodes, joints), kinds)
 
-    return Checker(path).build(made, lambda part: f"joint {shown(part[1])}")
+    return Checker(path).build(linkage, lambda part: f"joint {shown(part[1])}")
 
 
 def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:
@@ -213,8 +213,9 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
         return _graph_of(_rows_of_lines(lines, path), path)
     if len(lines) == 1:
         raise FileError(path, "", "no joints", "lines below the names of the columns")
-    wanted = [columns.index(name) for name in (*ends, *(name for name in _NAMES_OF_JOINTS if name in columns))]
-    return _graph_of(_rows_of_table(lines[1:], parted_by, len(columns), wanted, path), path)
+    names = (*ends, *(name for name in _NAMES_OF_JOINTS if name in columns))
+    numbers = [columns.index(name) for name in names]
+    return _graph_of(_rows_of_table(lines[1:], parted_by, len(columns), numbers, path), path)
 
 
 def _rows_of_lines(lines: list[Row], path: Path) -> list[Words]:
@@ -223,18 +224,14 @@ def _rows_of_lines(lines: list[Row], path: Path) -> list[Words]:
     for number, line in lines:
         words = re.split(r"[\s,;]+", _names_of_line(line).strip())
         if len(words) not in (2, 3):
-            raise FileError(path, f"line {number}", f"{len(words)} word(s)", _EXPECTED)
+            raise FileError(path, f"line {number}", numbered(len(words), "word"), _EXPECTED)
         rows.append(words)
     (number, first), names = lines[0], rows[0][:2]
     others = [word for words in rows[1:] for word in words[:2]]
-    if (
-        "," in first
-        and others
-        and not any(map(_WHOLE_NUMBER.fullmatch, names))
-        and all(map(_WHOLE_NUMBER.fullmatch, others))
-    ):
-        found = f"columns called {shown(', '.join(names))}"
-        raise FileError(path, f"line {number}", found, "source and target, or no names of columns")
+    names_are_text = not any(map(_WHOLE_NUMBER.fullmatch, names))
+    if "," in first and others and names_are_text and all(map(_WHOLE_NUMBER.fullmatch, others)):
+        wrong = f"columns called {shown(', '.join(names))}"
+        raise FileError(path, f"line {number}", wrong, "source and target, or no names of columns")
     return rows
 
 
@@ -246,27 +243,22 @@ def _names_of_line(line: str) -> str:
     return line.split("#", 1)[0]
 
 
-def _rows_of_table(lines: list[Row], parted_by: str, width: int, wanted: list[int], path: Path) -> list[Words]:
-    """Return the cells of the columns that are wanted."""
+def _rows_of_table(lines: list[Row], parted_by: str, width: int, columns: list[int], path: Path) -> list[Words]:
+    """Return the cells of some columns of a table, by their numbers."""
     rows = []
-    for line in lines:
-        cells = _cells(line, parted_by, path)
+    for number, text in lines:
+        try:
+            row = next(csv.reader([text.strip()], delimiter=parted_by, strict=True))
+        except csv.Error as error:
+            raise FileError(path, f"line {number}", f"no cells: {error}", "cells, quotes closed") from None
+        cells = [cell.strip() for cell in row]
         if len(cells) != width:
-            raise FileError(path, f"line {line[0]}", f"{len(cells)} cell(s)", f"{width}, one for each column")
-        words = [cells[column] for column in wanted]
+            raise FileError(path, f"line {number}", numbered(len(cells), "cell"), f"{width}, one for each column")
+        words = [cells[column] for column in columns]
         if not all(words):
-            raise FileError(path, f"line {line[0]}", "an empty cell", "the name of a link")
+            raise FileError(path, f"line {number}", "an empty cell", "the name of a link")
         rows.append(words)
     return rows
-
-
-def _cells(line: Row, parted_by: str, path: Path) -> Words:
-    """Return the cells of a line of a table."""
-    number, text = line
-    try:
-        return [cell.strip() for cell in next(csv.reader([text.strip()], delimiter=parted_by, strict=True))]
-    except csv.Error as error:
-        raise FileError(path, f"line {number}", f"no cells: {error}", "cells, quotes closed") from None
 
 
 def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:

@@ -72,7 +72,7 @@ def written(name: Hashable) -> str | int:
 
 
 def is_count(listed: Iterable[Hashable]) -> bool:
-    """Tell whether names are just 0, 1, 2, ..."""
+    """Return whether names are just 0, 1, 2, ..."""
     return all(type(name) is int and name == i for i, name in enumerate(listed))
 
 
@@ -505,7 +505,7 @@ def joints_from_document(value: Mapping[str, Any], check: Checker) -> JointedLin
 
 
 def _bare(item: Any) -> Any:
-    """Return a joint as an SC graph has it; what is no object is left to its reader."""
+    """Return a joint without the keys that an SC graph does not have; other values than objects as they are."""
     if not isinstance(item, dict):
         return item
     return {key: item[key] for key in item if key not in ("type", "point", "axes")}

@@ -1,6 +1,6 @@
 """Text and JSON: read from a file, checked value by value, and laid out to be written.
 
-Every failure is a `FileError` with the file, the place, what is wrong and what was expected.
+Every failure is a `FileError` that names the file, the place, the fault and the expected value.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ _MEGABYTE = 10**6
 
 
 def _bytes_of(path: Path) -> bytes:
-    """Return what is in a regular file; others may never end, or never begin."""
+    """Return the bytes of a regular file; others may never end, or never begin."""
     _check_regular(path, path.stat())
     at_once = getattr(os, "O_NONBLOCK", 0)  # a pipe would wait for somebody who writes to it
     with os.fdopen(os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | at_once), "rb") as file:
@@ -127,13 +127,13 @@ T = TypeVar("T")
 
 
 class Checker:
-    """Checks JSON values; errors name the file and the place of what is wrong."""
+    """Checks of JSON values; errors name the file and the place."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     def fail(self, place: str, found: object, expected: str) -> NoReturn:
-        """Raise the error for a value that is not what was expected."""
+        """Raise the error for a value of another kind than expected."""
         raise FileError(self.path, place, _described(found), expected)
 
     def mapping(
@@ -148,11 +148,11 @@ class Checker:
                 raise FileError(self.path, place, f"unknown key {shown(key)}", "only " + ", ".join(sorted(known)))
         for key in required:
             if key not in value:
-                raise FileError(self.path, place, f"key {key!r} is missing", "it to be there")
+                raise FileError(self.path, place, f"key {key!r} is missing")
         return value
 
     def list(self, value: Any, place: str, length: int | None = None, what: str = "a list") -> list[Any]:
-        """Return a list, of a given length if one is given."""
+        """Return a list; of any length unless it is stated."""
         if not isinstance(value, list):
             self.fail(place, value, what)
         if length is not None and len(value) != length:
@@ -210,10 +210,7 @@ class Checker:
     def build(
         self, make: Callable[[], T], place_of: Callable[[tuple[str, object]], str] = lambda _: "", place: str = ""
     ) -> T:
-        """Build an object; turn a breach of its invariants into an error with a place in the file.
-
-        ``place_of`` gives the place of a part of the object, ``place`` that of the whole.
-        """
+        """Build an object; a broken invariant becomes an error at the place of a part, or of the whole."""
         try:
             return make()
         except InvariantError as error:

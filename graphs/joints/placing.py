@@ -29,13 +29,8 @@ _ENDS = (JointKind.REVOLUTE, JointKind.UNIVERSAL, JointKind.SPHERICAL)
 class KneeEnd:
     """A joint beside a slide.
 
-    Attributes
-    ----------
-    joint : joint id
-    place : int
-        0 if its first link is beside the slide, 1 if its second is.
-    axis : int or None
-        Which of its axes is to be across the slide; None of a spherical joint, which has one that way anyhow.
+    `place` is 0 if its first link is beside the slide, 1 if its second is; `axis` is the number of the axis that
+    is to be across the slide, None for a spherical joint, which can turn about any.
     """
 
     joint: JointId
@@ -52,26 +47,12 @@ class Knee:
 
 
 def knees_of_type(linkage: JointedLinkage) -> list[Knee]:
-    """Return the slides that knees can stand for, if axes are chosen so; each joint serves one of them.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> row = SCGraph(4, [(0, 1), (1, 2), (2, 3)])
-    >>> [knee.slide for knee in knees_of_type(JointedLinkage(row, {1: JointKind.PRISMATIC}))]
-    [1]
-    """
+    """Return the slides that knees can stand for with suitable axes; each joint serves one of them."""
     return list(_taken_once(_possible(linkage)))
 
 
 def placed_knees(linkage: JointedLinkage) -> list[tuple[Knee, Floats]]:
-    """Return the slides that knees can stand for as the joints lie, each with the direction of its axes.
-
-    Parameters
-    ----------
-    linkage : JointedLinkage
-        With places.
-    """
+    """Return the slides of a linkage with places that knees can stand for, each with the direction of its axes."""
     points = np.array([place.point for place in linkage.places.values()])
     axes = np.array([axis for place in linkage.places.values() for axis in place.axes]).reshape(-1, 3)
     parallel = Tolerances.of(precision_of_axes(points, axes).size).parallel
@@ -109,26 +90,26 @@ def _taken_once(knees: Iterator[Knee]) -> Iterator[Knee]:
 def _normal(linkage: JointedLinkage, knee: Knee, parallel: float) -> Floats | None:
     """Return the direction across the slide that the axes beside it have in common, None if they have none."""
     slide = unit(linkage.places[knee.slide].axes[0])
-    given = [unit(linkage.places[end.joint].axes[end.axis]) for end in knee.ends if end.axis is not None]
-    if not given:
+    axes = [unit(linkage.places[end.joint].axes[end.axis]) for end in knee.ends if end.axis is not None]
+    if not axes:
         return np.asarray(frame_about(slide)[1])
-    if any(abs(one @ slide) > parallel or np.linalg.norm(np.cross(one, given[0])) > parallel for one in given):
+    if any(abs(axis @ slide) > parallel or np.linalg.norm(np.cross(axis, axes[0])) > parallel for axis in axes):
         return None
-    return given[0]
+    return axes[0]
 
 
 def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
-    """Return a linkage with places for its joints: its own, or random ones where it has none.
+    """Return a linkage with places for its joints: its own, or random ones if it has none.
 
-    Axes of loops with a centre meet there; of a planar loop they are parallel, and slides are across them.
+    Axes of loops with a centre meet there; those of a planar loop are parallel, and slides are across them.
     A prismatic joint between two binary links, with joints beyond them that can turn about parallel axes across
-    it, is given such axes: the usual way to build it, and three parallel revolutes do its work.
+    it, gets such axes: the usual way to build it, and three parallel revolutes do its work.
 
     Parameters
     ----------
     linkage : JointedLinkage
     seed : int, optional
-        Another seed is another member.
+        Random seed; another seed gives another realisation.
 
     Examples
     --------
@@ -166,10 +147,10 @@ def _turn_to_centres(
 ) -> None:
     """Give joints of loops with a centre axes through it, those of planar loops axes across or along the plane."""
     meeting: dict[JointId, list[tuple[Centre, Floats]]] = {}
-    for one in linkage.chain.centre_classes():
+    for centre_class in linkage.chain.centre_classes():
         at = unit(random.normal(size=3))
-        for joint in one.joints:
-            meeting.setdefault(joint, []).append((one.centre, at))
+        for joint in centre_class.joints:
+            meeting.setdefault(joint, []).append((centre_class.centre, at))
     for joint, centres in meeting.items():
         normals = [at for centre, at in centres if centre is Centre.INFINITE]
         if linkage.kinds[joint] is JointKind.PRISMATIC:

@@ -26,11 +26,11 @@ from graphs.tolerances import Tolerances
 __all__ = ["recognised", "revolutes_of"]
 
 _SMALL = 0.1
-"""Of what stands for a joint, in units of the extent."""
+"""Size of the chain that stands for a joint, in units of the extent."""
 _ARM = 0.5
 """Height of a knee over the line between its ends, in units of their distance."""
 _TRIANGLE = ((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))
-"""Axes of a planar joint in its plane: no two sides alike, which tells it from a knee."""
+"""Axes of a planar joint in its plane: no two sides are equal, unlike those of a knee."""
 
 Line = tuple[Floats, Floats]
 Row = list[Line]
@@ -38,7 +38,7 @@ Row = list[Line]
 
 
 def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
-    """Return the mechanism of revolutes that a linkage with joints of all kinds is.
+    """Return the mechanism of revolutes that stands for a linkage with joints of all kinds.
 
     A joint that is one revolute keeps its id; of others the revolutes are called by its id, a colon and a number,
     and so are the links between them.
@@ -46,9 +46,9 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
     Parameters
     ----------
     linkage : JointedLinkage
-        Without places it is given random ones.
+        Without places it gets random ones.
     seed : int, optional
-        Of these.
+        Random seed for these.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
     ['u:1', 'u:2', 'p', 's:1', 's:2', 's:3']
     """
     whole = placed(linkage, seed)
-    made = _Made(whole)
+    mechanism = _RevoluteMechanism(whole)
     knees = {knee.slide: (knee, normal) for knee, normal in placed_knees(whole)}
     shared = {end.joint: (end.place, normal) for knee, normal in knees.values() for end in knee.ends}
     points = {joint: np.array(place.point) for joint, place in whole.places.items()}
@@ -69,21 +69,23 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
         if joint in knees:
             knee, normal = knees[joint]
             one, other = (points[end.joint] for end in knee.ends)
-            made.add(joint, [[_knee(one, other, normal, size)]])
+            mechanism.add(joint, [[_knee(one, other, normal, size)]])
         elif kind is JointKind.SPHERICAL:
-            made.add(joint, [_about_a_point(points[joint], shared.get(joint))])
+            mechanism.add(joint, [_about_a_point(points[joint], shared.get(joint))])
         else:
-            made.add(joint, _rows(kind, whole.places[joint], size), along=_turned_along(kind, whole.places[joint]))
+            mechanism.add(
+                joint, _rows(kind, whole.places[joint], size), along=_turned_along(kind, whole.places[joint])
+            )
     old = whole.chain
     loops, closing = (
-        [loop for loop in some if loop.has_centre and set(loop.joints) <= made.joints.keys()]
+        [loop for loop in some if loop.has_centre and set(loop.joints) <= mechanism.joints.keys()]
         for some in (old.loops, old.closing)
     )  # a slide that the linkage of Sarrus stands for is no axis of a planar loop
-    chain = SCGraph(made.links, made.joints, loops, closing=closing, ground=old.ground)
-    return HingedSolids(chain, made.axes)
+    chain = SCGraph(mechanism.links, mechanism.joints, loops, closing=closing, ground=old.ground)
+    return HingedSolids(chain, mechanism.axes)
 
 
-class _Made:
+class _RevoluteMechanism:
     """The mechanism of revolutes as it grows."""
 
     def __init__(self, linkage: JointedLinkage) -> None:
@@ -167,9 +169,9 @@ _FLAT = 1e-3
 
 
 def recognised(solids: HingedSolids) -> JointedLinkage:
-    """Return a mechanism of revolutes with its chains of joints seen as the joints that they stand for.
+    """Return a mechanism of revolutes with its chains of joints recognised as the joints that they stand for.
 
-    Joints of loops with a centre are revolutes. The others are looked through in this order: two knees side by
+    Joints of loops with a centre are revolutes. The others are searched in this order: two knees side by
     side between two links, across each other, are a slide (Sarrus), and with a revolute along it a cylindrical
     joint; other knees are slides between the joints beside them; of axes in a row three through a point are a
     spherical joint, two that cross at a right angle a universal one, three that are parallel a planar one. Links
@@ -187,12 +189,12 @@ def recognised(solids: HingedSolids) -> JointedLinkage:
     >>> recognised(revolutes_of(leg))
     <JointedLinkage: 4 links, 3 joints: P S U, placed>
     """
-    seen = _Seen(solids)
-    seen.sarrus()
-    seen.knees()
-    seen.rows()
-    seen.cylinders()
-    return seen.linkage()
+    recognition = _Recognition(solids)
+    recognition.sarrus()
+    recognition.knees()
+    recognition.rows()
+    recognition.cylinders()
+    return recognition.linkage()
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +207,7 @@ class _Bent:
     along: Floats
 
 
-class _Seen:
+class _Recognition:
     """A linkage in which more and more joints are not revolutes."""
 
     def __init__(self, solids: HingedSolids) -> None:
@@ -225,7 +227,7 @@ class _Seen:
         self._kept = {joint for loop in loops if loop.has_centre for joint in loop.joints}
 
     def linkage(self) -> JointedLinkage:
-        """Return what was seen."""
+        """Return the linkage with the joints recognised so far."""
         chain = self._graph()
         places = {
             joint: JointPlace(plain_vector(self._points[joint]), tuple(map(plain_vector, self._axes[joint])))
@@ -236,14 +238,14 @@ class _Seen:
     def sarrus(self) -> None:
         """Take two knees side by side, across each other, for a slide."""
         beside: dict[frozenset[LinkId], list[_Bent]] = {}
-        taken: set[JointId] = set()
+        used: set[JointId] = set()
         for bent in self._bent():
             others = beside.setdefault(frozenset((bent.links[0], bent.links[3])), [])
             for other in others:
                 joints = {*bent.joints, *other.joints}
                 crossed = np.linalg.norm(np.cross(bent.normal, other.normal)) > _FLAT
-                if crossed and not joints & taken and len(joints) == 6 and bent.links[0] != bent.links[3]:
-                    taken |= joints
+                if crossed and not joints & used and len(joints) == 6 and bent.links[0] != bent.links[3]:
+                    used |= joints
                     first, last = other.links[0], other.links[3]
                     ways = [unit(np.cross(other.normal, bent.normal))]
                     inner = (*other.links[1:3], *bent.links[1:3])
@@ -254,10 +256,10 @@ class _Seen:
 
     def knees(self) -> None:
         """Take the middle axis of a knee for a slide."""
-        taken: set[JointId] = set()
+        used: set[JointId] = set()
         for bent in self._bent():
-            if not set(bent.joints) & taken:
-                taken.update(bent.joints)
+            if not set(bent.joints) & used:
+                used.update(bent.joints)
                 self._kinds[bent.joints[1]] = JointKind.PRISMATIC
                 self._axes[bent.joints[1]] = [bent.along]
 
@@ -344,7 +346,7 @@ class _Seen:
         return p + along * u
 
     def _pass(self, joints: Sequence[JointId], point: Floats) -> bool:
-        """Tell whether axes pass through a point."""
+        """Return whether axes pass through a point."""
         offs = (across(point - self._points[joint], self._axes[joint][0]) for joint in joints)
         return all(np.linalg.norm(off) <= self._near for off in offs)
 
@@ -369,7 +371,7 @@ class _Seen:
         self._points[name], self._axes[name] = where, axes
 
     def _name(self, joints: Sequence[JointId]) -> JointId:
-        """Return what the names of joints are before a colon, if that is the same of all; else all names."""
+        """Return the part of the names of joints before a colon, if they have it in common; else all names."""
         stems = {str(joint).rpartition(":")[0] or str(joint) for joint in joints}
         name = stems.pop() if len(stems) == 1 else "+".join(map(str, joints))
         while name in map(str, self._joints):
@@ -377,11 +379,11 @@ class _Seen:
         return int(name) if name.isdecimal() and str(int(name)) == name else name
 
     def _legs(self) -> list[Leg]:
-        """Return the rows of joints that there are now; rings begin where no joint would be cut in two."""
+        """Return the present rows of joints; rings begin between two chains that stand for joints."""
         return [self._well_begun(leg) for leg in legs(self._graph())]
 
     def _well_begun(self, leg: Leg) -> Leg:
-        """Return a ring of binary links as it begins between two joints; other rows begin where they must."""
+        """Return a ring of binary links from between two chains on; other rows as they are."""
         first = leg.links[0]
         if first == self._chain.ground or self._degree(first) != 2:
             return leg
@@ -395,7 +397,7 @@ class _Seen:
         return sum(link in ends for ends in self._joints.values())
 
     def _parts(self, one: JointId, other: JointId) -> bool:
-        """Tell whether two joints belong to different chains: their axes neither meet nor are parallel."""
+        """Return whether two joints belong to different chains: their axes neither meet nor are parallel."""
         pair = (one, other)
         if any(self._kinds[joint] is not JointKind.REVOLUTE for joint in pair):
             return True

@@ -60,17 +60,17 @@ def links_of_loops_that_stay(
 ) -> frozenset[LinkId]:
     """Return the links of four-bars that should have stayed, if others did.
 
-    Ride-alongs were taken off until none was left, each block keeping a loop. The links are to be protected too,
-    as some are anyway, when the reduction is done again; none if it was right. A finite centre stays before one at
-    infinity, a centre of its own before one that other blocks have too. If several shared centres are still equal,
-    canonical labels of what is left decide: then the choice has no meaning, but it is always the same.
+    Ride-alongs were taken off until none was left, each block keeping a loop. The reduction has to be done again
+    with these links protected; none if it was right. A finite centre stays before one at infinity, a centre of its
+    own before one that other blocks have too. If several shared centres are still equal, canonical labels of the
+    remaining graph decide: then the choice has no meaning, but it is always the same.
     """
-    choices = [_most_general(work, one) for one in _choices(work, taken, protected)]
-    labels = _labels(work, choices, protected) if any(len(one.classes) > 1 for one in choices) else {}
+    choices = [_most_general(work, choice) for choice in _choices(work, taken, protected)]
+    labels = _labels(work, choices, protected) if any(len(choice.classes) > 1 for choice in choices) else {}
     stay: set[LinkId] = set()
-    for one in choices:
-        chosen = min(one.there, key=lambda four_bar: labels.get(four_bar.centre_class, 0))
-        if chosen.centre_class != one.here.centre_class:
+    for choice in choices:
+        chosen = min(choice.there, key=lambda four_bar: labels.get(four_bar.centre_class, 0))
+        if chosen.centre_class != choice.here.centre_class:
             stay |= chosen.links
     return frozenset(stay)
 
@@ -111,14 +111,14 @@ def _is_planar(work: WorkingGraph, which: int) -> bool:
 
 
 def _is_shared(work: WorkingGraph, which: int) -> bool:
-    """Tell whether a class has loops in several blocks, which a file says by naming their centre."""
+    """Return whether a class has loops in several blocks, which a file says by naming their centre."""
     return len({work.block_of[joint] for joint in work.original.centre_classes()[which].joints}) > 1
 
 
 def _labels(work: WorkingGraph, choices: Sequence[_Choice], protected: Collection[LinkId]) -> Mapping[int, int]:
-    """Return canonical labels of the classes: of links, joints and classes as they are left.
+    """Return canonical labels of the classes in the graph of the remaining links, joints and classes.
 
-    A four-bar of which it is open what class it has stands for itself, beside the classes that it may have.
+    A four-bar whose class is open stands for itself, beside the classes that it may have.
     """
     colours: list[tuple[object, ...]] = []
     edges: list[tuple[int, int]] = []
@@ -130,31 +130,31 @@ def _labels(work: WorkingGraph, choices: Sequence[_Choice], protected: Collectio
     link_at = {link: node("link", link == work.original.ground, link in protected) for link in work.degree}
     joint_at = {joint: node("joint") for joint in work.joints}
     edges += [(joint_at[joint], link_at[end]) for joint, ends in work.joints.items() for end in ends]
-    open_ones = [one for one in choices if len(one.classes) > 1]
+    open_choices = [choice for choice in choices if len(choice.classes) > 1]
     class_at: dict[int, int] = {}
     for which, loops in _loops_of_classes(work, choices).items():
         number_closing = sum(loop in work.closing for loop in loops)
         class_at[which] = node("class", _is_planar(work, which), len(loops), number_closing)
         joints = set().union(*(work.loops[loop] for loop in loops))
         edges += [(class_at[which], joint_at[joint]) for joint in joints]
-    for one in open_ones:
+    for choice in open_choices:
         four_bar = node("open")
-        edges += [(four_bar, joint_at[joint]) for joint in work.loops[one.last]]
-        edges += [(four_bar, class_at[which]) for which in one.classes]
+        edges += [(four_bar, joint_at[joint]) for joint in work.loops[choice.last]]
+        edges += [(four_bar, class_at[which]) for which in choice.classes]
     palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
     labels = labels_of(ColouredGraph(len(colours), edges, [palette[colour] for colour in colours]))
     return {which: labels[place] for which, place in class_at.items()}
 
 
 def _loops_of_classes(work: WorkingGraph, choices: Sequence[_Choice]) -> dict[int, list[int]]:
-    """Return the loops of each class as they will be; none for what is open."""
+    """Return the loops of each class after the choices; none for open ones."""
     independent, closing = work.kept_loops()
     class_of = {loop: work.class_of[loop] for loop in (*independent, *closing) if loop in work.class_of}
-    for one in choices:
-        del class_of[one.last]
-        if len(one.classes) == 1:
-            class_of[one.last] = one.there[0].centre_class
-    loops: dict[int, list[int]] = {which: [] for one in choices for which in one.classes}
+    for choice in choices:
+        del class_of[choice.last]
+        if len(choice.classes) == 1:
+            class_of[choice.last] = choice.there[0].centre_class
+    loops: dict[int, list[int]] = {which: [] for choice in choices for which in choice.classes}
     for loop, which in class_of.items():
         loops.setdefault(which, []).append(loop)
     return loops
@@ -208,7 +208,7 @@ class Reduction(Printed):
     steps : tuple of ReductionStep
         In the order in which they were taken.
     removals : tuple of Removal
-        The same, with what is needed to undo them.
+        The same, with the data to undo them.
 
     Examples
     --------
@@ -227,7 +227,7 @@ class Reduction(Printed):
     _work: WorkingGraph
 
     def undo(self, steps: int | None = None) -> SCGraph:
-        """Put back what the last steps took off, all of them unless told how many.
+        """Put back the links of the last steps, by default of all; then it is the original, ids included.
 
         Parameters
         ----------
@@ -236,7 +236,6 @@ class Reduction(Printed):
         Returns
         -------
         SCGraph
-            Undoing all steps gives the original, ids included.
 
         Raises
         ------
@@ -272,10 +271,11 @@ class Reduction(Printed):
         if not self.steps:
             return [*counts, "nothing to take off"]
         chains = self.chains()
-        told = f"{len(self.steps)} step(s) in {len(chains)} adjunct addend{'um' if len(chains) == 1 else 'a'}"
+        addenda = numbered(len(chains), "adjunct addendum", "adjunct addenda")
+        head = f"{numbered(len(self.steps), 'step')} in {addenda}"
         if len(self.steps) > _MOST_SHOWN:
-            return [*counts, told, f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"]
-        return [*counts, told, *(line for chain in chains for line in self._tree(chain))]
+            return [*counts, head, f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"]
+        return [*counts, head, *(line for chain in chains for line in self._tree(chain))]
 
     def _tree(self, chain: nx.DiGraph) -> list[str]:
         """Draw an adjunct addendum from the mechanism outwards."""
@@ -287,9 +287,9 @@ class Reduction(Printed):
             u, v, a, b = map(plain, (*step.removed, *step.onto))
             lines.append(f"{before}step {number + 1}: links {u}, {v} on {a}, {b}")
             above = sorted(chain.successors(number), reverse=True)
-            for place, one in enumerate(above):  # the last comes first, and is taken last
+            for place, child in enumerate(above):  # the last comes first, and is drawn last
                 corner, beside = ("└── ", "    ") if place == 0 else ("├── ", "│   ")
-                waiting.append((one, under + corner, under + beside))
+                waiting.append((child, under + corner, under + beside))
         return lines
 
     def __repr__(self) -> str:
@@ -349,7 +349,7 @@ def reduce(
     Notes
     -----
     The mobility count stays. Ride-along reduction takes linear time and, up to isomorphism, gives the same graph,
-    with the same centres, in whichever order the parts of the mechanism are given. Where a block comes down to
+    with the same centres, in whichever order the parts of the mechanism are listed. Where a block comes down to
     a single four-bar and several of its four-bars could be it, one of the most general kind stays: a finite centre
     before one at infinity, a centre of its own before one that another block has too (docs/theory/reduction.md).
     Dyad reduction promises neither.

@@ -241,7 +241,7 @@ class WorkingGraph:
         return independent, closing
 
     def graph(self) -> SCGraph:
-        """Return what is left as an SC graph with the classes of the original."""
+        """Return the remaining SC graph, with the centre classes of the original."""
         independent, closing = self.kept_loops()
         kept = [*independent, *closing]
         loops = [replace(self.labels[i], joints=tuple(sorted(self.loops[i], key=str))) for i in kept]
@@ -354,7 +354,7 @@ def _cycles(work: WorkingGraph, path: Path) -> list[_Cycle]:
 
 
 def _needs_elimination(work: WorkingGraph, middle: JointId, cycles: list[_Cycle]) -> bool:
-    """Tell whether it takes an elimination to know if the two links that a joint joins are a ride-along."""
+    """Return whether only an elimination can decide if the two links of a joint are a ride-along."""
     for _, cycle in cycles:
         known, member = work.member_at_once(cycle, middle)
         if not known:
@@ -389,9 +389,7 @@ def _independent_member(work: WorkingGraph, cycle: frozenset[JointId], middle: J
     if len(passing) == 1 and len(work.through[middle] - work.closing) == 1:
         return passing[0]
     summands = in_span_of(cycle, [work.loops[i] for i in independent])
-    return (
-        None if summands is None else next((independent[i] for i in summands if independent[i] in passing), None)
-    )
+    return next((independent[i] for i in summands or () if independent[i] in passing), None)
 
 
 def _take_dyad(work: WorkingGraph, path: Path) -> Taken | None:

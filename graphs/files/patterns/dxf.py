@@ -53,8 +53,8 @@ _BREAK = re.compile(r"\r\n|\n|\r")
 class Record:
     """A record of a DXF file.
 
-    A section is ``ENTITIES``, ``TABLES``, ..., a name ``LINE``, ``LAYER``, ..., a group (code, value); path and
-    line, where the record starts, are for messages.
+    A section is ``ENTITIES``, ``TABLES``, ..., a name ``LINE``, ``LAYER``, ..., a group (code, value). Path and
+    line, that of its start, are for messages.
     """
 
     section: str
@@ -68,10 +68,7 @@ class Record:
         return next((value for held, value in self.groups if held == code), default)
 
     def number(self, code: int, default: str | None = None) -> float:
-        """Return the first value of a group code as a number.
-
-        Raise FileError if there is none and no default, or it is no coordinate.
-        """
+        """Return the first value of a group code as a coordinate; FileError if it is none."""
         value = self.word(code, "" if default is None else default)
         if not value:
             raise self.fault(f"no group {code}")
@@ -85,7 +82,7 @@ class Record:
         return int(value)
 
     def as_number(self, code: int, value: str) -> float:
-        """Return a value of the record as a number of a size that can be reckoned with."""
+        """Return a value of the record as a number; FileError if it is no coordinate."""
         try:
             number = float(value)
         except ValueError:
@@ -95,7 +92,7 @@ class Record:
         return number
 
     def fault(self, found: str, expected: str = "a DXF record as R12 has it") -> FileError:
-        """Return the error that says what is wrong with the record."""
+        """Return an error at the place of the record."""
         return FileError(self.path, f"{self.name} at line {self.line}", found, expected)
 
 
@@ -133,7 +130,7 @@ def _pairs(text: str, path: Path) -> Iterator[tuple[int, int, str]]:
 
 Point = tuple[float, float]
 Drawn = tuple[Record, list[tuple[Point, Point]] | None]
-"""A record and its pieces; None of a record that is no shape which is understood."""
+"""A record and its pieces; None for a record that is no known shape."""
 
 _PIECES = 8
 """Straight pieces of a bulge of a polyline, and of a quarter of a circle."""
@@ -141,7 +138,7 @@ _CLOSED = 1
 _FLAT_POLYLINE = 8 | 16 | 64
 """Flags of polylines that are curves in space or meshes."""
 _Corner = tuple[Point, float]
-"""Where a corner of a polyline is, and the bulge of the side after it: the tangent of a quarter of its angle."""
+"""A corner of a polyline, and the bulge of the side after it: the tangent of a quarter of its angle."""
 
 
 def drawn_shapes(records: Sequence[Record]) -> Iterator[Drawn]:
@@ -159,14 +156,15 @@ def drawn_shapes(records: Sequence[Record]) -> Iterator[Drawn]:
                 corners.append((_point(records[at], 10), records[at].number(42, "0")))
                 at += 1
             at += at < len(records) and records[at].name == "SEQEND"
-            meant = not record.whole(70, 0) & _FLAT_POLYLINE and _seen_from_above(record)
-            yield record, _of_polyline(corners, closed=bool(record.whole(70, 0) & _CLOSED)) if meant else None
+            flags = record.whole(70, 0)
+            in_plane = not flags & _FLAT_POLYLINE and _seen_from_above(record)
+            yield record, _of_polyline(corners, closed=bool(flags & _CLOSED)) if in_plane else None
         else:
             yield record, _pieces(record)
 
 
 def _pieces(record: Record) -> list[tuple[Point, Point]] | None:
-    """Return the pieces of a shape that is one record."""
+    """Return the pieces of a shape of one record."""
     if record.name == "LINE":
         return [(_point(record, 10), _point(record, 11))]
     if not _seen_from_above(record):
@@ -175,19 +173,19 @@ def _pieces(record: Record) -> list[tuple[Point, Point]] | None:
         return _of_polyline(_corners(record), closed=bool(record.whole(70, 0) & _CLOSED))
     if record.name in ("CIRCLE", "ARC"):
         whole = record.name == "CIRCLE"
-        start, end = (0.0, 360.0) if whole else (record.number(50), record.number(51))
-        turn = 360.0 if whole else (end - start) % 360.0 or 360.0
+        start = 0.0 if whole else record.number(50)
+        turn = 360.0 if whole else (record.number(51) - start) % 360.0 or 360.0
         return list(pairwise(_on_circle(_point(record, 10), record.number(40), radians(start), radians(turn))))
     return None
 
 
 def _seen_from_above(record: Record) -> bool:
-    """Tell whether a shape lies in the plane of the drawing, not mirrored."""
+    """Return whether a shape lies in the plane of the drawing, not mirrored."""
     return (record.number(210, "0"), record.number(220, "0"), record.number(230, "1")) == (0.0, 0.0, 1.0)
 
 
 def _point(record: Record, code: int) -> Point:
-    """Return a point; those that are not at height 0 are no crease pattern."""
+    """Return a point, which must be at height 0."""
     if record.number(code + 20, "0") != 0:
         raise record.fault(f"a point at height {record.number(code + 20):g}", "height 0: a crease pattern is flat")
     return record.number(code), record.number(code + 10)
@@ -214,13 +212,13 @@ def _of_polyline(corners: Sequence[_Corner], *, closed: bool) -> list[tuple[Poin
 
 
 def _side(start: Point, end: Point, bulge: float) -> list[tuple[Point, Point]]:
-    """Return a side of a polyline, in pieces where it is an arc."""
+    """Return a side of a polyline; an arc in pieces."""
     if start == end:
         return []
     if bulge == 0:
         return [(start, end)]
     turn = 4 * atan(bulge)
-    # The middle of the circle is so far left of the chord, in chords.
+    # The centre of the circle is this far left of the chord, in chord lengths.
     left = (1 / bulge - bulge) / 4
     wide, high = end[0] - start[0], end[1] - start[1]
     centre = ((start[0] + end[0]) / 2 - left * high, (start[1] + end[1]) / 2 + left * wide)
@@ -311,7 +309,7 @@ class DxfWord:
 def dxf_of(
     layers: Sequence[DxfLayer], lines: Sequence[DxfLine], words: Iterable[DxfWord] = (), *, remark: str = ""
 ) -> str:
-    """Return the DXF text of lines and words on given layers; the remark is the first line of the file.
+    """Return the DXF text of lines and words on layers; the remark is the first line of the file.
 
     Coordinates are written so that they are read back to the last digit.
     """
@@ -375,7 +373,7 @@ _NAMES = {
 }
 _LETTERS = {name: letter for letter, names in _NAMES.items() for name in names.split()}
 _NOTES = ("TEXT", "MTEXT", "DIMENSION", "LEADER", "POINT", "HATCH", "VIEWPORT", "ATTDEF", "IMAGE")
-"""Records that are no lines of a drawing, and are not missed."""
+"""Records that are no lines of a drawing, and are left out without a note."""
 _WRITTEN = {
     "B": DxfLayer("BORDER", 7),
     "C": DxfLayer("CUT", 3),
@@ -392,7 +390,7 @@ _LONGEST_NAME = 40
 
 @dataclass(frozen=True, slots=True)
 class _Layer:
-    """What shapes of a layer take from it."""
+    """The look that shapes of a layer take from it."""
 
     colour: int
     line_type: str
@@ -402,18 +400,18 @@ _PLAIN = _Layer(7, "CONTINUOUS")
 
 
 def sheet_from_dxf(path: Path, legend: Legend = UNSTATED) -> Sheet:
-    """Read the lines of a DXF file and trace its faces; the legend says what strokes are, where that was stated.
+    """Read the lines of a DXF file and trace its faces; the legend has the stated assignments of strokes.
 
     A FileError names the record, or why the lines make no pattern (:mod:`graphs.files.patterns.lines`).
     """
     check = Checker(path)
-    held = list(records(read_text(path), path))
+    all_records = list(records(read_text(path), path))
     layers = {
-        one.word(2): _Layer(one.whole(62, 7), one.word(6, "CONTINUOUS"))
-        for one in held
-        if (one.section, one.name) == ("TABLES", "LAYER")
+        record.word(2): _Layer(record.whole(62, 7), record.word(6, "CONTINUOUS"))
+        for record in all_records
+        if (record.section, record.name) == ("TABLES", "LAYER")
     }
-    drawn = list(drawn_shapes([one for one in held if one.section == "ENTITIES"]))
+    drawn = list(drawn_shapes([record for record in all_records if record.section == "ENTITIES"]))
     strokes = [_stroke(record, layers.get(record.word(8), _PLAIN), pieces) for record, pieces in drawn]
     understood = check.build(lambda: legend.understood(strokes))
     ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
@@ -430,7 +428,7 @@ def sheet_from_dxf(path: Path, legend: Legend = UNSTATED) -> Sheet:
 
 
 def _stroke(record: Record, layer: _Layer, pieces: Sequence[object] | None) -> Stroke:
-    """Return how a record looks: of no colour, and no line to be missed, what is hidden or a note."""
+    """Return the look of a record; hidden ones and notes have no colour, and count as no lines."""
     colour, name = _colour(record, layer), record.word(8, "0")
     kind = _kind(record, layer, shape=pieces is not None)
     hidden = colour < 0 or record.whole(_PAPER_SPACE, 0) != 0
@@ -443,7 +441,7 @@ def _stroke(record: Record, layer: _Layer, pieces: Sequence[object] | None) -> S
 
 
 def _colour(record: Record, layer: _Layer) -> int:
-    """Return the number of a shape's colour; below zero its layer is off."""
+    """Return the number of a shape's colour; below zero if its layer is off."""
     colour = record.whole(62, _BY_LAYER)
     if layer.colour < 0:
         return layer.colour
@@ -456,7 +454,7 @@ def _dash(record: Record, layer: _Layer) -> Dash:
 
 
 def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
-    """Return how a record that was left out looks, for messages."""
+    """Describe the look of a record, for messages about those left out."""
     name = plain(record.name, _LONGEST_NAME)
     if not shape:
         return name

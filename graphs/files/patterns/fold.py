@@ -50,9 +50,9 @@ def resolved_frame(
     frames = [document]
     if document.get("file_frames") is not None:
         listed = check.list(document["file_frames"], "file_frames", what="a list of frames")
-        for i, one in enumerate(listed):
-            if not isinstance(one, dict):
-                check.fail(f"file_frames[{i}]", one, "a frame (an object)")
+        for i, item in enumerate(listed):
+            if not isinstance(item, dict):
+                check.fail(f"file_frames[{i}]", item, "a frame (an object)")
         frames += listed
     notes: list[str] = []
     if frame is not None:
@@ -78,10 +78,10 @@ def _first_with_pattern(frames: list[Mapping[str, Any]], check: Checker, notes: 
     """
     has: dict[int, dict[str, bool]] = {}
     for index in range(len(frames)):
-        for one in reversed(_ancestors(frames, index, check, has)):
-            own, parent = _named_today(frames[one], notes), _parent(frames, one, check)
+        for number in reversed(_ancestors(frames, index, check, has)):
+            own, parent = _named_today(frames[number], notes), _parent(frames, number, check)
             above = {} if parent is None else has[parent]
-            has[one] = {key: bool(own[key]) if key in own else above.get(key, False) for key in _PATTERN}
+            has[number] = {key: bool(own[key]) if key in own else above.get(key, False) for key in _PATTERN}
         if any(has[index].values()):
             return index
     return 0
@@ -96,7 +96,7 @@ def _ancestors(
     while above is not None and above not in known:
         if above in chain:
             place = f"file_frames[{above - 1}].frame_parent"
-            raise FileError(check.path, place, "frames inherit in a circle", "an end to it")
+            raise FileError(check.path, place, "frames inherit in a circle", "parents without a circle")
         chain[above] = None
         above = _parent(frames, above, check)
     return list(chain)
@@ -113,8 +113,8 @@ def _parent(frames: list[Mapping[str, Any]], index: int, check: Checker) -> int 
 def _inherited(frames: list[Mapping[str, Any]], index: int, check: Checker, notes: list[str]) -> dict[str, Any]:
     """Return a frame with what it inherits."""
     merged: dict[str, Any] = {}
-    for one in reversed(_ancestors(frames, index, check)):
-        merged |= _named_today(frames[one], notes)
+    for ancestor in reversed(_ancestors(frames, index, check)):
+        merged |= _named_today(frames[ancestor], notes)
     return merged
 
 
@@ -135,12 +135,12 @@ def _named_today(frame: Mapping[str, Any], notes: list[str]) -> dict[str, Any]:
 
 _FAR = 1e300
 _SPREAD = "synthedra:spread"
-"""Own key: how far points were apart that were welded in tracing; centres and hinges hang on it."""
+"""Own key: the distances of points welded in tracing; centres and hinges depend on it."""
 _PRECISION = "synthedra:precision"
 """Own key: the error that a coordinate may have, in the unit of the coordinates."""
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 _TITLES = ("frame_title", "file_title")
-"""The first that is there is the title."""
+"""The first of these keys that a frame has is the title."""
 _HELD = {
     *("vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle", "faces_vertices"),
     *(_SPREAD, _PRECISION),
@@ -152,15 +152,15 @@ _NOTHING_NEW = {
     *("vertices_vertices", "vertices_edges", "vertices_faces", "edges_edges", "edges_faces"),
     *("faces_edges", "faces_faces"),
 }
-"""Keys that speak of the file itself, or follow from those that are held; other frames are told by number."""
+"""Keys that speak of the file itself, or follow from those that are held; other frames are counted."""
 
 
 @dataclass(frozen=True)
 class FoldFrames:
     """The frames of a FOLD file.
 
-    `sheet` is that of the file when no frame is chosen, `unit` is its ``frame_unit``, and `left_out` are the keys
-    of its frame that it does not hold. `document` is the parsed file, None if it has the key frame only.
+    `sheet` is that of the file if no frame is chosen, `unit` its ``frame_unit``, `left_out` the keys of its frame
+    that the sheet does not hold. `document` is the parsed file, None if it has the key frame only.
     """
 
     path: Path
@@ -171,7 +171,7 @@ class FoldFrames:
 
     @property
     def others(self) -> int:
-        """How many there are besides the key frame."""
+        """The number of frames besides the key frame."""
         return 0 if self.document is None else len(self.document["file_frames"])
 
     def frame(self, number: int) -> Sheet:
@@ -268,7 +268,7 @@ def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
 
 
 def _traced(sheet: Sheet, check: Checker) -> Sheet:
-    """Trace the faces of a pattern that comes without; it must be flat."""
+    """Trace the faces of a pattern without faces; it must be flat."""
     from graphs.convert.tracing import (
         MOST,  # tracing loads shapely
         Lines,
@@ -278,29 +278,27 @@ def _traced(sheet: Sheet, check: Checker) -> Sheet:
     if not sheet.edges or sheet.coordinates is None:
         raise FileError(check.path, "faces_vertices", "missing", "faces, or edges with coordinates to trace them")
     if any(abs(x) >= MOST for place in sheet.coordinates for x in place):
-        raise FileError(
-            check.path, "vertices_coords", "a number too large to trace faces", f"less than {MOST:.0e}"
-        )
+        wrong = "a number too large to trace faces"
+        raise FileError(check.path, "vertices_coords", wrong, f"less than {MOST:.0e}")
     flat = flattened(sheet)
     if flat is None:
         raise FileError(check.path, "faces_vertices", "missing, and the pattern is not flat", "the faces")
     ends = flat.places[np.array(sheet.edges)]
     lines = Lines(ends, sheet.assignments, sheet.fold_angles)
-    found = traced_sheet(lines, check, title=sheet.title, precision=sheet.precision)
+    traced = traced_sheet(lines, check, title=sheet.title, precision=sheet.precision)
     turned = (flat.turned,) if flat.turned else ()
-    return replace(found, repairs=("faces traced", *turned, *sheet.repairs, *found.repairs))
+    return replace(traced, repairs=("faces traced", *turned, *sheet.repairs, *traced.repairs))
 
 
 def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
-    """Trace a pattern anew if creases of it lie on no face, where that can be done."""
+    """Trace a pattern anew if creases of it lie on no face and that can be done."""
     loose = creases_on_no_face(sheet)
     if not loose:
         return sheet
-    found = check.build(lambda: traced_anew(sheet))
-    if found is not None and joins_faces(found):
-        return replace(
-            found, repairs=(f"{numbered(loose, 'crease line')} on no face: faces traced anew", *found.repairs)
-        )
+    traced = check.build(lambda: traced_anew(sheet))
+    if traced is not None and joins_faces(traced):
+        note = f"{numbered(loose, 'crease line')} on no face: faces traced anew"
+        return replace(traced, repairs=(note, *traced.repairs))
     if not joins_faces(sheet):
         wrong = f"{numbered(loose, 'crease line')} on no face, and none between two faces"
         raise FileError(check.path, "faces_vertices", wrong, "faces that have the creases as sides")
@@ -330,11 +328,11 @@ def fold_text(sheet: Sheet) -> str:
 
 
 def _hides_precision(sheet: Sheet) -> bool:
-    """Tell whether the precision of a sheet is known, and its numbers do not say the same."""
+    """Return whether the precision of a sheet is known, and its digits do not say the same."""
     if sheet.precision is None or sheet.coordinates is None:
         return False
-    told = written_by(np.array(sheet.coordinates))
-    return sheet.precision.stated or told is None or not isclose(told.length, sheet.precision.length)
+    by_digits = written_by(np.array(sheet.coordinates))
+    return sheet.precision.stated or by_digits is None or not isclose(by_digits.length, sheet.precision.length)
 
 
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
@@ -348,9 +346,9 @@ def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...
 
 
 def _all_between(rows: list[Any], least: float, greatest: float, kinds: set[type]) -> bool:
-    """Tell whether rows are lists of numbers of some kinds, at once: what is large is read at this speed.
+    """Return whether rows are lists of numbers of some kinds in a range: fast, for large files.
 
-    Where they are not, each is looked at closely to say which.
+    If not, each is looked at closely to say which is wrong.
     """
     if not set(map(type, rows)) <= {list}:
         return False

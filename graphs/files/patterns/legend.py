@@ -1,6 +1,6 @@
 """The legend of a drawing: which lines are mountains, valleys, borders, ..., stated or seen; and those left out.
 
-What is stated comes first, the most particular before the rest: a layer, dashes of a colour, dashes, a colour.
+Statements come first, the most particular before the rest: a layer, dashes of a colour, dashes, a colour.
 Then names of layers and groups, then colours: mountain red, valley blue, border black, cut green, flat (facet)
 yellow, unassigned magenta, as in Origami Simulator. Hues near red and blue count as these, since drawing programs
 have reds and blues of their own; green and yellow count only where they are nearly pure, or a swatch of such a
@@ -28,9 +28,9 @@ __all__ = [
     "UNSTATED",
     "Dash",
     "Legend",
+    "Looks",
     "Rgb",
     "Stroke",
-    "Told",
     "Understood",
     "dash_of_lengths",
     "dash_of_line_type",
@@ -56,11 +56,11 @@ def rgb_of_css(text: str) -> Rgb | None:
     if _HEX.fullmatch(text):
         digits = text[1:] if len(text) > 5 else "".join(2 * digit for digit in text[1:])
         return int(digits[:2], 16), int(digits[2:4], 16), int(digits[4:6], 16)
-    if found := _FUNCTION.fullmatch(text):
-        numbers = [_NUMBER.fullmatch(word) for word in re.split(r"[\s,/]+", found[2].strip())]
-        parts = [(float(one[1]), one[2] or "") for one in numbers if one is not None]
+    if function := _FUNCTION.fullmatch(text):
+        numbers = [_NUMBER.fullmatch(word) for word in re.split(r"[\s,/]+", function[2].strip())]
+        parts = [(float(number[1]), number[2] or "") for number in numbers if number is not None]
         if len(parts) == len(numbers) and len(parts) in (3, 4):
-            return _of_rgb(parts[:3]) if found[1] == "rgb" else _of_hsl(parts[:3])
+            return _of_rgb(parts[:3]) if function[1] == "rgb" else _of_hsl(parts[:3])
         return None
     return _rgb_of_name(text)
 
@@ -92,8 +92,8 @@ def _rgb_of_name(text: str) -> Rgb | None:
     if not text.isalpha() or text in ("none", "transparent"):
         return None
     colour = svgelements.Color(text)
-    found = (int(colour.red), int(colour.green), int(colour.blue))
-    return None if found == (0, 0, 0) and text != "black" else found
+    rgb = (int(colour.red), int(colour.green), int(colour.blue))
+    return None if rgb == (0, 0, 0) and text != "black" else rgb
 
 
 Dash: TypeAlias = Literal["solid", "dashed", "dotted", "dash-dot"]
@@ -145,10 +145,9 @@ _DASH_DOT, _DOTTED = (
 class Stroke:
     """How a line of a drawing looks.
 
-    `rgb` is None where the colour cannot be read, as that of a gradient; `index` is the number of a colour in DXF.
-    `names` are those of the groups or the layer that it is in, the innermost first; `letter` is what the file
-    itself says that it is. `kind` is how it looks, for messages; `lines` is how many lines, straight or curved, it
-    draws.
+    `rgb` is None if the colour cannot be read, as that of a gradient; `index` is the number of a colour in DXF.
+    `names` are those of its groups or its layer, the innermost first; `letter` is the assignment that the file
+    itself states. `kind` describes its look, for messages; `lines` is the number of lines, straight or curved.
     """
 
     rgb: Rgb | None
@@ -164,16 +163,14 @@ class Stroke:
 def letter_of_colour(red: int, green: int, blue: int) -> str | None:
     """Return the assignment that a stroke colour stands for, or None."""
     colour = (red, green, blue)
-    found, far = min(
-        ((letter, _apart(colour, pure)) for letter, pure in COLOURS.items()), key=lambda item: item[1]
-    )
+    far, nearest = min((_apart(colour, pure), letter) for letter, pure in COLOURS.items())
     hue, saturation, value = rgb_to_hsv(*(part / 255 for part in colour))
-    if max(colour) - min(colour) <= _GREY and (max(colour) < _DARK or (found == "B" and far <= _NEAR)):
+    if max(colour) - min(colour) <= _GREY and (max(colour) < _DARK or (nearest == "B" and far <= _NEAR)):
         return "B"
-    if far <= _NEAR and found != "B":
-        off = abs(hue - rgb_to_hsv(*COLOURS[found])[0])
+    if far <= _NEAR and nearest != "B":
+        off = abs(hue - rgb_to_hsv(*COLOURS[nearest])[0])
         if min(off, 1 - off) <= _HUE:
-            return found
+            return nearest
     if saturation >= _STRONG and value >= _BRIGHT:
         for letter, (first, last) in _HUES.items():
             if first <= hue <= last or (first > last and not last < hue < first):
@@ -188,7 +185,7 @@ def _apart(one: Sequence[int], other: Sequence[int]) -> int:
 
 @lru_cache(maxsize=1000)
 def letter_of_name(name: str) -> str | None:
-    """Return the assignment that the name of a layer or a group tells by one of its words, if it tells one."""
+    """Return the assignment that a word of the name of a layer or a group states; None if none or several do."""
     words = re.split(r"[^a-z]+", re.sub(r"_x[0-9a-f]{2}_", " ", name[:200].lower()))
     letters = {_LETTERS[word] for word in words if word in _LETTERS}
     return letters.pop() if len(letters) == 1 else None
@@ -226,7 +223,7 @@ _ASSIGNMENTS = "MVBCFUJ" + LEFT_OUT
 _STATED_NEAR = 40
 """A colour that was stated is met within this (in RGB): programs round what they convert."""
 _KINDS = 6
-"""So many kinds of strokes are named."""
+"""Kinds of strokes that are named in a message."""
 _YOSHIZAWA: Mapping[Dash, str] = {"dash-dot": "M", "dashed": "V"}
 _NOT = "have strokes that are not understood"
 _WAYS = (
@@ -236,19 +233,19 @@ _WAYS = (
 )
 _READ_DASHES = "dash-dot lines read as mountains, dashed ones as valleys (Yoshizawa and Randlett)"
 
-Told: TypeAlias = Mapping[str, str | Sequence[str]]
+Looks: TypeAlias = Mapping[str, str | Sequence[str]]
 """Assignments to looks, or to names of layers: one or several."""
 
 
 class _Look(NamedTuple):
-    """What is stated of a look; None is whatever it may be."""
+    """A look that is stated; None leaves a part of it open."""
 
     rgb: Rgb | None
     number: int | None
     dash: Dash | None
 
     def rank(self) -> int:
-        """How particular it is."""
+        """Return how particular the look is."""
         return 2 * (self.dash is not None) + (self.rgb is not None or self.number is not None)
 
     def far(self, stroke: Stroke) -> int | None:
@@ -266,7 +263,7 @@ class _Look(NamedTuple):
 class Understood(NamedTuple):
     """The assignment of each stroke, None of those that were not understood.
 
-    `notes` says what was taken from dashes, and `left_out` which strokes were not understood, empty if all were.
+    `notes` has what was concluded from dashes; `left_out` names the strokes that were not understood.
     """
 
     letters: tuple[str | None, ...]
@@ -276,7 +273,7 @@ class Understood(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Legend:
-    """What was stated of the strokes of a drawing.
+    """The stated assignments of strokes of a drawing.
 
     `looks` and `layers` are pairs of a letter and a look, or the name of a layer or a group.
     """
@@ -285,7 +282,7 @@ class Legend:
     layers: tuple[tuple[str, str], ...] = ()
 
     @classmethod
-    def of(cls, colours: Told | None = None, layers: Told | None = None) -> Legend:
+    def of(cls, colours: Looks | None = None, layers: Looks | None = None) -> Legend:
         """Return a legend from letters and the looks or the names of layers that have them, one or several.
 
         A look is a colour of CSS, or the number of a colour in DXF, with or without the kind of dash before it, or
@@ -295,10 +292,10 @@ class Legend:
         return cls(tuple(looks), tuple(_pairs(layers or {}, "layer")))
 
     def understood(self, strokes: Sequence[Stroke]) -> Understood:
-        """Return what the strokes of one drawing are.
+        """Return the assignments of the strokes of one drawing.
 
-        Raise InvariantError if more than half of the lines are in strokes that are not understood: what is left is
-        not the pattern. It names the ways to state what they are.
+        Raise InvariantError if more than half of the lines are in strokes that are not understood: the rest is
+        not the pattern. It names the ways to state the assignments.
         """
         named = [_named(stroke.names) for stroke in strokes]
         if len(set(named)) == 1:  # a name that all lines have says nothing about any
@@ -324,7 +321,7 @@ class Legend:
         return Understood(tuple(letters), notes, described_strokes(kinds))
 
     def _stated(self, stroke: Stroke) -> str | None:
-        """Return what was stated of a stroke."""
+        """Return the stated assignment of a stroke."""
         for name in stroke.names:
             for letter, layer in self.layers:
                 if name.casefold() == layer.casefold():
@@ -335,14 +332,15 @@ class Legend:
 
 
 UNSTATED = Legend()
-"""The legend of a drawing of which nothing was stated."""
+"""The legend of a drawing without stated assignments."""
 
 
-def _pairs(told: Told, what: str) -> list[tuple[str, str]]:
+def _pairs(looks: Looks, what: str) -> list[tuple[str, str]]:
+    """Return pairs of a letter and a look or the name of a layer; InvariantError if a letter is none."""
     pairs = []
-    for letter, texts in told.items():
+    for letter, texts in looks.items():
         if letter not in _ASSIGNMENTS or len(letter) != 1:
-            expected = f"one of {' '.join(_ASSIGNMENTS)}, the last for lines that are to be left out"
+            expected = f"one of {' '.join(_ASSIGNMENTS)}, the last to leave lines out"
             raise InvariantError(what, f"the assignment {shown(letter)}", expected)
         pairs += [(letter, text) for text in ([texts] if isinstance(texts, str) else texts)]
     return pairs
@@ -365,12 +363,12 @@ def _look(text: str) -> _Look:
 
 
 def _named(names: Sequence[str]) -> str | None:
-    """Return what the innermost name that says something says."""
+    """Return the assignment that the innermost name with one states."""
     return next((letter for name in names if (letter := letter_of_name(name)) is not None), None)
 
 
 def _by_colour(stroke: Stroke) -> str | None:
-    """Return what a stroke is by its colour; black with gaps is nothing by itself."""
+    """Return the assignment of a stroke by its colour; black with gaps has none by itself."""
     if stroke.rgb is None:
         return None
     letter = letter_of_colour(*stroke.rgb)

@@ -1,7 +1,7 @@
 """Crease patterns that come as lines, traced: ``.cp``, ORIPA's ``.opx``, and the lines of drawings.
 
-What is left of a drawing without a border, or with its creases in the colour of borders, is a panel or some that
-nothing joins: it would have a mobility, and not that of what was meant. So it is refused.
+A drawing without a border, or with its creases in the colour of borders, would be one panel or several that no
+joint joins: it would have a mobility, but not that of the intended mechanism. So it is refused.
 
 A line of ``.cp`` is ``type x1 y1 x2 y2``: 1 border, 2 mountain, 3 valley, 4 auxiliary. ``.opx`` is what Java's
 ``XMLEncoder`` writes of a list of ``oripa.OriLineProxy``: properties ``x0``, ``y0``, ``x1``, ``y1``, ``type``,
@@ -43,11 +43,10 @@ def traced_sheet(
 ) -> Sheet:
     """Trace the lines of a file.
 
-    The precision is that of their ends as they are written; by default their digits say it, before welding.
-    `border` is what a border is in this format; without it a drawing needs none, and its lines may have no
-    assignment. `understood` says what was made of the strokes of a drawing. Raise FileError if
-    there is no border, no face, no crease between two faces although creases were drawn, or several faces and no
-    crease. One face with nothing in it is a panel.
+    The precision is that of their written ends; by default that of the digits, before welding. `border` describes
+    a border in this format; without it a drawing needs none, and its lines may have no assignment. `understood`
+    has the assignments of the strokes of a drawing. Raise FileError if there is no border, no face, no crease
+    between two faces although creases were drawn, or several faces and no crease. One empty face is a panel.
     """
     left_out = "" if understood is None else understood.left_out
     unread = f"; {left_out}" if left_out else ""
@@ -59,17 +58,13 @@ def traced_sheet(
         raise FileError(check.path, "", f"no border among {numbered(count, 'line')}{unread}", border)
     sheet = check.build(lambda: trace_sheet(lines, title=title), lambda part: part[0])
     if not sheet.faces:
-        raise FileError(
-            check.path,
-            "",
-            f"{numbered(count, 'line')} enclose{'s' * (count == 1)} no face{unread}",
-            "a border that is closed",
-        )
-    # Where nothing is a border, what is unassigned may be one.
+        wrong = f"{numbered(count, 'line')} enclose{'s' * (count == 1)} no face{unread}"
+        raise FileError(check.path, "", wrong, "a closed border")
+    # Without borders an unassigned line may be one.
     creases = sum(letter in (HINGES if bordered else "MV") for letter in lines.letters)
     if creases and not joins_faces(sheet):
-        found = f"none of {numbered(creases, 'crease line')} lies between two faces"
-        raise FileError(check.path, "", found + unread, "creases that reach the border or each other")
+        wrong = f"none of {numbered(creases, 'crease line')} lies between two faces"
+        raise FileError(check.path, "", wrong + unread, "creases that reach the border or each other")
     if len(sheet.faces) > 1 and set(lines.letters) <= set(_BORDERS):
         raise FileError(check.path, "", f"{len(sheet.faces)} faces and no crease{unread}", "mountains or valleys")
     sheet = replace(sheet, precision=precision or written_by(lines.ends))
@@ -85,10 +80,7 @@ _CP_TYPES = {"B": 1, "C": 1, "M": 2, "V": 3, "U": 3, "F": 4, "J": 4}
 
 
 def sheet_from_cp(path: Path) -> Sheet:
-    """Read a ``.cp`` file and trace its faces.
-
-    A FileError names the line, or why the lines make no pattern (:mod:`graphs.files.patterns.lines`).
-    """
+    """Read a ``.cp`` file and trace its faces; a FileError names the line, or why the lines make no pattern."""
     ends, letters = [], []
     for number, line in enumerate(read_text(path).splitlines(), start=1):
         words = line.split()
@@ -101,8 +93,7 @@ def sheet_from_cp(path: Path) -> Sheet:
             x1, y1, x2, y2 = map(float, words[1:])
         except ValueError:
             raise FileError(path, place, shown(line.strip()), "four numbers after the type") from None
-        if not all(abs(x) < MOST for x in (x1, y1, x2, y2)):
-            raise FileError(path, place, "a number that is not finite, or too large", "coordinates")
+        _check_size(path, place, x1, y1, x2, y2)
         ends.append(((x1, y1), (x2, y2)))
         letters.append(_CP_LETTERS[words[0]])
     lines = np.array(ends, dtype=float).reshape(-1, 2, 2)
@@ -133,18 +124,21 @@ def sheet_from_opx(path: Path) -> Sheet:
     """Read the lines of an ORIPA file and trace its faces.
 
     Coordinates are kept as they are written, like those of ``.cp``. A FileError names the line, or why the lines
-    make no pattern (:mod:`graphs.files.patterns.lines`).
+    make no pattern.
     """
     try:
-        root = ElementTree.fromstring(_without_entities(read_text(path), path))
+        text = read_text(path)
+        if "<!DOCTYPE" in text:  # its entities could make a small file a huge one
+            raise FileError(path, "", "a document type definition", "an ORIPA file, which has none")
+        root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         row, column = error.position
         raise FileError(path, f"line {row} column {column}", "not XML", "an ORIPA file") from None
-    found = [one for one in root.iter("object") if one.get("class") == _LINE]
-    if not found:
+    objects = [element for element in root.iter("object") if element.get("class") == _LINE]
+    if not objects:
         raise FileError(path, "", f"no object of class {_LINE}", "an ORIPA file")
     ends, letters = [], []
-    for number, line in enumerate(found):
+    for number, line in enumerate(objects):
         place = f"{_LINE} {number}"
         values = _properties(line, path, place)
         kind = values.get("type", "0")
@@ -156,20 +150,13 @@ def sheet_from_opx(path: Path) -> Sheet:
     return traced_sheet(lines, Checker(path), border="border lines (type 1)")
 
 
-def _without_entities(text: str, path: Path) -> str:
-    """Refuse a document type: entities of it could make a small file a huge one."""
-    if "<!DOCTYPE" in text:
-        raise FileError(path, "", "a document type definition", "an ORIPA file, which has none")
-    return text
-
-
 def _properties(line: ElementTree.Element, path: Path, place: str) -> dict[str, str]:
     """Return the properties of a line as text."""
     values = {}
-    for one in line.findall("void"):
-        if len(one) != 1:
-            raise FileError(path, place, f"a property of {len(one)} values", "one")
-        values[one.get("property", "")] = (one[0].text or "").strip()
+    for element in line.findall("void"):
+        if len(element) != 1:
+            raise FileError(path, place, f"a property of {numbered(len(element), 'value')}", "one")
+        values[element.get("property", "")] = (element[0].text or "").strip()
     return values
 
 
@@ -179,6 +166,11 @@ def _coordinate(text: str, path: Path, place: str) -> float:
         number = float(text)
     except ValueError:
         raise FileError(path, place, shown(text), "a number") from None
-    if not abs(number) < MOST:
-        raise FileError(path, place, "a number that is not finite, or too large", "a coordinate")
+    _check_size(path, place, number)
     return number
+
+
+def _check_size(path: Path, place: str, *numbers: float) -> None:
+    """Refuse coordinates that faces cannot be traced with."""
+    if not all(abs(number) < MOST for number in numbers):
+        raise FileError(path, place, "a number that is not finite, or too large", "coordinates")

@@ -1,6 +1,6 @@
 """Wavefront OBJ: vertices and faces of a folded or flat sheet.
 
-Sides between two faces are creases. OBJ has no word for what kind; a comment ``#e a b M -90`` tells the assignment
+Sides between two faces are creases. OBJ has no word for their kind; a comment ``#e a b M -90`` has the assignment
 of the edge between two vertices (numbered from 1) and, if known, its fold angle in degrees.
 """
 
@@ -53,9 +53,7 @@ def sheet_from_obj(path: Path) -> Sheet:
     if not faces:
         raise FileError(path, "", "no faces", "lines 'f a b c ...'")
     known = {
-        pair: what
-        for pair, what in edges.items()
-        if pair[0] != pair[1] and min(pair) >= 0 and max(pair) < len(places)
+        (a, b): edge for (a, b), edge in edges.items() if a != b and 0 <= min(a, b) <= max(a, b) < len(places)
     }
     letters = "".join(letter for letter, _ in known.values())
     angles = tuple(angle for _, angle in known.values())

@@ -49,14 +49,14 @@ _LONG_NUMBER = re.compile(r"[0-9]{101}")
 
 
 def check_work_of_svg(text: str, path: Path) -> None:
-    """Refuse shapes that use shapes too often, or themselves, or nest too deeply; found without drawing any.
+    """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn.
 
     Raise FileError if shapes are drawn by use more often than the limit ``shapes``, elements (used ones included)
     are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform or style sheet is
     too long; ElementTree.ParseError if the text is not XML.
     """
     root = ElementTree.fromstring(text)
-    named = {one.get("id"): one for one in root.iter() if one.get("id") is not None}
+    named = {element.get("id"): element for element in root.iter() if element.get("id") is not None}
     drawn: dict[ElementTree.Element, int] = {}
     levels: dict[ElementTree.Element, int] = {}
     waiting, open_ones = [root], set[ElementTree.Element]()
@@ -66,16 +66,16 @@ def check_work_of_svg(text: str, path: Path) -> None:
             waiting.pop()
             continue
         inner = [*element, *_used(element, named)]
-        missing = [one for one in inner if one not in drawn]
+        missing = [child for child in inner if child not in drawn]
         if not missing:
-            drawn[element] = 1 + sum(drawn[one] for one in inner)
-            levels[element] = 1 + max((levels[one] for one in inner), default=0)
+            drawn[element] = 1 + sum(drawn[child] for child in inner)
+            levels[element] = 1 + max((levels[child] for child in inner), default=0)
             open_ones.discard(element)
             waiting.pop()
             continue
         open_ones.add(element)
-        if around := [one for one in missing if one in open_ones]:
-            raise FileError(path, "", f"the shape {shown(around[0].get('id'))} uses itself", "an end to it")
+        if around := [child for child in missing if child in open_ones]:
+            raise FileError(path, "", f"the shape {shown(around[0].get('id'))} uses itself", "other shapes")
         waiting += missing
     for element in drawn:
         _check_text(element, path)
@@ -148,25 +148,25 @@ class _Digit(NamedTuple):
 
 
 def precision_of_shapes(shapes: Iterable[Any]) -> WrittenPrecision | None:
-    """Return how precise shapes of svgelements are as they are written, None if nothing says that.
+    """Return the precision of written shapes of svgelements, None if nothing says it.
 
-    The length is in the unit that they are drawn in, after units and transforms.
+    The length is in the unit of the drawing, after units and transforms. Errors of the numbers of relative
+    commands are independent, so they add up as the root of their number.
     """
-    read = [_as_written(shape) for shape in shapes]
+    written = [_as_written(shape) for shape in shapes]
     of_unit: defaultdict[float, list[float]] = defaultdict(list)
-    for one in read:
-        for unit, numbers in one.numbers.items():
+    for shape in written:
+        for unit, numbers in shape.numbers.items():
             of_unit[unit] += numbers
     digits = {unit: digits_of(numbers, float(np.ptp(numbers)) / 2.0) for unit, numbers in of_unit.items()}
-    transforms = {one.transform for one in read}
+    transforms = {shape.transform for shape in written}
     digit = _Digit(_last_decimal(transforms, "matrix", slice(4), _ROUNDED), _last_shift(transforms))
     worst, source = 0.0, ""
-    for one in read:
-        scale = _stretch(one.transform)
-        own = [(found.error * unit, found.source) for unit in one.numbers if (found := digits[unit]) is not None]
-        length, why = max(own, default=(0.0, ""))
-        turned = _error_of_transform(one.transform, one.reach, digit)
-        error = length * sqrt(one.steps) * scale + turned
+    for shape in written:
+        errors = [(row.error * unit, row.source) for unit in shape.numbers if (row := digits[unit]) is not None]
+        length, why = max(errors, default=(0.0, ""))
+        error = length * sqrt(shape.steps) * _stretch(shape.transform)
+        error += _error_of_transform(shape.transform, shape.reach, digit)
         if error > worst:
             worst, source = error, why or "digits of a transform"
     return WrittenPrecision(worst, source) if worst > 0.0 else None
@@ -189,7 +189,7 @@ def _as_written(shape: Any) -> _Shape:
 
 
 def _same(around: str) -> bool:
-    """Tell whether the view box changes no size: where it is does not matter, since all shapes are moved alike."""
+    """Return whether the view box changes no size: its place does not matter, since all shapes move alike."""
     return "scale" not in around and "matrix" not in around
 
 
@@ -199,21 +199,21 @@ def _scaled(around: str) -> str:
 
 
 def _steps(path: str) -> int:
-    """Return how many numbers in turn are relative to the last, at most, and so add up their errors."""
+    """Return the most numbers in turn that are relative to the last, and so add up their errors."""
     most = steps = 0
-    for letter, told in _COMMAND.findall(path):
+    for letter, numbers in _COMMAND.findall(path):
         if letter in "Zz":
             continue
-        many = len(_LENGTH.findall(told))
+        many = len(_LENGTH.findall(numbers))
         steps = steps + many // _TO_A_STEP.get(letter, 2) if letter.islower() else 1
         most = max(most, steps)
     return max(most, 1)
 
 
 def _functions(transform: str) -> Iterator[tuple[str, list[str], str]]:
-    """Yield the functions of a transform, the texts of their numbers, and what is written before each."""
-    for found in _FUNCTION.finditer(transform):
-        yield found[1].lower(), [number for number, _ in _LENGTH.findall(found[2])], transform[: found.start()]
+    """Yield the functions of a transform, the texts of their numbers, and the functions before each."""
+    for match in _FUNCTION.finditer(transform):
+        yield match[1].lower(), [number for number, _ in _LENGTH.findall(match[2])], transform[: match.start()]
 
 
 def _error_of_transform(transform: str, reach: float, digit: _Digit) -> float:
@@ -231,22 +231,20 @@ def _last_shift(transforms: set[str]) -> float:
     """Return half of what the last decimal of shifts is worth; 0 where all shapes are shifted alike."""
     if len(transforms) < 2:
         return 0.0
-    shifts = (
-        _last_decimal(transforms, name, part, 1) for name, part in (("matrix", _SHIFT), ("translate", slice(2)))
-    )
-    return min((one for one in shifts if one), default=0.0)
+    shifts = [_last_decimal(transforms, "matrix", _SHIFT, 1), _last_decimal(transforms, "translate", slice(2), 1)]
+    return min((shift for shift in shifts if shift), default=0.0)
 
 
 def _last_decimal(transforms: set[str], function: str, part: slice, least: int) -> float:
     """Return half of what the last decimal of a function is worth; 0 of fewer decimals than the least."""
     numbers = [
         number
-        for one in transforms
-        for name, told, _ in _functions(one)
+        for transform in transforms
+        for name, row, _ in _functions(transform)
         if name == function
-        for number in told[part]
+        for number in row[part]
     ]
-    decimals = max((len(one.partition(".")[2]) for one in numbers if "e" not in one.lower()), default=0)
+    decimals = max((len(text.partition(".")[2]) for text in numbers if "e" not in text.lower()), default=0)
     return 0.5 * 10.0**-decimals if decimals >= least else 0.0
 
 
@@ -262,7 +260,7 @@ def _stretch(transform: str) -> float:
 
 _LONGEST_TITLE = 1_000
 _DECIMALS = 12
-"""Of fold angles in degrees: what is finer comes of dividing by 180."""
+"""Decimals of fold angles in degrees: finer ones come of dividing by 180."""
 _LONGEST_LOOK = 40
 _NAMES = ("class", "id", "data-name", "{http://www.inkscape.org/namespaces/inkscape}label")
 """Attributes with names of groups, layers and shapes: of Illustrator, of Inkscape."""
@@ -272,7 +270,7 @@ _PIECES = 8
 
 
 def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
-    """Read the lines of an SVG file and trace its faces; the legend says what strokes are, where that was stated.
+    """Read the lines of an SVG file and trace its faces; the legend has the stated assignments of strokes.
 
     Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.lines`), or most are not
     understood.
@@ -289,7 +287,7 @@ def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
         if letter is None or letter == LEFT_OUT:
             continue
         try:
-            with np.errstate(all="ignore"):  # what is not finite is refused below
+            with np.errstate(all="ignore"):  # numbers that are not finite are refused below
                 pieces = _pieces(shape)
         except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
             raise FileError(path, "", f"a shape cannot be drawn: {shown(str(error))}", "SVG shapes") from None
@@ -308,7 +306,7 @@ def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
 
 
 def _borders_of_cuts(sheet: Sheet, letters: str) -> str:
-    """Return the assignments of a drawing: where nothing is a border, cuts with a face on one side only are."""
+    """Return the assignments of a drawing: without borders, cuts with a face on one side only are borders."""
     if "B" in letters:
         return sheet.assignments
     sides = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
@@ -332,7 +330,7 @@ def _stroked_shapes(path: Path) -> Iterator[tuple[Any, tuple[str, ...]]]:
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
     except FileError:
         raise
-    except RecursionError:  # where the limit was raised beyond what Python's stack holds
+    except RecursionError:  # the limit was raised beyond Python's stack
         raise FileError(path, "", "elements nested more deeply than Python can follow", "fewer groups") from None
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError) as error:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
@@ -344,7 +342,7 @@ def _stroked_shapes(path: Path) -> Iterator[tuple[Any, tuple[str, ...]]]:
 
 
 def _with_names(drawing: Any) -> Iterator[tuple[Any, tuple[str, ...]]]:
-    """Yield what is drawn with the names of itself and of the groups it is in, the innermost first."""
+    """Yield drawn elements with their names and those of their groups, the innermost first."""
     waiting: list[tuple[Any, tuple[str, ...]]] = [(drawing, ())]
     while waiting:  # without recursion: files nest as deep as they like
         element, outer = waiting.pop()
@@ -353,23 +351,24 @@ def _with_names(drawing: Any) -> Iterator[tuple[Any, tuple[str, ...]]]:
         names = tuple(str(own[key]) for key in _NAMES if own.get(key))
         names = (*(name for name in names if name not in outer), *outer)
         if isinstance(element, list):
-            waiting += [(one, names) for one in reversed(element)]
+            waiting += [(child, names) for child in reversed(element)]
         else:
             yield element, names
 
 
 def _stroke(shape: Any, names: tuple[str, ...]) -> Stroke:
-    """Return how a shape looks; what svgelements takes for black is read by ourselves."""
-    rgb = (int(shape.stroke.red), int(shape.stroke.green), int(shape.stroke.blue))
+    """Return the look of a shape; svgelements takes unknown colours for black, so colours are read here."""
     written = str(shape.values.get("stroke") or "")
-    read = rgb_of_css(written) if written else rgb
-    dash = dash_of_lengths(
-        [float(word) for word in _NUMBER.findall(str(shape.values.get("stroke-dasharray") or ""))]
+    rgb = (
+        rgb_of_css(written)
+        if written
+        else (int(shape.stroke.red), int(shape.stroke.green), int(shape.stroke.blue))
     )
-    look = "stroke " + plain(written, _LONGEST_LOOK) if read is None else name_of_rgb(read)
-    return Stroke(
-        read, dash, names, kind=look if dash == "solid" else f"{dash} {look}", lines=_number_of_lines(shape)
-    )
+    lengths = _NUMBER.findall(str(shape.values.get("stroke-dasharray") or ""))
+    dash = dash_of_lengths([float(length) for length in lengths])
+    look = "stroke " + plain(written, _LONGEST_LOOK) if rgb is None else name_of_rgb(rgb)
+    kind = look if dash == "solid" else f"{dash} {look}"
+    return Stroke(rgb, dash, names, kind=kind, lines=_number_of_lines(shape))
 
 
 def _number_of_lines(shape: Any) -> int:
@@ -402,17 +401,9 @@ def _fold_angle(letter: str, opacity: float) -> float | None:
 
 
 def svg_text(sheet: Sheet) -> str:
-    """Return the SVG text of a flat sheet, a line for each edge; opacity tells the fold angle, full for 180.
+    """Return the SVG text of a flat sheet, a line for each edge; opacity is the fold angle, full for 180 degrees.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, is not flat, or has no line.
-
-    Examples
-    --------
-    >>> print(svg_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (2.0, 1.0)))).splitlines()[-2])
-    <line x1="0.0" y1="1.0" x2="2.0" y2="0.0" stroke="#ff0000"/>
+    Raise UnsolvableError if the sheet has no coordinates, is not flat, or has no line.
     """
     places = flat_places(sheet, "an SVG crease pattern")
     if not (sheet.edges or sheet.faces):

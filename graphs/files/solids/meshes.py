@@ -42,7 +42,8 @@ class Mesh:
 
 def is_watertight(mesh: Mesh) -> bool:
     """Say whether each side of a triangle is a side of one other, the other way round."""
-    sides = Counter((a, b) for one in mesh.triangles.tolist() for a, b in zip(one, one[1:] + one[:1], strict=True))
+    triangles = mesh.triangles.tolist()
+    sides = Counter(side for a, b, c in triangles for side in ((a, b), (b, c), (c, a)))
     return all(number == 1 and sides[b, a] == 1 for (a, b), number in sides.items())
 
 
@@ -86,7 +87,7 @@ _RELATIONS = (
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
 _FIRST_DAY = (1980, 1, 1, 0, 0, 0)
-"""The date of all that is in the file: the first that ZIP has."""
+"""The date of all parts of the file: the first that ZIP has."""
 
 
 def three_mf_bytes(meshes: Sequence[Mesh]) -> bytes:
@@ -99,11 +100,8 @@ def three_mf_bytes(meshes: Sequence[Mesh]) -> bytes:
     )
     stream = BytesIO()
     with ZipFile(stream, "w", ZIP_DEFLATED) as archive:
-        for name, text in (
-            ("[Content_Types].xml", _TYPES),
-            ("_rels/.rels", _RELATIONS),
-            ("3D/3dmodel.model", model),
-        ):
+        parts = {"[Content_Types].xml": _TYPES, "_rels/.rels": _RELATIONS, "3D/3dmodel.model": model}
+        for name, text in parts.items():
             info = ZipInfo(name, _FIRST_DAY)
             info.compress_type = ZIP_DEFLATED
             archive.writestr(info, _XML_HEAD + text)

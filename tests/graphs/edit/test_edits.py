@@ -168,7 +168,7 @@ def test_edits_return_new_graphs():
         (lambda: lock_joint(SIX, 9), "9 is no joint"),
         (lambda: crease_link(FAN, 0, 99), "99 is no vertex of link 0; expected one of"),
         (lambda: crease_link(FAN, 9, 0), "9 is no link"),
-        (lambda: crease_link(FAN, 0, *FAN.vertices[0][:2]), "are neighbours, or one; expected a diagonal"),
+        (lambda: crease_link(FAN, 0, *FAN.vertices[0][:2]), "are neighbours or equal; expected a diagonal"),
         (lambda: make_explicit(FAN, 0), "is not implicit"),
         (lambda: make_implicit(FAN, 1), "there is no loop 1; expected 0 to 0"),
         (lambda: ride_along(FAN, 9), "9 is no joint"),

@@ -127,5 +127,5 @@ def test_what_cannot_be_stated_is_told_of(tmp_path):
     with pytest.raises(InvariantError, match="the look 'reddish'"):
         Legend.of({"M": "reddish"})
     (tmp_path / "a.cp").write_text("1 0 0 1 0\n")
-    with pytest.raises(FileError, match=r"it has none; expected an \.svg or \.dxf file"):
+    with pytest.raises(FileError, match=r"no colours or layers; expected an \.svg or \.dxf file"):
         read(tmp_path / "a.cp", colours={"M": "red"})

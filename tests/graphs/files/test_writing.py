@@ -152,7 +152,7 @@ def test_fold_keeps_the_precision_of_a_traced_pattern(tmp_path):
     traced = replace(Sheet(5, (), "", FAN, PLACES), spread=0.001)
     assert write(traced, tmp_path / "a.fold") == ()
     assert read(tmp_path / "a.fold").spread == 0.001
-    assert write(traced, tmp_path / "a.obj") == ("how far points were apart that were welded",)
+    assert write(traced, tmp_path / "a.obj") == ("the distances of welded points",)
 
 
 @pytest.mark.parametrize("angle", [1e-05, -12345.678, 2.5e-300, 1e22, -180.0, 0.1 + 0.2])
