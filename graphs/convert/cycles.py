@@ -21,7 +21,7 @@ from graphs.mechanism.precision import extent_of, precision_as_written
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, Tolerances
 
-__all__ = ["Hinged", "axes_meet", "boundary_cycles", "loops_with_centres", "vertex_cycles"]
+__all__ = ["HingedFaces", "axes_meet", "boundary_cycles", "loops_with_centres", "vertex_cycles"]
 
 _FARTHEST = 1e3
 """Lines that meet farther than this, in units of the extent, may as well be parallel."""
@@ -55,7 +55,7 @@ def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centr
 
 
 @dataclass(frozen=True)
-class Hinged:
+class HingedFaces:
     """The faces of a sheet at each edge, and the panel of each face.
 
     `joint_of_edge` has the hinges, None for one inside a panel; other edges inside a panel are not in it.
@@ -75,7 +75,7 @@ class Hinged:
         return other if joined else None
 
 
-def vertex_cycles(sheet: Sheet, hinged: Hinged) -> dict[tuple[int, ...], int]:
+def vertex_cycles(sheet: Sheet, hinged: HingedFaces) -> dict[tuple[int, ...], int]:
     """Return the cycles of joints round the interior vertices, and the vertex of each.
 
     The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
@@ -172,7 +172,7 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
     return cycles
 
 
-def boundary_cycles(sheet: Sheet, hinged: Hinged) -> list[tuple[int, ...]]:
+def boundary_cycles(sheet: Sheet, hinged: HingedFaces) -> list[tuple[int, ...]]:
     """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
 
     Along a boundary the creases that end there are passed in order.
@@ -197,7 +197,7 @@ def _along(
     face: int,
     edge: Edge,
     edges_at: Mapping[tuple[int, int], tuple[Edge, Edge]],
-    hinged: Hinged,
+    hinged: HingedFaces,
     seen: set[tuple[int, Edge]],
 ) -> list[tuple[int, int]]:
     """Walk along a boundary from one of its sides, and mark the sides that are passed."""

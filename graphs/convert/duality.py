@@ -14,7 +14,7 @@ from math import dist
 
 import networkx as nx
 
-from graphs.convert.cycles import Hinged, boundary_cycles, loops_with_centres, vertex_cycles
+from graphs.convert.cycles import HingedFaces, boundary_cycles, loops_with_centres, vertex_cycles
 from graphs.convert.hinges import HingeLines, lines_of_hinges
 from graphs.errors import InvariantError, numbered
 from graphs.loops.cycle_space import added_independent, split_dependent
@@ -101,7 +101,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
         notes.warnings.append("one panel: no crease joins it to another")
     if inside:
         notes.warnings.append(f"{numbered(inside, 'crease')} inside a panel: no effect on folding")
-    hinged = Hinged(faces_at, joint_of_edge, panel_of_face)
+    hinged = HingedFaces(faces_at, joint_of_edge, panel_of_face)
     centre_of = vertex_cycles(sheet, hinged)
     cycles = list(centre_of)
     kept, closing = split_dependent(cycles)

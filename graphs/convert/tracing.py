@@ -421,7 +421,7 @@ def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None
     if not len(lines.letters) or not lines.size:
         raise InvariantError("lines", "the pattern has no line of any length", "lines")
     tried = [t * lines.size for t in ([tolerance] if tolerance else TOLERANCES)]
-    traced = [_Traced(network) for network in networks_of(lines, tried)]
+    traced = [_TracedNetwork(network) for network in networks_of(lines, tried)]
     chosen = _standing(traced, TOLERANCES[-1] * lines.size)
     network = chosen.network
     repairs = [
@@ -441,7 +441,7 @@ def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None
 
 
 @dataclass(frozen=True)
-class _Traced:
+class _TracedNetwork:
     """A network with its faces, which are walked round when they are first needed."""
 
     network: Network
@@ -500,7 +500,7 @@ class _Traced:
         return bends + int((self.lengths < short).sum())
 
 
-def _standing(traced: Sequence[_Traced], short: float) -> _Traced:
+def _standing(traced: Sequence[_TracedNetwork], short: float) -> _TracedNetwork:
     """Choose one of the networks, which are in the order of their tolerances, by the rules of `trace_sheet`."""
     chosen = _stablest(traced, short)
     if chosen.simple:
@@ -511,7 +511,7 @@ def _standing(traced: Sequence[_Traced], short: float) -> _Traced:
     return _stablest(simple, short) if simple else chosen
 
 
-def _stablest(traced: Sequence[_Traced], short: float) -> _Traced:
+def _stablest(traced: Sequence[_TracedNetwork], short: float) -> _TracedNetwork:
     left = _least(traced, lambda candidate: candidate.network.dangling)
     left = _commonest(left, lambda candidate: candidate.surplus)
     left = _least(left, lambda candidate: candidate.signs_of_splits(short))
@@ -519,12 +519,12 @@ def _stablest(traced: Sequence[_Traced], short: float) -> _Traced:
     return max(left, key=lambda candidate: candidate.gap)
 
 
-def _least(traced: Sequence[_Traced], number: Callable[[_Traced], int]) -> list[_Traced]:
+def _least(traced: Sequence[_TracedNetwork], number: Callable[[_TracedNetwork], int]) -> list[_TracedNetwork]:
     least = min(map(number, traced))
     return [candidate for candidate in traced if number(candidate) == least]
 
 
-def _commonest(traced: Sequence[_Traced], number: Callable[[_Traced], int]) -> list[_Traced]:
+def _commonest(traced: Sequence[_TracedNetwork], number: Callable[[_TracedNetwork], int]) -> list[_TracedNetwork]:
     (commonest, _), *_ = Counter(map(number, traced)).most_common(1)
     return [candidate for candidate in traced if number(candidate) == commonest]
 

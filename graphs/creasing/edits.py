@@ -13,8 +13,8 @@ from typing import Any
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.count.relative import relative_spherical_system
-from graphs.count.report import mobility_report
 from graphs.creasing.lines import creased_along, edge_in_words
+from graphs.edit.edits import counted_change, counts_as_json
 from graphs.edit.named import joint_named, known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.sheet import HINGES, Sheet, sides_of_face, with_all_edges
@@ -60,23 +60,13 @@ class SheetEdit:
     @property
     def counted(self) -> int:
         """The change of mobility as the difference of the two counts."""
-        before, after = (mobility_report(mechanism.sc).mobility for mechanism in self._mechanisms)
-        assert before is not None
-        assert after is not None
-        return after - before
+        before, after = (mechanism.sc for mechanism in self._mechanisms)
+        return counted_change(before, after)
 
     def to_json(self) -> dict[str, Any]:
         """Return the edit as plain data."""
-        after = self._mechanisms[1].sc
-        return {
-            "what": self.what,
-            "equation": self.equation,
-            "predicted": self.predicted,
-            "counted": self.counted,
-            "links": len(after),
-            "joints": len(after.joints),
-            "mobility": mobility_report(after).mobility,
-        }
+        keys = ("what", "equation", "predicted", "counted")
+        return {key: getattr(self, key) for key in keys} | counts_as_json(self._mechanisms[1].sc)
 
 
 def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:

@@ -27,6 +27,8 @@ __all__ = [
     "add_crease",
     "add_loop",
     "add_ride_along",
+    "counted_change",
+    "counts_as_json",
     "crease_link",
     "fresh",
     "lock_hinge",
@@ -68,22 +70,25 @@ class Edit:
     @property
     def counted(self) -> int:
         """The change of mobility as the difference of the two counts."""
-        after, before = mobility_report(self.graph).mobility, mobility_report(self.before).mobility
-        assert after is not None
-        assert before is not None
-        return after - before
+        return counted_change(self.before, self.graph)
 
     def to_json(self) -> dict[str, Any]:
         """Return the edit as plain data."""
-        return {
-            "what": self.what,
-            "equation": self.equation,
-            "predicted": self.predicted,
-            "counted": self.counted,
-            "links": len(self.graph),
-            "joints": len(self.graph.joints),
-            "mobility": mobility_report(self.graph).mobility,
-        }
+        keys = ("what", "equation", "predicted", "counted")
+        return {key: getattr(self, key) for key in keys} | counts_as_json(self.graph)
+
+
+def counted_change(before: SCGraph, after: SCGraph) -> int:
+    """Return the difference of the mobility counts of two graphs."""
+    mobilities = mobility_report(before).mobility, mobility_report(after).mobility
+    assert mobilities[0] is not None
+    assert mobilities[1] is not None
+    return mobilities[1] - mobilities[0]
+
+
+def counts_as_json(sc: SCGraph) -> dict[str, Any]:
+    """Return the numbers of links and joints and the mobility of an edited graph as plain data."""
+    return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility_report(sc).mobility}
 
 
 def fresh(used: Iterable[Hashable], number: int) -> list[int]:

@@ -198,7 +198,7 @@ def recognised(solids: HingedSolids) -> JointedLinkage:
 
 
 @dataclass(frozen=True, slots=True)
-class _Bent:
+class _BentRow:
     """Three parallel axes in a row, the middle one with equal arms, and binary links between them."""
 
     joints: tuple[JointId, JointId, JointId]
@@ -237,7 +237,7 @@ class _Recognition:
 
     def sarrus(self) -> None:
         """Take two knees side by side, across each other, for a slide."""
-        beside: dict[frozenset[LinkId], list[_Bent]] = {}
+        beside: dict[frozenset[LinkId], list[_BentRow]] = {}
         used: set[JointId] = set()
         for bent in self._bent():
             others = beside.setdefault(frozenset((bent.links[0], bent.links[3])), [])
@@ -304,7 +304,7 @@ class _Recognition:
                 return size
         return 1
 
-    def _bent(self) -> list[_Bent]:
+    def _bent(self) -> list[_BentRow]:
         found = []
         for leg in self._legs():
             for place in range(len(leg.joints) - 2):
@@ -321,7 +321,7 @@ class _Recognition:
                 if abs(arms[0] - arms[1]) <= self._near < length and min(arms) > self._near:
                     a, b, c, d = leg.links[place : place + 4]
                     x, y, z = joints
-                    found.append(_Bent((x, y, z), (a, b, c, d), normal, (other - one) / length))
+                    found.append(_BentRow((x, y, z), (a, b, c, d), normal, (other - one) / length))
         return found
 
     def _is_parallel(self, joints: Sequence[JointId]) -> bool:

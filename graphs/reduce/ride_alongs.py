@@ -20,6 +20,7 @@ import networkx as nx
 
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
+from graphs.edit.edits import counts_as_json
 from graphs.errors import InvariantError, numbered, shown
 from graphs.given import check_given
 from graphs.identity.bliss import ColouredGraph, labels_of
@@ -27,7 +28,7 @@ from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
-from graphs.reduce.working import RULES, Removal, Taken, Terms, WorkingGraph, take_all
+from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 
 __all__ = ["Reduction", "ReductionStep", "links_of_loops_that_stay", "reduce"]
 
@@ -56,7 +57,7 @@ class _Choice:
 
 
 def links_of_loops_that_stay(
-    work: WorkingGraph, taken: Sequence[Taken], protected: Collection[LinkId]
+    work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]
 ) -> frozenset[LinkId]:
     """Return the links of four-bars that should have stayed, if others did.
 
@@ -75,7 +76,7 @@ def links_of_loops_that_stay(
     return frozenset(stay)
 
 
-def _choices(work: WorkingGraph, taken: Sequence[Taken], protected: Collection[LinkId]) -> list[_Choice]:
+def _choices(work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]) -> list[_Choice]:
     """Return the blocks that came down to one four-bar.
 
     A link that is protected or lies in another block cannot go; a four-bar can be the last if it has all of these.
@@ -297,22 +298,13 @@ class Reduction(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the reduction as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-
-        def counts(sc: SCGraph) -> dict[str, Any]:
-            return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility_report(sc).mobility}
-
         return {
             "rule": self.rule,
-            "before": counts(self.original),
-            "after": counts(self.graph),
+            "before": counts_as_json(self.original),
+            "after": counts_as_json(self.graph),
             "steps": [
-                {
-                    "removed": list(step.removed),
-                    "onto": list(step.onto),
-                    "joints": list(step.joints),
-                    "joint": step.joint,
-                    "sits_on": step.sits_on,
-                }
+                {"removed": list(step.removed), "onto": list(step.onto), "joints": list(step.joints)}
+                | {"joint": step.joint, "sits_on": step.sits_on}
                 for step in self.steps
             ],
         }
@@ -374,16 +366,16 @@ def reduce(
             raise InvariantError("keep", f"{shown(link)} is to be kept and is no link", "one of the links")
     if sc.ground is not None:
         protected.add(sc.ground)
-    terms = Terms(rule, fully, frozenset(protected))
+    terms = ReductionTerms(rule, fully, frozenset(protected))
     work = WorkingGraph(sc)
     taken = take_all(work, terms)
     if rule == "ride-along" and not fully and (stay := links_of_loops_that_stay(work, taken, terms.protected)):
         work = WorkingGraph(sc)
-        taken = take_all(work, Terms(rule, fully, terms.protected | stay))
+        taken = take_all(work, ReductionTerms(rule, fully, terms.protected | stay))
     return Reduction(sc, work.graph(), rule, _steps(taken), tuple(one.removal for one in taken), work)
 
 
-def _steps(taken: Sequence[Taken]) -> tuple[ReductionStep, ...]:
+def _steps(taken: Sequence[TakenAddendum]) -> tuple[ReductionStep, ...]:
     """Add to each step the one it sits on: the first that takes off one of its two bases."""
     taker = {link: i for i, one in enumerate(taken) for link in one.removal.links}
     steps = []

@@ -19,7 +19,7 @@ from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["RULES", "Path", "Removal", "Taken", "Terms", "WorkingGraph", "take_all"]
+__all__ = ["RULES", "Path", "ReductionTerms", "Removal", "TakenAddendum", "WorkingGraph", "take_all"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,7 +273,7 @@ RULES = ("ride-along", "dyad")
 
 
 @dataclass(frozen=True, slots=True)
-class Terms:
+class ReductionTerms:
     """Which addenda may be taken off: ride-alongs or dyads, without protected links.
 
     `fully`: a block may lose its last loop.
@@ -284,7 +284,7 @@ class Terms:
     protected: frozenset[LinkId]
 
 
-class Taken(NamedTuple):
+class TakenAddendum(NamedTuple):
     """An addendum that was taken off the links a and b (`onto`).
 
     `joint` is the joint a-b that takes the place of the addendum; None for a dyad.
@@ -299,14 +299,14 @@ _Cycle = tuple[JointId, frozenset[JointId]]
 """A joint, and the cycle that it closes."""
 
 
-def take_all(work: WorkingGraph, terms: Terms) -> list[Taken]:
+def take_all(work: WorkingGraph, terms: ReductionTerms) -> list[TakenAddendum]:
     """Take addenda off a working graph until none is left; return them in their order.
 
     Joints that only an elimination can decide wait until nothing else is left to do, since a loop less may
     settle them at once.
     """
     ride_alongs = terms.rule == "ride-along"
-    taken: list[Taken] = []
+    taken: list[TakenAddendum] = []
     waiting = dict.fromkeys(reversed(list(work.joints)))
     hard: dict[JointId, None] = {}
     while waiting or hard:
@@ -336,7 +336,7 @@ def take_all(work: WorkingGraph, terms: Terms) -> list[Taken]:
     return taken
 
 
-def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: Terms) -> Path | None:
+def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: ReductionTerms) -> Path | None:
     """Return the path of a joint that joins two binary links between two others, if nothing protects them."""
     path = work.path(middle) if middle in work.joints else None
     if path is None:
@@ -364,7 +364,7 @@ def _needs_elimination(work: WorkingGraph, middle: JointId, cycles: list[_Cycle]
     return False
 
 
-def _take_ride_along(work: WorkingGraph, path: Path, cycles: list[_Cycle]) -> Taken | None:
+def _take_ride_along(work: WorkingGraph, path: Path, cycles: list[_Cycle]) -> TakenAddendum | None:
     """Take off the two links within a path, if they are a ride-along."""
     middle = path.middle
     for joint, cycle in cycles:
@@ -378,7 +378,7 @@ def _take_ride_along(work: WorkingGraph, path: Path, cycles: list[_Cycle]) -> Ta
                 continue
         others = sorted(work.through[middle] - {dropped})
         removal = work.remove(path, dropped, [(index, cycle) for index in others], reopened)
-        return Taken(removal, joint, (path.a, path.b))
+        return TakenAddendum(removal, joint, (path.a, path.b))
     return None
 
 
@@ -392,7 +392,7 @@ def _independent_member(work: WorkingGraph, cycle: frozenset[JointId], middle: J
     return next((independent[i] for i in summands or () if independent[i] in passing), None)
 
 
-def _take_dyad(work: WorkingGraph, path: Path) -> Taken | None:
+def _take_dyad(work: WorkingGraph, path: Path) -> TakenAddendum | None:
     """Take off the two links within a path, a dyad, if a loop through it has a centre."""
     middle = path.middle
     passing = [i for i in work.centred_through(middle) if i not in work.closing]
@@ -408,7 +408,7 @@ def _take_dyad(work: WorkingGraph, path: Path) -> Taken | None:
     block = work.block_of[middle]
     removal = work.remove(path, dropped, deltas)
     work.renumber_block(block)
-    return Taken(removal, None, (path.a, path.b))
+    return TakenAddendum(removal, None, (path.a, path.b))
 
 
 def _one_cycle(work: WorkingGraph, index: int, dropped: int, done: list[int]) -> set[JointId] | None:

@@ -32,7 +32,7 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.plain_text import plain
 
 __all__ = [
-    "Drawn",
+    "DrawnShape",
     "DxfLayer",
     "DxfLine",
     "DxfWord",
@@ -129,7 +129,7 @@ def _pairs(text: str, path: Path) -> Iterator[tuple[int, int, str]]:
 
 
 Point = tuple[float, float]
-Drawn = tuple[Record, list[tuple[Point, Point]] | None]
+DrawnShape = tuple[Record, list[tuple[Point, Point]] | None]
 """A record and its pieces; None for a record that is no known shape."""
 
 _PIECES = 8
@@ -141,7 +141,7 @@ _Corner = tuple[Point, float]
 """A corner of a polyline, and the bulge of the side after it: the tangent of a quarter of its angle."""
 
 
-def drawn_shapes(records: Sequence[Record]) -> Iterator[Drawn]:
+def drawn_shapes(records: Sequence[Record]) -> Iterator[DrawnShape]:
     """Yield the shapes among the records of the section ``ENTITIES``.
 
     A FileError names the record if a number is missing or invalid, or points are at several heights.

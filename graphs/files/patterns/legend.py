@@ -27,11 +27,11 @@ __all__ = [
     "LEFT_OUT",
     "UNSTATED",
     "Dash",
+    "Interpretation",
     "Legend",
     "Looks",
     "Rgb",
     "Stroke",
-    "Understood",
     "dash_of_lengths",
     "dash_of_line_type",
     "described_strokes",
@@ -260,7 +260,7 @@ class _Look(NamedTuple):
         return apart if apart <= _STATED_NEAR else None
 
 
-class Understood(NamedTuple):
+class Interpretation(NamedTuple):
     """The assignment of each stroke, None of those that were not understood.
 
     `notes` has what was concluded from dashes; `left_out` names the strokes that were not understood.
@@ -291,7 +291,7 @@ class Legend:
         looks = [(letter, _look(text)) for letter, text in _pairs(colours or {}, "colour")]
         return cls(tuple(looks), tuple(_pairs(layers or {}, "layer")))
 
-    def understood(self, strokes: Sequence[Stroke]) -> Understood:
+    def understood(self, strokes: Sequence[Stroke]) -> Interpretation:
         """Return the assignments of the strokes of one drawing.
 
         Raise InvariantError if more than half of the lines are in strokes that are not understood: the rest is
@@ -318,7 +318,7 @@ class Legend:
             raise InvariantError(
                 "strokes", f"{missing} of {numbered(every, 'line')} {_NOT}: {_listed(kinds)}", _WAYS
             )
-        return Understood(tuple(letters), notes, described_strokes(kinds))
+        return Interpretation(tuple(letters), notes, described_strokes(kinds))
 
     def _stated(self, stroke: Stroke) -> str | None:
         """Return the stated assignment of a stroke."""

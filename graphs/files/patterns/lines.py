@@ -20,7 +20,7 @@ import numpy as np
 from graphs.convert.faces import joins_faces
 from graphs.convert.tracing import MOST, Lines, trace_sheet
 from graphs.errors import FileError, UnsolvableError, numbered, shown
-from graphs.files.patterns.legend import Understood
+from graphs.files.patterns.legend import Interpretation
 from graphs.files.text import Checker, read_text
 from graphs.mechanism.plane import flat_places
 from graphs.mechanism.precision import written_by
@@ -38,7 +38,7 @@ def traced_sheet(
     *,
     title: str = "",
     border: str = "",
-    understood: Understood | None = None,
+    understood: Interpretation | None = None,
     precision: WrittenPrecision | None = None,
 ) -> Sheet:
     """Trace the lines of a file.

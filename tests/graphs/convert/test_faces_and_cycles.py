@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphs.convert.cycles import Hinged, boundary_cycles, loops_with_centres
+from graphs.convert.cycles import HingedFaces, boundary_cycles, loops_with_centres
 from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.convert.panels import internal_rods, rings_of, scd_of_placed_panels
 from graphs.convert.table import graph_of, to_joints, to_solids
@@ -37,7 +37,7 @@ def test_a_ring_of_four_panels_has_one_loop_whose_creases_meet():
     sides = {side: [face] for row in (outer, inner) for face, side in enumerate(row)}
     creases = {(1, 5): [0, 1], (2, 6): [1, 2], (3, 7): [2, 3], (0, 4): [3, 0]}
     joints = {edge: joint for joint, edge in enumerate(creases)}
-    hinged = Hinged(sides | creases, joints, range(4))
+    hinged = HingedFaces(sides | creases, joints, range(4))
     assert boundary_cycles(Sheet(8, (), "", RING), hinged) == [(0, 1, 2, 3)]
     corners = ((-2, -2), (2, -2), (2, 2), (-2, 2), (-1, -1), (1, -1), (1, 1), (-1, 1))
     [loop] = scd_of_placed_panels(Sheet(8, (), "", RING, corners)).loops
