@@ -22,8 +22,7 @@ from time import perf_counter
 
 import numpy as np
 
-from graphs.convert.panels import scd_from_panels
-from graphs.convert.reconstruction import polyhedron_of
+from graphs.convert.panels import polyhedron_of, scd_from_panels
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.closure import closure_of

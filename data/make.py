@@ -21,7 +21,7 @@ import wiener_2016
 from decimals import with_few_decimals
 
 from graphs.files.formats import write
-from graphs.files.native.orientations import orientations_document
+from graphs.files.native import orientations_document
 from graphs.files.text import json_text
 
 HERE = Path(__file__).resolve().parent

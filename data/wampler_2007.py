@@ -8,8 +8,7 @@ import networkx as nx
 from entries import entries_of
 from wiener_2016 import WATT, WATT_LOOPS
 
-from graphs.convert.panels import scd_from_panels
-from graphs.convert.reconstruction import polyhedron_of
+from graphs.convert.panels import polyhedron_of, scd_from_panels
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph

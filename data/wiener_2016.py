@@ -11,8 +11,7 @@ from enumerate.strings.panel_strings import joint_chain, strings
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import scd_from_panels
 from graphs.edit.analogues import planar_analogue
-from graphs.edit.sc import add_loop
-from graphs.edit.scd import crease_link, lock_hinge, ride_along
+from graphs.edit.edits import add_loop, crease_link, lock_hinge, ride_along
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

@@ -4,7 +4,7 @@ from enumerate.scd.graphs import count_scd_graphs as count_scd_graphs, scd_graph
 from enumerate.strings.panel_strings import strings as strings
 from graphs.answer.identity import identify as identify
 from graphs.answer.reconstruction import reconstruct as reconstruct
-from graphs.convert.by_name import convert as convert
+from graphs.convert.table import convert as convert
 from graphs.errors import (
     FileError as FileError,
     InvariantError as InvariantError,

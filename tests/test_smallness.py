@@ -28,14 +28,14 @@ SMALL = 1e-3
 
 EXEMPT = {
     ("graphs/convert/hinges.py", "_SHORTEST"): "least divisor",
-    ("graphs/convert/loose_creases.py", "_OVERLAP"): "part of an area that is covered twice",
+    ("graphs/convert/faces.py", "_OVERLAP"): "part of an area that is covered twice",
     ("graphs/convert/tracing.py", "TOLERANCES"): "welding distances that are tried in turn",
-    ("graphs/convert/welding.py", "_SAME"): "grid that parts points found twice, in welding distances",
+    ("graphs/convert/tracing.py", "_SAME"): "grid that parts points found twice, in welding distances",
     ("graphs/extent.py", "LEAST"): "least extent of coordinates",
     ("graphs/extent.py", "_THIN"): "what rounding leaves of a line",
     ("graphs/files/solids/gltf.py", "_METRES"): "units of length",
     ("graphs/joints/linkage.py", "_RIGHT"): "angle at which a file is refused",
-    ("graphs/joints/recognising.py", "_FLAT"): "how clear a spherical joint must be",
+    ("graphs/joints/revolutes.py", "_FLAT"): "how clear a spherical joint must be",
     ("graphs/mechanism/sheet.py", "COLLINEAR"): "snapping distance of drawings, the finest that is tried",
     ("graphs/rank/dissection.py", "_CHECKED"): "range in which a second count is made",
     ("graphs/rank/pose.py", "_SPREAD"): "how far off a plane is nearly flat",

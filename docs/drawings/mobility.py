@@ -15,8 +15,7 @@ from drawings.together import above, beside, said
 from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
-from graphs.creasing.edits import SheetEdit, crease_sheet, lock_crease
-from graphs.creasing.panels import take_off_panels
+from graphs.creasing.edits import SheetEdit, crease_sheet, lock_crease, take_off_panels
 from graphs.errors import numbered
 from graphs.mechanism.evidence.estimate import estimate_of
 from graphs.mechanism.evidence.relations import nearly_exact

@@ -1,6 +1,8 @@
-"""Cycles of joints in a sheet: round its interior vertices, and along its boundaries.
+"""Cycles of joints in a sheet: round interior vertices, along boundaries; the centres that geometry gives them.
 
-Theory: docs/theory/crease-patterns.md.
+Round a hole or a cut the creases that end there make a loop of panels that no vertex is the centre of. Where their
+lines are parallel it is planar, where they meet in one point spherical, at this configuration and folded: adjacent
+lines belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
@@ -9,17 +11,54 @@ from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+import numpy as np
 
-__all__ = ["Hinged", "boundary_cycles", "vertex_cycles"]
+from graphs.arrays import Floats
+from graphs.geometry import common_direction, lines_meet
+from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import extent_of, precision_as_written
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+from graphs.tolerances import DOUBLE, Tolerances
+
+__all__ = ["HingedFaces", "axes_meet", "boundary_cycles", "loops_with_centres", "vertex_cycles"]
+
+_FARTHEST = 1e3
+"""Lines that meet farther than this, in units of the extent, may as well be parallel."""
+
+
+def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: Mapping[int, Edge]) -> list[Loop]:
+    """Return those cycles of joints whose axes are parallel or meet in a point, by the coordinates, as loops."""
+    points = in_space(sheet.coordinates or ())
+    points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
+    tolerance = Tolerances.of(precision_as_written(sheet).size).meant
+    centres = [axes_meet(points, [hinges[joint] for joint in cycle], tolerance) for cycle in cycles]
+    return [
+        Loop(cycle, centre) for cycle, centre in zip(cycles, centres, strict=True) if centre is not Centre.NONE
+    ]
+
+
+def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centre:
+    """Return the centre of two or more lines, each through two points, float[n, 3], with a tolerance for each."""
+    ends = np.array(hinges)
+    start, along = points[ends[:, 0]], points[ends[:, 1]] - points[ends[:, 0]]
+    lengths = np.linalg.norm(along, axis=1)
+    if not lengths.all():
+        return Centre.NONE
+    if (np.linalg.norm(np.cross(along, common_direction(along)), axis=1) <= 2 * tolerance).all():
+        return Centre.INFINITE
+    meeting = lines_meet(start, along)
+    if meeting.spread <= DOUBLE.parallel or np.abs(meeting.point).max() > _FARTHEST:
+        return Centre.NONE
+    reach = np.linalg.norm(meeting.point - (start + along / 2), axis=1)
+    return Centre.FINITE if (meeting.off <= tolerance * (1 + 2 * reach / lengths)).all() else Centre.NONE
 
 
 @dataclass(frozen=True)
-class Hinged:
-    """Which faces of a sheet meet at each edge, and in which panel each face is.
+class HingedFaces:
+    """The faces of a sheet at each edge, and the panel of each face.
 
-    `joint_of_edge` has the hinges (None for one inside a panel); edges inside a panel that are no hinges are not
-    in it.
+    `joint_of_edge` has the hinges, None for one inside a panel; other edges inside a panel are not in it.
     """
 
     faces_at: Mapping[Edge, Sequence[int]]
@@ -36,7 +75,7 @@ class Hinged:
         return other if joined else None
 
 
-def vertex_cycles(sheet: Sheet, hinged: Hinged) -> dict[tuple[int, ...], int]:
+def vertex_cycles(sheet: Sheet, hinged: HingedFaces) -> dict[tuple[int, ...], int]:
     """Return the cycles of joints round the interior vertices, and the vertex of each.
 
     The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
@@ -133,20 +172,10 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
     return cycles
 
 
-def boundary_cycles(sheet: Sheet, hinged: Hinged) -> list[tuple[int, ...]]:
+def boundary_cycles(sheet: Sheet, hinged: HingedFaces) -> list[tuple[int, ...]]:
     """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
 
-    Along a boundary the creases that end there are passed in order. Four squares in a ring:
-
-    Four squares in a ring:
-
-    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-    >>> sides = {(0, 1): [0], (1, 2): [1], (2, 3): [2], (0, 3): [3]}
-    >>> sides |= {(4, 5): [0], (5, 6): [1], (6, 7): [2], (4, 7): [3]}
-    >>> creases = {(1, 5): [0, 1], (2, 6): [1, 2], (3, 7): [2, 3], (0, 4): [3, 0]}
-    >>> joints = {edge: joint for joint, edge in enumerate(creases)}
-    >>> boundary_cycles(Sheet(8, (), "", faces), Hinged(sides | creases, joints, range(4)))
-    [(0, 1, 2, 3)]
+    Along a boundary the creases that end there are passed in order.
     """
     edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
     for index, around in enumerate(sheet.faces):
@@ -168,7 +197,7 @@ def _along(
     face: int,
     edge: Edge,
     edges_at: Mapping[tuple[int, int], tuple[Edge, Edge]],
-    hinged: Hinged,
+    hinged: HingedFaces,
     seen: set[tuple[int, Edge]],
 ) -> list[tuple[int, int]]:
     """Walk along a boundary from one of its sides, and mark the sides that are passed."""

@@ -1,7 +1,7 @@
 """From a sheet to its mechanism, by duality.
 
 Panels are links, creases are joints and an interior vertex is a finite centre. Loops along the boundaries of holes
-and cuts have a centre where their axes are parallel or meet; what is left is spatial. Theory:
+and cuts have a centre where their axes are parallel or meet; other loops are spatial. Theory:
 docs/theory/crease-patterns.md.
 """
 
@@ -14,8 +14,7 @@ from math import dist
 
 import networkx as nx
 
-from graphs.convert.centres import loops_with_centres
-from graphs.convert.cycles import Hinged, boundary_cycles, vertex_cycles
+from graphs.convert.cycles import HingedFaces, boundary_cycles, loops_with_centres, vertex_cycles
 from graphs.convert.hinges import HingeLines, lines_of_hinges
 from graphs.errors import InvariantError, numbered
 from graphs.loops.cycle_space import added_independent, split_dependent
@@ -63,7 +62,7 @@ class SheetMechanism:
     hinges: Mapping[int, Edge]
     loop_vertices: tuple[int, ...]
     repairs: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = field(default=())
+    warnings: tuple[str, ...] = ()
     pieces: Mapping[int, tuple[Edge, ...]] = field(default_factory=dict)
 
 
@@ -97,12 +96,12 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     hinges = HINGES + ("F" if hinge_flat else "")
     faces_at, assignment, notes = _edges_of_faces(sheet)
     panel_of_face, panels = _merge_flat(sheet, faces_at, assignment, hinges)
-    joint_of_edge, joints, idle, lines = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
+    joint_of_edge, joints, inside, lines = _joints(sheet, faces_at, assignment, hinges, panel_of_face)
     if len(panels) == 1 and not joints:
         notes.warnings.append("one panel: no crease joins it to another")
-    if idle:
-        notes.warnings.append(f"{numbered(idle, 'crease')} inside a panel: no effect on folding")
-    hinged = Hinged(faces_at, joint_of_edge, panel_of_face)
+    if inside:
+        notes.warnings.append(f"{numbered(inside, 'crease')} inside a panel: no effect on folding")
+    hinged = HingedFaces(faces_at, joint_of_edge, panel_of_face)
     centre_of = vertex_cycles(sheet, hinged)
     cycles = list(centre_of)
     kept, closing = split_dependent(cycles)
@@ -114,8 +113,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     )
     ends = _hinge_ends(sheet, joint_of_edge)
     if geometry and sheet.coordinates is not None and sc.spatial_loops:
-        found = loops_with_centres(sheet, boundary_cycles(sheet, hinged), ends)
-        sc = _with_loops(sc, found, notes)
+        sc = _with_loops(sc, loops_with_centres(sheet, boundary_cycles(sheet, hinged), ends), notes)
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
     if split:
         notes.repairs.append(f"{numbered(split, 'collinear split hinge')} joined")
@@ -145,7 +143,7 @@ def _pieces(joint_of_edge: Mapping[Edge, int | None]) -> dict[int, tuple[Edge, .
 
 
 def _with_loops(sc: SCGraph, loops: Sequence[Loop], notes: _Notes) -> SCGraph:
-    """Add loops that are independent of those there and in no contradiction to their centres, and tell."""
+    """Add loops that are independent of the present ones and do not contradict their centres; note them."""
     added = {Centre.FINITE: 0, Centre.INFINITE: 0}
     for loop in loops:
         if not added_independent([one.joints for one in sc.loops], [loop.joints]):
@@ -226,10 +224,7 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
 
 
 def _merge_flat(
-    sheet: Sheet,
-    faces_at: Mapping[Edge, list[int]],
-    assignment: Mapping[Edge, tuple[str, int]],
-    hinges: str,
+    sheet: Sheet, faces_at: Mapping[Edge, list[int]], assignment: Mapping[Edge, tuple[str, int]], hinges: str
 ) -> tuple[list[int], tuple[tuple[int, ...], ...]]:
     """Merge faces across flat edges; return the panel of each face, and the faces of each panel."""
     if not any(letter in sheet.assignments for letter in FLAT if letter not in hinges):
@@ -256,10 +251,10 @@ def _joints(
     hinges: str,
     panel_of_face: Sequence[int],
 ) -> tuple[dict[Edge, int | None], dict[int, tuple[int, int]], int, HingeLines]:
-    """Return the joint of each hinged edge (None for one inside a panel), the joints, how many are idle, lines."""
+    """Return the joint of each hinged edge (None inside a panel), the joints, how many are inside, and lines."""
     joint_of_edge: dict[Edge, int | None] = {}
     between: dict[tuple[int, int], list[tuple[int, Edge]]] = defaultdict(list)
-    idle = 0
+    inside = 0
     for edge, here in faces_at.items():
         letter, index = assignment[edge]
         if len(here) < 2 or letter not in hinges:
@@ -267,7 +262,7 @@ def _joints(
         a, b = panel_of_face[here[0]], panel_of_face[here[1]]
         if a == b:
             joint_of_edge[edge] = None
-            idle += 1
+            inside += 1
         else:
             between[(a, b) if a < b else (b, a)].append((index, edge))
     joints: dict[int, tuple[int, int]] = {}
@@ -281,4 +276,4 @@ def _joints(
             joints[first] = pair
             for place in group:
                 joint_of_edge[hinged[place][1]] = first
-    return joint_of_edge, joints, idle, lines
+    return joint_of_edge, joints, inside, lines

@@ -26,7 +26,7 @@ _PLATEAU = 10.0
 """Tolerances are a plateau if the largest is this many times the smallest."""
 
 _APART = 1.0
-"""What stands for the deviation of hinges that are bent."""
+"""The deviation that hinges count with if they are bent."""
 
 _SHORTEST = 1e-12
 """Shorter hinges count as this long, in units of the extent of the sheet."""
@@ -57,7 +57,7 @@ class HingeLines:
 
     @property
     def repairs(self) -> tuple[str, ...]:
-        """What was joined that a tight tolerance leaves apart, in words."""
+        """The joined hinges that a tight tolerance leaves apart, in words."""
         if not self.loosely:
             return ()
         unit = 10.0 ** floor(log10(self.within))
@@ -65,19 +65,13 @@ class HingeLines:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What could not be decided, in words."""
-        return (
-            (f"{numbered(self.unclear, 'hinge')} may or may not be on one line: kept apart",)
-            if self.unclear
-            else ()
-        )
+        """The undecided hinges, in words."""
+        warning = f"{numbered(self.unclear, 'hinge')} may or may not be on one line: kept apart"
+        return (warning,) if self.unclear else ()
 
 
 def lines_of_hinges(
-    coordinates: Sequence[Sequence[float]] | None,
-    bundles: Sequence[Sequence[Edge]],
-    *,
-    rounding: float = 0.0,
+    coordinates: Sequence[Sequence[float]] | None, bundles: Sequence[Sequence[Edge]], *, rounding: float = 0.0
 ) -> HingeLines:
     """Group the hinges between the same two panels, a bundle, by the lines on which they lie.
 
@@ -146,16 +140,16 @@ class _Bundle:
         return _cut(self.tree(heights), tolerance)
 
     def rows(self, heights: Floats, tolerance: float) -> Groups:
-        """Group hinges that hang together by steps within a tolerance: those of a curve too."""
+        """Group hinges connected by steps within a tolerance: also those of a curve."""
         return _cut(self.tree(heights, "single"), tolerance)
 
     def apart(self, groups: Groups) -> npt.NDArray[np.bool_]:
-        """Tell of each pair whether it is in two groups."""
+        """Return, for each pair, whether it is in two groups: bool[pairs]."""
         label = np.empty(self.size, dtype=np.int64)
         for number, group in enumerate(groups):
             label[list(group)] = number
-        found: npt.NDArray[np.bool_] = label[self.pairs[0]] != label[self.pairs[1]]
-        return found
+        apart: npt.NDArray[np.bool_] = label[self.pairs[0]] != label[self.pairs[1]]
+        return apart
 
     def unclear(self, lines: Groups, apart: npt.NDArray[np.bool_], tolerance: float) -> int:
         """Return how many hinges are apart from others that may be on their line."""
@@ -173,7 +167,7 @@ def _lines(bundle: _Bundle, tolerance: float, tight: Groups) -> Groups:
 
 
 def _plateau(merges: Sequence[Floats]) -> float:
-    """Return the foot of the coarsest plateau, given the heights at which lines become one."""
+    """Return the foot of the coarsest plateau of the heights at which lines become one."""
     heights = np.unique(np.concatenate(merges))
     steps = [COLLINEAR, *heights[(heights > COLLINEAR) & (heights < BENT)].tolist(), BENT]
     feet = [below for below, above in pairwise(steps) if above >= _PLATEAU * below]
@@ -209,7 +203,10 @@ def _measured(points: Floats, bundles: Sequence[Sequence[Edge]], rounding: float
 
 
 def _off_line(one: Floats, two: Floats, explained: float) -> Floats:
-    """Return how far each two hinges are off one line, in units of their lengths; and less what is explained."""
+    """Return the deviations of pairs of hinges from one line, in units of their lengths, and what rounding leaves.
+
+    `one` and `two` are the ends of the hinges of each pair, float[pairs, 2, dimensions]; returns float[2, pairs].
+    """
     four = np.concatenate([one, two], axis=1)
     apart = np.linalg.norm(four[:, :, None] - four[:, None], axis=3).reshape(-1, 16)
     farthest = apart.argmax(axis=1)

@@ -1,7 +1,7 @@
 """Independent loops of a bare link-joint graph: the faces of an embedding, or a shortest cycle basis.
 
-A planar graph for which no loops are given takes the faces of an embedding. Blocks are
-embedded one by one, so that every face is one cycle; a block that is not planar takes a minimum cycle basis.
+A planar graph takes the faces of an embedding. Blocks are embedded one by one, so that every face is one cycle; a
+block that is not planar takes a minimum cycle basis.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def sc_from_link_joint_graph(
     graph : nx.Graph or nx.MultiGraph
         Nodes are links and edges joints. Joint ids are the edge keys where these are distinct, else indices.
     centre : Centre, optional
-        The centre of every loop; a system of spherical loops unless told otherwise.
+        The centre of every loop.
     closed : bool, optional
         Whether the face left out carries a centre too (a closed surface). Needs a planar graph.
 
@@ -91,9 +91,9 @@ def sc_from_link_joint_graph(
                 raise InvariantError("closed surface", "a block of the graph is not planar", "a planar graph")
             if len(block.inner) > 1:  # a ring has the same loop on both its sides
                 closing.append(Loop(block.outer, Centre(centre)))
-    made = bare.with_loops(loops, closing)
-    made.centres_assumed = True
-    return made
+    sc = bare.with_loops(loops, closing)
+    sc.centres_assumed = True
+    return sc
 
 
 def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict[frozenset[object], JointId]]:

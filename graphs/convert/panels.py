@@ -1,35 +1,47 @@
-"""Panels given by their vertices, as in a mesh or a crease pattern, to an SCD graph.
+"""Panels by their vertices, as in a mesh or a crease pattern, to an SCD graph, and that to its polyhedron model.
 
 Two panels that share a side are hinged there; an interior vertex is a finite, explicit centre; a hole is a
-spatial loop, or has the centre that places of the panels give it. Source: Wiener 2016, section 3.4. Theory:
-docs/theory/scd-graphs.md, docs/theory/crease-patterns.md.
+spatial loop, or has the centre that places of the panels give it. Source: Wiener 2016, sections 3.4 and 3.4.4,
+Fig. 35. Theory: docs/theory/scd-graphs.md, docs/theory/crease-patterns.md, docs/theory/polyhedron-model.md.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from graphs.convert.centres import loops_with_centres
+from graphs.convert.cycles import loops_with_centres
 from graphs.errors import InvariantError, shown
 from graphs.geometry import area_vector
 from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.plane import in_space
+from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
-__all__ = ["oriented_panels", "rings_of", "scd_from_panels", "scd_of_placed_panels"]
+__all__ = [
+    "VertexStep",
+    "internal_rods",
+    "oriented_panels",
+    "polyhedron_of",
+    "rings_of",
+    "scd_from_panels",
+    "scd_of_placed_panels",
+    "vertex_steps",
+]
 
 Panel = tuple[Any, ...]
 
 Remote = Callable[[Mapping[JointId, tuple[Any, ...]], Sequence[tuple[JointId, ...]]], Sequence[Loop]]
-"""Says which loops round holes have a centre."""
+"""Returns the loops round holes that have a centre."""
 
 
 def scd_from_panels(
@@ -38,7 +50,7 @@ def scd_from_panels(
     outer: tuple[Hashable, Hashable] | None = None,
     remote: Remote | None = None,
 ) -> SCDGraph:
-    """Return the SCD graph of panels given by their vertices.
+    """Return the SCD graph of panels, each a row of vertices.
 
     Parameters
     ----------
@@ -48,8 +60,8 @@ def scd_from_panels(
         A side on the outer boundary. Without it the boundary with the most open edges is the outer one; on a
         closed surface the last interior vertex is the closing loop.
     remote : callable, optional
-        Called with the ends of the joints and the cycles of joints round holes in whose every corner lies an open
-        edge; returns those that have a centre, as loops. Without it loops round holes are spatial.
+        Called with the ends of the joints and the cycles of joints round holes with an open edge in every corner;
+        returns those that have a centre, as loops. Without it loops round holes are spatial.
 
     Returns
     -------
@@ -85,11 +97,10 @@ def scd_from_panels(
         for i, side in enumerate(sides_of_face(vertices))
         if rotation[link][i] is None
     }
-    found: Callable[[list[tuple[JointId, ...]]], Sequence[Loop]] | None = None
-    if remote is not None:
-        ends = {joint: tuple(side) for side, joint in joint_at.items()}
-        found = partial(remote, ends)
-    return _with_faces(around, joints, rotation, None if outer is None else open_side.get(frozenset(outer)), found)
+    ends = {joint: tuple(side) for side, joint in joint_at.items()}
+    centred = None if remote is None else partial(remote, ends)
+    outer_side = None if outer is None else open_side.get(frozenset(outer))
+    return _with_faces(around, joints, rotation, outer_side, centred)
 
 
 def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
@@ -214,14 +225,9 @@ def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
     The outer boundary is the one round the largest area. Where the creases of a loop round a hole meet in a point
     or are parallel, within the precision of the coordinates, it has an implicit centre there. Without coordinates
     loops round holes are spatial, and the boundary with the most open edges is the outer. The errors are those of
-    `graphs.convert.panels.scd_from_panels`.
+    `scd_from_panels`.
 
     Four panels round a square hole, the creases on its diagonals: they meet in its middle.
-
-    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-    >>> corners = ((-2, -2), (2, -2), (2, 2), (-2, 2), (-1, -1), (1, -1), (1, 1), (-1, 1))
-    >>> [loop.centre for loop in scd_of_placed_panels(Sheet(8, (), "", faces, corners)).loops]
-    [<Centre.FINITE: 'finite'>]
     """
     panels = oriented_panels(dict(enumerate(sheet.faces)))
     if sheet.coordinates is None:
@@ -239,7 +245,7 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
     sides = {side for panel in panels.values() for side in sides_of_face(panel)}
     after = {b: a for a, b in sides if (b, a) not in sides}
     if len(after) < sum((b, a) not in sides for a, b in sides):
-        return None  # boundaries that touch in a vertex are not told apart
+        return None  # boundaries that touch in a vertex are one
     places = in_space(sheet.coordinates or ())
     rings = rings_of(after)
     if len(rings) < 2:
@@ -249,11 +255,7 @@ def _outer_side(sheet: Sheet, panels: Mapping[LinkId, Sequence[int]]) -> Edge | 
 
 
 def rings_of(after: Mapping[int, int]) -> list[tuple[int, ...]]:
-    """Return the rings of vertices that follow each other, each from the first in the mapping.
-
-    >>> rings_of({0: 1, 5: 6, 1: 2, 6: 5, 2: 0})
-    [(0, 1, 2), (5, 6)]
-    """
+    """Return the rings of vertices that follow each other, each from the first in the mapping."""
     rings, seen = [], set[int]()
     for start in after:
         ring, here = [], start
@@ -264,3 +266,121 @@ def rings_of(after: Mapping[int, int]) -> list[tuple[int, ...]]:
         if ring:
             rings.append(tuple(ring))
     return rings
+
+
+@dataclass(frozen=True, slots=True)
+class VertexStep:
+    """One vertex of the reconstruction.
+
+    Attributes
+    ----------
+    vertex : int
+    face : int
+        The face of the SCD graph in which it lies.
+    kind : FaceKind
+        The kind of that face; the vertex *is* its centre if that is explicit.
+    links : tuple of link ids
+        The links that meet in the vertex, in the order of the walk round the face.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> steps = vertex_steps(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
+    >>> [sorted(step.links) for step in steps if step.kind is FaceKind.EXPLICIT]
+    [[0, 1, 2]]
+    """
+
+    vertex: int
+    face: int
+    kind: FaceKind
+    links: tuple[LinkId, ...]
+
+
+def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
+    """Walk round each face and yield its vertices, one for each run of links between open edges.
+
+    Parameters
+    ----------
+    scd : SCDGraph
+
+    Yields
+    ------
+    VertexStep
+        In the order of the numbers of the vertices.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")])
+    >>> [step.kind.value for step in vertex_steps(fan)]
+    ['outer', 'outer', 'outer', 'explicit']
+    """
+    meeting: dict[int, dict[LinkId, None]] = {}
+    face_of: dict[int, int] = {}
+    for face in scd.faces:
+        for corner in face.corners:
+            row = scd.vertices[corner.link]
+            for step in range(corner.open_edges + 1):
+                vertex = row[(corner.first_side - 1 - step) % len(row)]
+                meeting.setdefault(vertex, {})[corner.link] = None
+                face_of[vertex] = face.index
+    for vertex in sorted(meeting):
+        face_index = face_of[vertex]
+        yield VertexStep(vertex, face_index, scd.drawing.kind_of_face(face_index), tuple(meeting[vertex]))
+
+
+def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
+    """Return the 2n - 6 rods that make a body of n vertices and n sides rigid.
+
+    Two fans of n - 3 diagonals, from two neighbouring vertices, are with the n sides a triangulated sphere, which
+    is rigid in general position (thesis 2.3.3).
+    """
+    first, second = around[0], around[1]
+    from_first = [(first, other) for other in around[2:-1]]
+    from_second = [(second, other) for other in around[3:]]
+    return from_first + from_second
+
+
+def polyhedron_of(scd: SCDGraph) -> PolyhedronModel:
+    """Build the polyhedron model of an SCD graph.
+
+    Each side of a link is a rod, shared where it is a joint; a link of n >= 4 sides gets 2n - 6 internal
+    rods; a loop with an implicit centre is a remote centre S_{+3} of the rods of its joints.
+
+    Parameters
+    ----------
+    scd : SCDGraph
+
+    Returns
+    -------
+    PolyhedronModel
+        Vertices 0 .. V - 1 as in ``scd.vertices``; no coordinates.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> model = polyhedron_of(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
+    >>> len(model), model.number_of_edges()
+    (4, 6)
+    """
+    rods: dict[frozenset[int], tuple[int, int]] = {}
+    for around in scd.vertices.values():
+        sides = [(around[i - 1], around[i]) for i in range(len(around))]
+        for a, b in sides + internal_rods(around):
+            rods.setdefault(frozenset((a, b)), (a, b))
+    return PolyhedronModel(
+        scd.counts.vertices,
+        rods.values(),
+        centres=[
+            _remote_centre(scd, face.index)
+            for face in scd.faces
+            if scd.drawing.kind_of_face(face.index) is FaceKind.IMPLICIT
+        ],
+        links=dict(scd.vertices),
+    )
+
+
+def _remote_centre(scd: SCDGraph, face: int) -> RemoteCentre:
+    loop = scd.drawing.loop_of_face(face)
+    assert loop is not None
+    return RemoteCentre(3, tuple(scd.drawing.ends_of_joint(joint) for joint in loop.joints), loop.name)

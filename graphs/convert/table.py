@@ -1,8 +1,7 @@
-"""From any object that a file may hold to any other.
+"""From any object that a file may hold to any other, by functions or by the names of kinds and forms.
 
-One function a target; each says what stands in the way where there is no road. The roads themselves are in
-:mod:`graphs.convert.reconstruction`, :mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and
-:mod:`graphs.mechanism.vertex_edge`.
+One function for each target; each says what stands in the way if there is no road. The roads themselves are in
+:mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and :mod:`graphs.mechanism.vertex_edge`.
 """
 
 from __future__ import annotations
@@ -14,13 +13,13 @@ import networkx as nx
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.panels import oriented_panels, scd_from_panels, scd_of_placed_panels
-from graphs.convert.reconstruction import polyhedron_of
-from graphs.errors import UnsolvableError
+from graphs.convert.panels import oriented_panels, polyhedron_of, scd_from_panels, scd_of_placed_panels
+from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.given import check_given
 from graphs.ids import JointId
-from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.linkage import JointedLinkage
-from graphs.joints.recognising import recognised
+from graphs.joints.revolutes import recognised, revolutes_of
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -32,7 +31,9 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, v
 
 __all__ = [
     "CONVERSIONS",
+    "FORMS",
     "Mechanism",
+    "convert",
     "graph_of",
     "to_joints",
     "to_polyhedron",
@@ -44,69 +45,66 @@ __all__ = [
 ]
 
 Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | SurfaceLinkage | HingedSolids | JointedLinkage
-"""What a file may hold (an SCDGraph is an SCGraph)."""
+"""Any object that a file may hold (an SCDGraph is an SCGraph)."""
 
 
-def to_sc(thing: Mechanism) -> SCGraph:
-    """Return the SC graph of anything that has one.
+def to_sc(mechanism: Mechanism) -> SCGraph:
+    """Return the SC graph of a mechanism.
 
     Parameters
     ----------
-    thing : Mechanism
-        Whatever a file may hold.
+    mechanism : Mechanism
+        Any object that a file may hold.
 
     Returns
     -------
     SCGraph
-        Of a linkage on a cone, or of hinged solids, the chain.
+        For a linkage on a cone, or hinged solids, the chain.
 
     Raises
     ------
     UnsolvableError
-        As of `to_scd`, for a polyhedron model.
+        As `to_scd`, for a polyhedron model.
 
     Examples
     --------
     >>> print(to_sc(VertexEdgeGraph({"O": ("a", "b", "c", "d")})))
     SCGraph with 4 links, 4 joints, 1 centred and 0 spatial loops
     """
-    if isinstance(thing, SCDGraph):
-        return thing.sc_graph()
-    if isinstance(thing, SCGraph):
-        return thing
-    if isinstance(thing, VertexEdgeGraph):
-        return sc_from_vertex_edge(thing)
-    if isinstance(thing, Sheet):
-        return mechanism_of_sheet(thing).sc
-    if isinstance(thing, SurfaceLinkage | HingedSolids):
-        return thing.chain
-    if isinstance(thing, JointedLinkage):
-        return revolutes_of(thing).chain
-    return to_scd(thing).sc_graph()
+    if isinstance(mechanism, SCDGraph):
+        return mechanism.sc_graph()
+    if isinstance(mechanism, SCGraph):
+        return mechanism
+    if isinstance(mechanism, VertexEdgeGraph):
+        return sc_from_vertex_edge(mechanism)
+    if isinstance(mechanism, Sheet):
+        return mechanism_of_sheet(mechanism).sc
+    if isinstance(mechanism, SurfaceLinkage | HingedSolids):
+        return mechanism.chain
+    if isinstance(mechanism, JointedLinkage):
+        return revolutes_of(mechanism).chain
+    return to_scd(mechanism).sc_graph()
 
 
-def graph_of(thing: Mechanism | nx.Graph) -> SCGraph:
-    """Return the SC or SCD graph that something is, or the SC graph that it has; the errors are those of `to_sc`.
+def graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
+    """Return an SC or SCD graph itself, or the SC graph of a mechanism; the errors are those of `to_sc`.
 
     A plain networkx graph is a link-joint graph: each face of a drawing of it gets a finite centre.
-
-    >>> graph_of(nx.cycle_graph(4)), graph_of(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
-    (<SCGraph: 4 links, 4 joints, 1 centre>, <SCGraph: 2 links, 1 joint, 0 centres>)
     """
-    if isinstance(thing, SCGraph):
-        return thing
-    if isinstance(thing, nx.Graph) and not isinstance(thing, PolyhedronModel):
-        return sc_from_link_joint_graph(thing)
-    return to_sc(thing)
+    if isinstance(mechanism, SCGraph):
+        return mechanism
+    if isinstance(mechanism, nx.Graph) and not isinstance(mechanism, PolyhedronModel):
+        return sc_from_link_joint_graph(mechanism)
+    return to_sc(mechanism)
 
 
-def to_scd(thing: Mechanism) -> SCDGraph:
+def to_scd(mechanism: Mechanism) -> SCDGraph:
     """Return the SCD graph of an SCD graph, a sheet of plain panels, or a model that knows its links.
 
     Parameters
     ----------
-    thing : Mechanism
-        Whatever a file may hold.
+    mechanism : Mechanism
+        Any object that a file may hold.
 
     Returns
     -------
@@ -115,33 +113,39 @@ def to_scd(thing: Mechanism) -> SCDGraph:
     Raises
     ------
     UnsolvableError
-        If it does not tell the sides of its links, or a model has more than panels.
+        If the order of the sides of the links is not known, or a model has more than panels.
 
     Examples
     --------
     >>> to_scd(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)))).rotation[0]
     (None, None, 0)
     """
-    if isinstance(thing, SCDGraph):
-        return thing
-    if isinstance(thing, Sheet):
-        return scd_of_placed_panels(_plain(thing))
-    if isinstance(thing, PolyhedronModel):
-        if not thing.links:
+    if isinstance(mechanism, SCDGraph):
+        return mechanism
+    if isinstance(mechanism, Sheet):
+        return scd_of_placed_panels(_checked_panels(mechanism))
+    if isinstance(mechanism, PolyhedronModel):
+        if not mechanism.links:
             raise UnsolvableError("the polyhedron model does not say which vertices make up a link")
-        if thing.centres or thing.on_line or thing.on_plane or thing.scissors or thing.ground is not None:
+        if (
+            mechanism.centres
+            or mechanism.on_line
+            or mechanism.on_plane
+            or mechanism.scissors
+            or mechanism.ground is not None
+        ):
             raise UnsolvableError("the polyhedron model has more than panels (remote centres, points, ground)")
-        return scd_from_panels(thing.links)
+        return scd_from_panels(mechanism.links)
     raise UnsolvableError("the order of the sides of the links is not known: write an SCD graph or a sheet")
 
 
-def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
+def to_polyhedron(mechanism: Mechanism) -> PolyhedronModel:
     """Return the polyhedron model; a sheet's coordinates go with it.
 
     Parameters
     ----------
-    thing : Mechanism
-        Whatever a file may hold.
+    mechanism : Mechanism
+        Any object that a file may hold.
 
     Returns
     -------
@@ -150,7 +154,7 @@ def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
     Raises
     ------
     UnsolvableError
-        As of `to_scd`.
+        As `to_scd`.
 
     Examples
     --------
@@ -158,30 +162,30 @@ def to_polyhedron(thing: Mechanism) -> PolyhedronModel:
     >>> len(model), model.number_of_edges()
     (4, 5)
     """
-    if isinstance(thing, PolyhedronModel):
-        return thing
-    scd = to_scd(thing)
+    if isinstance(mechanism, PolyhedronModel):
+        return mechanism
+    scd = to_scd(mechanism)
     model = polyhedron_of(scd)
-    if not isinstance(thing, Sheet) or thing.coordinates is None:
+    if not isinstance(mechanism, Sheet) or mechanism.coordinates is None:
         return model
-    panels = oriented_panels(dict(enumerate(thing.faces)))
-    old = {}
+    panels = oriented_panels(dict(enumerate(mechanism.faces)))
+    places = {}
     for link, vertices in scd.vertices.items():
         for i, vertex in enumerate(vertices):  # vertex i lies after side i, which starts at panel vertex i
-            old[vertex] = panels[link][(i + 1) % len(vertices)]
-    places = {vertex: (*thing.coordinates[v], 0.0)[:3] for vertex, v in old.items()}
+            place = mechanism.coordinates[panels[link][(i + 1) % len(vertices)]]
+            places[vertex] = (*place, 0.0)[:3]
     return PolyhedronModel(
         model.nodes, model.edges, coordinates=places, centres=model.centres, links=dict(model.links)
     )
 
 
-def to_sheet(thing: Mechanism) -> Sheet:
+def to_sheet(mechanism: Mechanism) -> Sheet:
     """Return the sheet of a sheet, an SCD graph or a model that knows its links.
 
     Parameters
     ----------
-    thing : Mechanism
-        Whatever a file may hold.
+    mechanism : Mechanism
+        Any object that a file may hold.
 
     Returns
     -------
@@ -190,7 +194,7 @@ def to_sheet(thing: Mechanism) -> Sheet:
     Raises
     ------
     UnsolvableError
-        As of `to_scd`; also if a model does not know its links.
+        As `to_scd`; also if a model does not know its links.
 
     Examples
     --------
@@ -198,21 +202,21 @@ def to_sheet(thing: Mechanism) -> Sheet:
     >>> to_sheet(two).faces
     ((0, 1, 2), (1, 3, 2))
     """
-    if isinstance(thing, Sheet):
-        return thing
-    model = to_polyhedron(thing)
+    if isinstance(mechanism, Sheet):
+        return mechanism
+    model = to_polyhedron(mechanism)
     if not model.links:
         raise UnsolvableError("the polyhedron model does not say which vertices make up a link")
     return sheet_from_model(model)
 
 
-def to_vertex_edge(thing: Mechanism) -> VertexEdgeGraph:
+def to_vertex_edge(mechanism: Mechanism) -> VertexEdgeGraph:
     """Return the vertex-edge graph.
 
     Parameters
     ----------
-    thing : Mechanism
-        Whatever a file may hold.
+    mechanism : Mechanism
+        Any object that a file may hold.
 
     Returns
     -------
@@ -231,40 +235,30 @@ def to_vertex_edge(thing: Mechanism) -> VertexEdgeGraph:
     >>> len(to_vertex_edge(fan).vertices), len(to_vertex_edge(fan).creases)
     (1, 4)
     """
-    return thing if isinstance(thing, VertexEdgeGraph) else vertex_edge_from_sc(to_sc(thing))
+    return mechanism if isinstance(mechanism, VertexEdgeGraph) else vertex_edge_from_sc(to_sc(mechanism))
 
 
-def to_solids(thing: Mechanism) -> HingedSolids:
+def to_solids(mechanism: Mechanism) -> HingedSolids:
     """Return a mechanism of revolutes with the axes of its joints; UnsolvableError if there are no axes.
 
     Each joint of a linkage with joints of all kinds becomes the chain of revolutes that stands for it, each crease
     of a pattern the axis on which it lies; the panels are dropped.
-
-    >>> corners = ((0, 0), (1, 0), (1, 1), (0, 1), (0, -1), (1, -1))
-    >>> book = Sheet(6, ((0, 1),), "V", ((0, 1, 2, 3), (1, 0, 4, 5)), corners)
-    >>> dict(to_solids(book).axes)
-    {0: ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))}
     """
-    if isinstance(thing, HingedSolids):
-        return thing
-    if isinstance(thing, JointedLinkage):
-        return revolutes_of(thing)
-    if not isinstance(thing, Sheet):
-        raise UnsolvableError(f"solids hinged at edges need the axes of their joints, and {thing!r} has none")
-    return _solids_of_sheet(thing)
+    if isinstance(mechanism, HingedSolids):
+        return mechanism
+    if isinstance(mechanism, JointedLinkage):
+        return revolutes_of(mechanism)
+    if not isinstance(mechanism, Sheet):
+        raise UnsolvableError(f"solids hinged at edges need the axes of their joints, and {mechanism!r} has none")
+    return _solids_of_sheet(mechanism)
 
 
-def to_joints(thing: Mechanism) -> JointedLinkage:
+def to_joints(mechanism: Mechanism) -> JointedLinkage:
     """Return a linkage with joints of all kinds, in which chains of revolutes are the joints that they stand for.
 
     Raise UnsolvableError if there are no axes by which to recognise them.
-
-    >>> from graphs.joints.kinds import JointKind
-    >>> ball = JointedLinkage(SCGraph(2, [(0, 1)]), {0: JointKind.SPHERICAL})
-    >>> to_solids(ball), to_joints(to_solids(ball))
-    (<HingedSolids: <SCGraph: 4 links, 3 joints, 0 centres>>, <JointedLinkage: 2 links, 1 joint: S, placed>)
     """
-    return thing if isinstance(thing, JointedLinkage) else recognised(to_solids(thing))
+    return mechanism if isinstance(mechanism, JointedLinkage) else recognised(to_solids(mechanism))
 
 
 CONVERSIONS: dict[str, Callable[[Mechanism], Mechanism]] = {
@@ -279,8 +273,8 @@ CONVERSIONS: dict[str, Callable[[Mechanism], Mechanism]] = {
 """Name of a kind to the function that makes it."""
 
 
-def _plain(sheet: Sheet) -> Sheet:
-    """Refuse a sheet whose faces are not its links: flat folds merged, cuts, split hinges."""
+def _checked_panels(sheet: Sheet) -> Sheet:
+    """Return a sheet; refuse one whose faces are not its links: flat folds merged, cuts, split hinges."""
     mechanism = mechanism_of_sheet(sheet)
     if len(mechanism.panels) < len(sheet.faces):
         raise UnsolvableError("the sheet has flat edges: its links are more than one face each")
@@ -291,7 +285,7 @@ def _plain(sheet: Sheet) -> Sheet:
 
 
 def _solids_of_sheet(sheet: Sheet) -> HingedSolids:
-    """Return what a crease pattern is without its panels: each crease lies on an axis."""
+    """Return a crease pattern without its panels: each crease becomes an axis."""
     if sheet.coordinates is None:
         raise UnsolvableError("solids hinged at edges need the axes of their joints: the sheet has no coordinates")
     mechanism = mechanism_of_sheet(sheet)
@@ -302,3 +296,46 @@ def _solids_of_sheet(sheet: Sheet) -> HingedSolids:
         u, v, w = (corners[b] - corners[a]).tolist()
         axes[joint] = (x, y, z), (u, v, w)
     return HingedSolids(mechanism.sc, axes)
+
+
+FORMS = {"planar": planar_analogue, "spherical": spherical_analogue, "general": generalised_form}
+"""Name of a form to the function that changes the centres."""
+
+
+def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None = None) -> Mechanism:
+    """Convert a mechanism to another kind, or change its centres, or both in this order.
+
+    Parameters
+    ----------
+    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, SurfaceLinkage, HingedSolids, ...
+    kind : {"sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"}, optional
+        "solids": revolutes with axes, chains of them for joints of other kinds; "joints": such chains recognised
+        as the joints that they stand for.
+    form : {"planar", "spherical", "general"}, optional
+        Planar analogue, spherical analogue, or most general form of the SC graph.
+
+    Raises
+    ------
+    InvariantError
+        If a name is not known.
+    UnsolvableError
+        If there is no road to that kind.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+    >>> convert(fan, "polyhedron")
+    <PolyhedronModel: 5 vertices, 8 rods>
+    >>> convert(fan, "sc", form="planar").loops[0].centre
+    <Centre.INFINITE: 'infinite'>
+    """
+    check_given("convert", mechanism, Mechanism)
+    for name, what, known in ((kind, "kind", tuple(CONVERSIONS)), (form, "form", tuple(FORMS))):
+        if name is not None and name not in known:
+            raise InvariantError(what, f"the {what} {shown(name)}", "one of " + ", ".join(known))
+    if kind is not None:
+        mechanism = CONVERSIONS[kind](mechanism)
+    if form is None:
+        return mechanism
+    return FORMS[form](graph_of(mechanism))

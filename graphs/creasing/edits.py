@@ -1,6 +1,7 @@
 """Edits of sheets: a pattern edited is a pattern. Theory: docs/theory/edits.md.
 
-Vertices keep their numbers, and edges theirs, except where a crease is removed. What is added comes last.
+Vertices keep their numbers, and edges theirs, except where a crease is removed or panels are taken off. New
+ones come last.
 """
 
 from __future__ import annotations
@@ -12,12 +13,13 @@ from typing import Any
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.count.relative import relative_spherical_system
-from graphs.count.report import mobility_report
-from graphs.creasing.lines import creased_along
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.creasing.lines import creased_along, edge_in_words
+from graphs.edit.edits import counted_change, counts_as_json
+from graphs.edit.named import joint_named, known
+from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.sheet import HINGES, Sheet, sides_of_face, with_all_edges
 
-__all__ = ["SheetEdit", "crease_sheet", "lock_crease", "remove_crease"]
+__all__ = ["SheetEdit", "crease_sheet", "joint_of_sheet_named", "lock_crease", "remove_crease", "take_off_panels"]
 
 
 @dataclass(frozen=True)
@@ -51,30 +53,20 @@ class SheetEdit:
 
     @property
     def predicted(self) -> int:
-        """The change of mobility that the links and joints added or taken away make, all about centres."""
-        before, after = (one.sc for one in self._mechanisms)
+        """The change of mobility by the numbers of links and joints, all about centres."""
+        before, after = (mechanism.sc for mechanism in self._mechanisms)
         return relative_spherical_system(len(after) - len(before), len(after.joints) - len(before.joints))
 
     @property
     def counted(self) -> int:
         """The change of mobility as the difference of the two counts."""
-        before, after = (mobility_report(one.sc).mobility for one in self._mechanisms)
-        assert before is not None
-        assert after is not None
-        return after - before
+        before, after = (mechanism.sc for mechanism in self._mechanisms)
+        return counted_change(before, after)
 
     def to_json(self) -> dict[str, Any]:
         """Return the edit as plain data."""
-        after = self._mechanisms[1].sc
-        return {
-            "what": self.what,
-            "equation": self.equation,
-            "predicted": self.predicted,
-            "counted": self.counted,
-            "links": len(after),
-            "joints": len(after.joints),
-            "mobility": mobility_report(after).mobility,
-        }
+        keys = ("what", "equation", "predicted", "counted")
+        return {key: getattr(self, key) for key in keys} | counts_as_json(self._mechanisms[1].sc)
 
 
 def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:
@@ -165,7 +157,7 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
     InvariantError
         If there is no such joint.
     UnsolvableError
-        If the faces meet in other edges too, so that the face made of them would not be simple.
+        If the faces meet in other edges too, so that they would not make a simple face.
 
     Examples
     --------
@@ -210,7 +202,7 @@ def _pieces(sheet: Sheet, joint: int) -> tuple[Sheet, set[frozenset[int]]]:
 def _merged(
     first: Sequence[int], second: Sequence[int], between: Collection[frozenset[int]], joint: int
 ) -> tuple[int, ...]:
-    """Return the face made of two without the edges between them."""
+    """Return the face that two make without the edges between them."""
     sides = [side for side in sides_of_face(first) if frozenset(side) not in between]
     shared = next(side for side in sides_of_face(first) if frozenset(side) in between)
     if shared in sides_of_face(second):  # they are walked round in opposite senses
@@ -221,8 +213,101 @@ def _merged(
     while around and following[around[-1]] != around[0] and len(around) <= len(sides):
         around.append(following[around[-1]])
     if len(around) != len(sides) or len(following) != len(sides):
-        raise UnsolvableError(
-            f"crease {joint} cannot be removed: the faces beside it meet in other edges too, "
-            "and would surround them"
-        )
+        wrong = "the faces beside it meet in other edges too, and would surround them"
+        raise UnsolvableError(f"crease {joint} cannot be removed: {wrong}")
     return tuple(around)
+
+
+def take_off_panels(sheet: Sheet, links: Collection[int]) -> SheetEdit:
+    """Take panels off: all faces of some links, and the edges that are of no other face.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    links : collection of int
+        Numbers of the panels.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such panel.
+    UnsolvableError
+        If no panel would be left.
+
+    Examples
+    --------
+    >>> strip = Sheet(5, ((0, 2), (0, 3)), "VM", ((0, 1, 2), (0, 2, 3), (0, 3, 4)))
+    >>> edit = take_off_panels(strip, {2})
+    >>> edit.sheet.faces, edit.sheet.edges, edit.sheet.assignments
+    (((0, 1, 2), (0, 2, 3)), ((0, 2), (0, 3), (0, 1), (1, 2), (2, 3)), 'VBBBB')
+    """
+    panels = mechanism_of_sheet(sheet).panels
+    for link in links:
+        if not 0 <= link < len(panels):
+            expected = f"a number from 0 to {len(panels) - 1}"
+            raise InvariantError("panel", f"{link} is no panel of the sheet", expected)
+    gone = {face for link in links for face in panels[link]}
+    if len(gone) == len(sheet.faces):
+        raise UnsolvableError("no panel would be left")
+    whole = with_all_edges(sheet)
+    faces = tuple(face for number, face in enumerate(whole.faces) if number not in gone)
+    beside: dict[frozenset[int], int] = {}
+    for face in faces:
+        for side in sides_of_face(face):
+            beside[frozenset(side)] = beside.get(frozenset(side), 0) + 1
+    kept = [number for number, edge in enumerate(whole.edges) if frozenset(edge) in beside]
+    letters = (whole.assignments[number] if beside[frozenset(whole.edges[number])] > 1 else "B" for number in kept)
+    angles = whole.fold_angles
+    after = replace(
+        whole,
+        edges=tuple(whole.edges[number] for number in kept),
+        assignments="".join(letters),
+        faces=faces,
+        fold_angles=None if angles is None else tuple(angles[number] for number in kept),
+        frames=None,
+    )
+    return SheetEdit(f"take off panels {', '.join(map(str, sorted(links)))}", sheet, after)
+
+
+def joint_of_sheet_named(sheet: Sheet, name: str) -> int:
+    """Return the joint of a sheet: by the number of any of its edges, or as the one between two panels.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    name : str
+        The number of an edge, such as ``"3"``, or two panels, such as ``"0,1"``.
+
+    Returns
+    -------
+    int
+        Id of the joint: the number of its first edge.
+
+    Raises
+    ------
+    InvariantError
+        If there is none; the message has the coordinates of edges.
+
+    Examples
+    --------
+    >>> strip = Sheet(4, ((0, 2), (0, 1)), "VB", ((0, 1, 2), (0, 2, 3)))
+    >>> joint_of_sheet_named(strip, "0"), joint_of_sheet_named(strip, "0,1")
+    (0, 0)
+    >>> joint_of_sheet_named(strip, "1")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: edge 1 (B) from vertex 0 to vertex 1 is no joint; expected one of 0 [joint]
+    """
+    mechanism = mechanism_of_sheet(sheet)
+    if "," in name:
+        return int(str(joint_named(mechanism.sc, name)))
+    whole = with_all_edges(sheet)
+    number = int(name) if name.isascii() and name.isdigit() and len(name) < 10 else len(whole.edges)
+    if number >= len(whole.edges):
+        raise InvariantError("edge", f"{shown(name)} is no edge", known(mechanism.sc.joints, name))
+    ends = frozenset(whole.edges[number])
+    for joint, pieces in mechanism.pieces.items():
+        if ends in map(frozenset, pieces):
+            return joint
+    words = edge_in_words(whole, number)
+    raise InvariantError("joint", f"{words} is no joint", known(mechanism.sc.joints, name))

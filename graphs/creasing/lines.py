@@ -20,10 +20,7 @@ def creased_along(
 ) -> tuple[Sheet, tuple[int, int]]:
     """Return a sheet that lists all its edges with one more crease, and the vertices at its ends.
 
-    Raises
-    ------
-    InvariantError, UnsolvableError
-        As :func:`graphs.creasing.edits.crease_sheet`.
+    The errors are those of `graphs.creasing.edits.crease_sheet`.
     """
     before = sheet
     ends = []
@@ -32,43 +29,28 @@ def creased_along(
         ends.append(vertex)
     a, b = ends
     if a == b:
-        raise InvariantError(
-            "crease", f"the crease starts and ends at {vertex_in_words(sheet, a)}", "two vertices"
-        )
+        wrong = f"the crease starts and ends at {vertex_in_words(sheet, a)}"
+        raise InvariantError("crease", wrong, "two vertices")
     path = [a, b]
     if _is_flat(sheet):
         sheet, path = _crossing_edges(sheet, a, b)
     for p, q in pairwise(path):
         sheet = _creased_between(sheet, p, q, letter)
     if sheet == before:
-        raise UnsolvableError(
-            f"there are creases or borders all the way from {vertex_in_words(sheet, a)} "
-            f"to {vertex_in_words(sheet, b)}"
-        )
+        between = f"from {vertex_in_words(sheet, a)} to {vertex_in_words(sheet, b)}"
+        raise UnsolvableError(f"there are creases or borders all the way {between}")
     return sheet, (a, b)
 
 
 def vertex_in_words(sheet: Sheet, vertex: int) -> str:
-    """Return the number of a vertex with its coordinates.
-
-    Examples
-    --------
-    >>> vertex_in_words(Sheet(1, (), "", (), ((0.5, 1.0),)), 0)
-    'vertex 0 (0.5, 1)'
-    """
+    """Return the number of a vertex with its coordinates."""
     if sheet.coordinates is None:
         return f"vertex {vertex}"
     return f"vertex {vertex} ({', '.join(f'{x:g}' for x in sheet.coordinates[vertex])})"
 
 
 def edge_in_words(sheet: Sheet, edge: int) -> str:
-    """Return the number of an edge with its assignment and its ends.
-
-    Examples
-    --------
-    >>> edge_in_words(Sheet(2, ((0, 1),), "V", (), ((0.0, 0.0), (1.0, 0.5))), 0)
-    'edge 0 (V) from vertex 0 (0, 0) to vertex 1 (1, 0.5)'
-    """
+    """Return the number of an edge with its assignment and its ends."""
     a, b = (vertex_in_words(sheet, vertex) for vertex in sheet.edges[edge])
     return f"edge {edge} ({sheet.assignments[edge]}) from {a} to {b}"
 
@@ -78,13 +60,13 @@ def _is_flat(sheet: Sheet) -> bool:
 
 
 def _near(sheet: Sheet) -> float:
-    """Return how close points are that are one."""
+    """Return the distance within which points are equal."""
     assert sheet.coordinates is not None
     return COLLINEAR * float(np.ptp(np.array(sheet.coordinates, dtype=float), axis=0).max(initial=0.0))
 
 
 def _with_vertex(sheet: Sheet, place: int | Sequence[float]) -> tuple[Sheet, int]:
-    """Return the vertex at a place, and the sheet, with a vertex more where the place is inside an edge."""
+    """Return the sheet, with one more vertex if a place is inside an edge, and the vertex at the place."""
     if isinstance(place, int):
         if not 0 <= place < sheet.vertices:
             expected = f"a vertex from 0 to {sheet.vertices - 1}"
@@ -104,12 +86,9 @@ def _with_vertex(sheet: Sheet, place: int | Sequence[float]) -> tuple[Sheet, int
         return sheet, nearest
     edge, gap = _nearest_edge(sheet, point)
     if gap > _near(sheet):
-        raise InvariantError(
-            "crease",
-            f"the point ({', '.join(f'{x:g}' for x in point)}) is on no edge",
-            f"a vertex or a point of an edge; the nearest are {vertex_in_words(sheet, nearest)} and "
-            f"{edge_in_words(sheet, edge)}",
-        )
+        near = f"{vertex_in_words(sheet, nearest)} and {edge_in_words(sheet, edge)}"
+        wrong = f"the point ({', '.join(f'{x:g}' for x in point)}) is on no edge"
+        raise InvariantError("crease", wrong, f"a vertex or a point of an edge; the nearest are {near}")
     return _split_edge(sheet, edge, point)
 
 
@@ -206,7 +185,7 @@ def _creased_between(sheet: Sheet, p: int, q: int, letter: str) -> Sheet:
 
 
 def _holds_middle(sheet: Sheet, face: int, p: int, q: int) -> bool:
-    """Tell whether the middle of two vertices lies in a face of a flat sheet, by the sides that a ray crosses."""
+    """Return whether the middle of two vertices is in a face of a flat sheet, by the sides that a ray crosses."""
     assert sheet.coordinates is not None
     (px, py), (qx, qy) = (sheet.coordinates[v][:2] for v in (p, q))
     x, y = (px + qx) / 2, (py + qy) / 2

@@ -3,16 +3,14 @@ from graphs.edit.analogues import (
     planar_analogue as planar_analogue,
     spherical_analogue as spherical_analogue,
 )
-from graphs.edit.sc import (
+from graphs.edit.edits import (
     Edit as Edit,
     add_crease as add_crease,
     add_loop as add_loop,
     add_ride_along as add_ride_along,
-    lock_joint as lock_joint,
-)
-from graphs.edit.scd import (
     crease_link as crease_link,
     lock_hinge as lock_hinge,
+    lock_joint as lock_joint,
     make_explicit as make_explicit,
     make_implicit as make_implicit,
     ride_along as ride_along,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
@@ -27,7 +27,7 @@ def planar_analogue(sc: G) -> G:
     Returns
     -------
     SCGraph or SCDGraph
-        Of the kind given.
+        Of the same kind.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def spherical_analogue(sc: G) -> G:
     Returns
     -------
     SCGraph or SCDGraph
-        Of the kind given.
+        Of the same kind.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def generalised_form(sc: G) -> G:
     Returns
     -------
     SCGraph or SCDGraph
-        Of the kind given.
+        Of the same kind.
 
     Examples
     --------
@@ -104,7 +104,8 @@ def generalised_form(sc: G) -> G:
 
 def _recentred(sc: G, centre: Centre, at: str, kind: str) -> G:
     if sc.spatial_loops:
-        raise UnsolvableError(f"a mechanism with {sc.spatial_loops} spatial loop(s) has no {kind} analogue")
+        loops = numbered(sc.spatial_loops, "spatial loop")
+        raise UnsolvableError(f"a mechanism with {loops} has no {kind} analogue")
     changed = sc.with_loops(
         [Loop(x.joints, centre, x.name, at) for x in sc.loops],
         [Loop(x.joints, centre, x.name, at) for x in sc.closing],

@@ -1,4 +1,4 @@
-"""Links and joints named by people: by id, by number, as a pair of links; what is said of a name that is none."""
+"""Links and joints by the names that people type: an id, a number, a pair of links; near names for a wrong one."""
 
 from __future__ import annotations
 
@@ -15,39 +15,28 @@ _MOST = 12
 """Names that are listed in a message."""
 
 
-def known(names: Iterable[Hashable], asked: str) -> str:
-    """Return what is known in the place of a name: the names, how many, the nearest (of a number, none is).
-
-    >>> known(["crank", "rocker"], "cranck")
-    "one of 'crank', 'rocker'; the nearest is 'crank'"
-    """
+def known(names: Iterable[Hashable], unknown: str) -> str:
+    """List the known names for a message about an unknown one, and the nearest unless that is a number."""
     every = list(names)
     if not every:
         return "there is none"
     listed = ", ".join(map(shown, every[:_MOST])) + (f", ... ({len(every)})" if len(every) > _MOST else "")
-    near = [] if asked.isdigit() else get_close_matches(asked[:100], map(str, every), 1)
+    near = [] if unknown.isdigit() else get_close_matches(unknown[:100], map(str, every), 1)
     nearest = next((shown(name) for name in every if near and str(name) == near[0]), None)
     return f"one of {listed}" + (f"; the nearest is {nearest}" if nearest is not None else "")
 
 
 def link_named(sc: SCGraph, name: str) -> LinkId:
-    """Return the link whose name reads as given.
-
-    Raises `InvariantError` if there is none.
-    """
+    """Return the link whose name has this text; InvariantError if there is none."""
     return _named(list(sc.nodes), name, "link")
 
 
 def joint_named(sc: SCGraph, name: str) -> JointId:
-    """Return the joint whose id reads as given; else by its number in the list, else the one between two links.
+    """Return the joint whose id has this text; else by its number in the list, else the one between two links.
 
-    Numbers in the list are for joints that have names: where ids are numbers themselves, another number is none.
+    Numbers in the list are for joints that have names: if ids are numbers themselves, no other number is one.
     Names are ``3``, ``hinge``, or ``A,B``. Raises `InvariantError` if there is no such joint, or there are several
     between the links.
-
-    >>> two = SCGraph(["A", "B", "C"], {"a": ("A", "B"), "b": ("B", "C")})
-    >>> joint_named(two, "b"), joint_named(two, "1"), joint_named(two, "C, B")
-    ('b', 'b', 'b')
     """
     for joint in sc.joints:
         if str(joint) == name:
@@ -64,9 +53,8 @@ def joint_named(sc: SCGraph, name: str) -> JointId:
         return next(iter(between))
     pair = f"{shown(a)} and {shown(b)}"
     if between:
-        raise InvariantError(
-            "joint", f"{len(between)} joints join {pair}", f"one of {', '.join(map(shown, between))}"
-        )
+        joints = ", ".join(map(shown, between))
+        raise InvariantError("joint", f"{len(between)} joints join {pair}", f"one of {joints}")
     here = ", ".join(shown(other) for other in list(sc[a])[:_MOST])
     raise InvariantError("joint", f"no joint joins {pair}", f"a link beside {shown(a)}: {here or 'it has none'}")
 
@@ -75,4 +63,4 @@ def _named(names: Iterable[Hashable], name: str, kind: str) -> Hashable:
     every = list(names)
     if name not in map(str, every):
         raise InvariantError(kind, f"{shown(name)} is no {kind}", known(every, name))
-    return next(one for one in every if str(one) == name)
+    return next(candidate for candidate in every if str(candidate) == name)

@@ -1,28 +1,184 @@
-"""Files and folders written whole or not at all: made beside their place, moved there when they are complete.
+"""Files and folders written whole or not at all: beside their place first, moved there when they are complete.
 
-What is there already is not replaced unless that is asked for (``force``). Symbolic links and special files
-(pipes, devices) are never written to nor replaced. What a killed process leaves: `graphs.files.unfinished`.
+An existing file is replaced only with ``force``. Symbolic links and special files (pipes, devices) are never
+written to nor replaced.
+
+A process that is killed removes nothing. So whoever writes holds a lock of the system on the unfinished file,
+which ends with the process however that ends: what can be locked belongs to nobody. Names of unfinished files
+begin and end in a way that no other file has: ``.NAME.xxxxxxxx.unfinished``. Where the system or the file system
+has no such locks, no file is ever taken for left over.
 """
 
 from __future__ import annotations
 
+import hashlib
 import os
+import re
+import shutil
 import stat
+import subprocess
+import sys
+import tempfile
+import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from graphs.errors import OpenError, shown
-from graphs.files.unfinished import Unfinished, remove_folder
 
-__all__ = ["Beside", "FolderBeside", "check_new_folder", "check_place", "reason_of", "write_chunks", "write_text"]
+__all__ = [
+    "Beside",
+    "FolderBeside",
+    "Unfinished",
+    "check_new_folder",
+    "check_place",
+    "reason_of",
+    "remove_folder",
+    "remove_left",
+    "write_chunks",
+    "write_text",
+]
+
+if sys.platform != "win32":
+    import fcntl
+
+
+_ENDING = ".unfinished"
+_LONGEST = 32
+"""Letters of a name that are kept in that of an unfinished file; a digest stands for the rest."""
+
+_PATIENCE = 1.0
+"""Seconds in which whoever stops a run may wait for files to be removed."""
+
+_locks: set[int] = set()
+"""Descriptors that hold locks of this process."""
+
+_removers: list[subprocess.Popen[bytes]] = []
+"""Processes that remove folders, kept until this one ends."""
+
+
+class Unfinished:
+    """An empty file or folder beside a place, locked by this process until it is released.
+
+    `place` is where it is moved when it is finished. Raise OSError or ValueError if it cannot be made.
+    """
+
+    def __init__(self, place: Path, *, folder: bool = False) -> None:
+        self._lock: int | None = None
+        while True:
+            self.path = _new_beside(place, folder)
+            try:
+                self._lock = _locked(self.path)
+            except (BlockingIOError, FileNotFoundError):  # another run has just removed it as left over
+                continue
+            return
+
+    def release(self) -> None:
+        """Let others know that this process does not work on it any more."""
+        if self._lock is not None:
+            _unlock(self._lock)
+            self._lock = None
+
+
+def _new_beside(place: Path, folder: bool) -> Path:
+    if folder:
+        return Path(tempfile.mkdtemp(_ENDING, _beginning(place), place.parent))
+    handle, name = tempfile.mkstemp(_ENDING, _beginning(place), place.parent)
+    os.close(handle)
+    return Path(name)
+
+
+def _beginning(place: Path) -> str:
+    name = place.name
+    if len(name) > _LONGEST:
+        name = name[:_LONGEST] + "~" + hashlib.blake2b(os.fsencode(name), digest_size=4).hexdigest()
+    return f".{name}."
+
+
+def _locked(path: Path) -> int | None:
+    """Lock a file or folder; return the descriptor that holds the lock, None where there are no locks.
+
+    Raise BlockingIOError if a living process has it, FileNotFoundError if it is gone.
+    """
+    if sys.platform == "win32":
+        return None
+    kind = os.O_RDONLY | os.O_DIRECTORY if path.is_dir() else os.O_RDWR  # some locks need the right to write
+    descriptor = os.open(path, kind | os.O_NOFOLLOW | os.O_CLOEXEC)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        path.lstat()  # whoever had the lock may have removed it
+    except (BlockingIOError, FileNotFoundError):
+        os.close(descriptor)
+        raise
+    except OSError:
+        os.close(descriptor)
+        return None
+    _locks.add(descriptor)
+    return descriptor
+
+
+def _unlock(descriptor: int) -> None:
+    if descriptor in _locks:  # a forked process does not hold it
+        _locks.remove(descriptor)
+        os.close(descriptor)
+
+
+def _give_up_locks() -> None:
+    """Let a lock be that of the process which made it: workers of a run that was killed live a little longer."""
+    for descriptor in list(_locks):
+        _unlock(descriptor)
+
+
+if sys.platform != "win32":
+    os.register_at_fork(after_in_child=_give_up_locks)
+
+
+def remove_left(place: Path) -> None:
+    """Remove what processes that have ended left unfinished beside a place, and nothing else.
+
+    Unfinished files for other places stay, and so does what cannot be removed: it hinders nobody.
+    """
+    pattern = re.compile(re.escape(_beginning(place)) + "[a-z0-9_]{8}" + re.escape(_ENDING))
+    left: list[Path] = []
+    with suppress(OSError), os.scandir(place.parent) as entries:
+        left += [place.parent / entry.name for entry in entries if pattern.fullmatch(entry.name)]
+    for path in left:
+        if path.is_symlink() or not (path.is_file() or path.is_dir()):
+            continue
+        with suppress(OSError):
+            lock = _locked(path)
+            if lock is None:
+                continue
+            try:
+                remove_folder(path) if path.is_dir() else path.unlink()
+            finally:
+                _unlock(lock)
+
+
+def remove_folder(folder: Path) -> None:
+    """Remove a folder of files; after a second another process does the rest."""
+    deadline = time.monotonic() + _PATIENCE
+    with suppress(OSError), os.scandir(folder) as files:
+        for file in files:
+            if time.monotonic() > deadline:
+                _removers.append(_remover(folder))
+                return
+            Path(file.path).unlink()
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _remover(folder: Path) -> subprocess.Popen[bytes]:
+    """Return a process that removes a folder and does not end with this one, or with its terminal."""
+    program = "import shutil, sys; shutil.rmtree(sys.argv[1], ignore_errors=True)"
+    silent = subprocess.DEVNULL
+    command = [sys.executable, "-c", program, str(folder.resolve())]
+    return subprocess.Popen(command, stdin=silent, stdout=silent, stderr=silent, start_new_session=True)
 
 
 def check_place(path: Path, *, force: bool) -> None:
-    """Refuse a place where something must not be replaced; with ``force`` a plain file may be.
+    """Raise OpenError at the place of a file (without ``force``), a folder, a symbolic link or a special file.
 
-    Raise OpenError for a file (without ``force``), a folder, a symbolic link, wherever it leads, a special file,
-    or if there is no folder to write to.
+    Also if there is no folder to write to.
     """
     try:
         mode = path.lstat().st_mode
@@ -56,13 +212,13 @@ def _check_parent(path: Path) -> None:
 def write_text(path: Path, text: str, *, force: bool = False) -> None:
     """Write a file beside its place and move it there, so that it is never half written.
 
-    Raise OpenError if it cannot be written, or exists and ``force`` is not set; the file there is kept.
+    Raise OpenError if it cannot be written, or exists and ``force`` is not set; an existing file is kept.
     """
     write_chunks(path, [text], force=force)
 
 
 def write_chunks(path: Path, chunks: Iterable[str], *, force: bool = False) -> None:
-    """Write text that comes piece by piece, as :func:`write_text` writes one piece."""
+    """Write text piece by piece, as :func:`write_text` writes one piece."""
     beside = Beside(path, force=force)
     try:
         for chunk in chunks:
@@ -94,7 +250,7 @@ class FolderBeside:
         self._unfinished.release()
 
     def discard(self) -> None:
-        """Remove the folder, unless it was moved; what takes longer than a second is left to another process."""
+        """Remove the folder, unless it was moved; after a second another process does the rest."""
         remove_folder(self.path)
         self._unfinished.release()
 
@@ -102,8 +258,8 @@ class FolderBeside:
 class Beside:
     """A file that is written beside its place and moved there when it is complete.
 
-    A file at its place is kept until :meth:`commit`, and replaced only with `force`. Raise OpenError if the folder
-    cannot be written to, or something there must not be replaced.
+    A file at its place is kept until :meth:`commit`, and replaced only with `force`. The errors are those of
+    `check_place`, and OpenError if the folder cannot be written to.
     """
 
     def __init__(self, path: Path, *, force: bool = False) -> None:
@@ -123,16 +279,13 @@ class Beside:
             self.stream.write(data)
 
     def closed(self) -> Path:
-        """Return where the file is before it is moved, written out so that it can be read."""
+        """Close the file and return its present path, where it can be read before it is moved."""
         with self._named():
             self.stream.close()
         return self._beside
 
     def commit(self) -> None:
-        """Move the file to its place.
-
-        Raise OpenError if that fails, or something is there now that must not be replaced.
-        """
+        """Move the file to its place; OpenError if that fails, or would replace what must not be replaced."""
         with self._named():
             self.stream.close()
             check_place(self._path, force=self._force)
@@ -142,7 +295,7 @@ class Beside:
 
     def discard(self) -> None:
         """Remove the file, unless it was committed."""
-        with suppress(OSError):  # closing writes what is left, to a disk that may be full
+        with suppress(OSError):  # closing writes the rest, to a disk that may be full
             self.stream.close()
         self._beside.unlink(missing_ok=True)
         self._unfinished.release()
@@ -156,7 +309,7 @@ class Beside:
 
 
 def reason_of(error: OSError | ValueError) -> str:
-    """Return what the system says of an error, without its number and the file."""
+    """Return the words of the system for an error, without its number and the file."""
     return error.strerror or "" if isinstance(error, OSError) else str(error)
 
 

@@ -1,14 +1,24 @@
-"""Bare link-joint graphs: graph6 and sparse6 (nauty), and GraphML; edge lists: :mod:`graphs.files.edge_lists`.
+"""Bare link-joint graphs: graph6 and sparse6 (nauty), GraphML, and edge lists.
 
-GraphML may say the type of each joint (``type`` of its edge), and then is a linkage with joints of all kinds.
+GraphML may have the type of each joint (``type`` of its edge), and then is a linkage with joints of all kinds.
 Other such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
 centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, loops and centres are lost.
+
+Edge lists are lines ``link link [joint]``, those that networkx writes, and tables of edges (CSV, pandas).
+networkx's ``write_edgelist`` ends each line with a dictionary of attributes of the edge; pandas writes a line
+of column names, and often a column of row numbers before them. Neither names joints: they are numbered.
+
+GraphML and edge lists hold names as text: an integer is written as its digits, and no two names of a graph are the
+same text. Read, names are integers if all of them are written as integers are.
 """
 
 from __future__ import annotations
 
+import csv
 import re
-from collections.abc import Iterator, Mapping
+import string
+from collections import Counter
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
 from io import BytesIO
 from pathlib import Path
 from types import MappingProxyType
@@ -17,23 +27,40 @@ from xml.etree.ElementTree import ParseError
 import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import Checker
-from graphs.files.names_as_text import names_from_text
-from graphs.files.text import read_text
+from graphs.errors import FileError, UnsolvableError, numbered, shown
+from graphs.files.text import Checker, read_text
 from graphs.ids import JointId
-from graphs.joints.kinds import JointKind, kind_named
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind, kind_named
 from graphs.mechanism.sc import SCGraph
 
 __all__ = [
+    "are_kept",
     "as_linkage",
     "as_sc",
+    "edge_list_text",
     "graph6_text",
     "graphml_text",
+    "names_from_text",
+    "read_edge_list",
     "read_graph6",
     "read_graphml",
 ]
+
+_INTEGER = re.compile(r"0|-?[1-9]\d{0,17}")
+"""An integer as Python writes it: ``01`` is another name than ``1``."""
+
+
+def names_from_text(words: Iterable[str]) -> dict[str, str | int]:
+    """Return word to name: integers if all are, else the words."""
+    every = list(dict.fromkeys(words))
+    whole = all(map(_INTEGER.fullmatch, every))
+    return {word: int(word) if whole else word for word in every}
+
+
+def are_kept(names: Collection[Hashable]) -> bool:
+    """Say whether names are the same when they are written as text and read again."""
+    return list(names_from_text(map(str, names)).values()) == list(names)
+
 
 _GRAPH6_OFFSET = 63
 _LARGEST_SHORT = 62
@@ -106,13 +133,13 @@ def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
     joints = names_from_text(keys) if all(isinstance(key, str) for key in keys) else {key: key for key in keys}
     named = nx.MultiGraph()
     named.add_nodes_from(links.values())
-    for a, b, key, told in graph.edges(keys=True, data=True):
-        named.add_edge(links[a], links[b], joints[key], **({"type": told["type"]} if "type" in told else {}))
+    for a, b, key, kind in graph.edges(keys=True, data="type"):
+        named.add_edge(links[a], links[b], joints[key], **({} if kind is None else {"type": kind}))
     return named
 
 
 def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyType({})) -> str:
-    """Return the GraphML text of the link-joint graph, with the types of joints that are given.
+    """Return the GraphML text of the link-joint graph, with the types of the joints in `kinds`.
 
     Raise UnsolvableError if a name has a character that XML does not allow.
     """
@@ -131,16 +158,16 @@ def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
 
     The errors are those of `as_sc`.
     """
-    told = {key: kind for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
-    if not told:
+    words = {key: str(kind) for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
+    if not words:
         return as_sc(graph, path)
     joints = {key: (a, b) for a, b, key in graph.edges(keys=True)}
 
-    def made() -> JointedLinkage:
-        kinds = {joint: kind_named(str(kind)) for joint, kind in told.items()}
+    def linkage() -> JointedLinkage:
+        kinds = {joint: kind_named(word) for joint, word in words.items()}
         return JointedLinkage(SCGraph(graph.nodes, joints), kinds)
 
-    return Checker(path).build(made, lambda part: f"joint {shown(part[1])}")
+    return Checker(path).build(linkage, lambda part: f"joint {shown(part[1])}")
 
 
 def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:
@@ -148,3 +175,114 @@ def as_sc(graph: nx.Graph, path: Path, place: str = "") -> SCGraph:
     for link in nx.nodes_with_selfloops(graph):
         raise FileError(path, place, f"a joint joins link {shown(link)} to itself", "two links")
     return Checker(path).build(lambda: sc_from_link_joint_graph(graph), lambda _: place, place)
+
+
+_NAMES_OF_ENDS = (("source", "target"), ("from", "to"))
+"""Names of the two columns of a table of edges that hold its ends, in small letters."""
+_NAMES_OF_JOINTS = ("joint", "joint id")
+_EXPECTED = "two links, and perhaps a joint id"
+_BEGINS_ATTRIBUTES = re.compile(r"[\s,;]\{")
+_PARTS_NAMES = string.whitespace + ",;"
+_WHOLE_NUMBER = re.compile(r"-?\d{1,18}")
+
+Row = tuple[int, str]
+"""The number of a line, and its text."""
+Words = list[str]
+"""Two links, and perhaps a joint."""
+
+
+def read_edge_list(path: Path) -> nx.MultiGraph:
+    """Read lines ``link link [joint id]``; ``#`` starts a comment, blanks, commas or semicolons part the names.
+
+    A dictionary at the end of a line (networkx) is left alone. If the first line names columns for the ends of
+    edges (source and target, from and to), the file is a table, of which these columns are read, and one called
+    joint if there is one. Names of links that are all integers become integers, and so do those of joints. A
+    FileError names the line.
+    """
+    lines = [
+        (number, line)
+        for number, line in enumerate(read_text(path).splitlines(), start=1)
+        if line.split("#", 1)[0].strip()
+    ]
+    if not lines:
+        raise FileError(path, "", "no joints", "lines with two links each")
+    parted_by = next((sign for sign in ";,\t" if sign in lines[0][1]), " ")
+    columns = [name.strip(" \"'\r").lower() for name in lines[0][1].strip().split(parted_by)]
+    ends = next((ends for ends in _NAMES_OF_ENDS if set(ends) <= set(columns)), None)
+    if ends is None:
+        return _graph_of(_rows_of_lines(lines, path), path)
+    if len(lines) == 1:
+        raise FileError(path, "", "no joints", "lines below the names of the columns")
+    names = (*ends, *(name for name in _NAMES_OF_JOINTS if name in columns))
+    numbers = [columns.index(name) for name in names]
+    return _graph_of(_rows_of_table(lines[1:], parted_by, len(columns), numbers, path), path)
+
+
+def _rows_of_lines(lines: list[Row], path: Path) -> list[Words]:
+    """Return the words of lines ``link link [joint]``, comments and dictionaries taken off."""
+    rows = []
+    for number, line in lines:
+        words = re.split(r"[\s,;]+", _names_of_line(line).strip())
+        if len(words) not in (2, 3):
+            raise FileError(path, f"line {number}", numbered(len(words), "word"), _EXPECTED)
+        rows.append(words)
+    (number, first), names = lines[0], rows[0][:2]
+    others = [word for words in rows[1:] for word in words[:2]]
+    names_are_text = not any(map(_WHOLE_NUMBER.fullmatch, names))
+    if "," in first and others and names_are_text and all(map(_WHOLE_NUMBER.fullmatch, others)):
+        wrong = f"columns called {shown(', '.join(names))}"
+        raise FileError(path, f"line {number}", wrong, "source and target, or no names of columns")
+    return rows
+
+
+def _names_of_line(line: str) -> str:
+    """Return a line without the dictionary at its end, which may hold a ``#``, or without its comment."""
+    begins = _BEGINS_ATTRIBUTES.search(line)
+    if begins and line.rstrip().endswith("}") and "#" not in line[: begins.start()]:
+        return line[: begins.start()].rstrip(_PARTS_NAMES)
+    return line.split("#", 1)[0]
+
+
+def _rows_of_table(lines: list[Row], parted_by: str, width: int, columns: list[int], path: Path) -> list[Words]:
+    """Return the cells of some columns of a table, by their numbers."""
+    rows = []
+    for number, text in lines:
+        try:
+            row = next(csv.reader([text.strip()], delimiter=parted_by, strict=True))
+        except csv.Error as error:
+            raise FileError(path, f"line {number}", f"no cells: {error}", "cells, quotes closed") from None
+        cells = [cell.strip() for cell in row]
+        if len(cells) != width:
+            raise FileError(path, f"line {number}", numbered(len(cells), "cell"), f"{width}, one for each column")
+        words = [cells[column] for column in columns]
+        if not all(words):
+            raise FileError(path, f"line {number}", "an empty cell", "the name of a link")
+        rows.append(words)
+    return rows
+
+
+def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:
+    """Return the graph of rows of two links, and perhaps a joint."""
+    links = names_from_text(word for words in rows for word in words[:2])
+    ids = [words[2] if len(words) == 3 else str(i) for i, words in enumerate(rows)]
+    again, times = Counter(ids).most_common(1)[0]
+    if times > 1:
+        raise FileError(path, "", f"the joint id {shown(again)} occurs twice", "distinct ids")
+    joints = names_from_text(ids)
+    graph = nx.MultiGraph()
+    for words, joint in zip(rows, ids, strict=True):
+        graph.add_edge(links[words[0]], links[words[1]], key=joints[joint])
+    return graph
+
+
+def edge_list_text(sc: SCGraph) -> str:
+    """Return one line ``link link joint`` for each joint.
+
+    Raise UnsolvableError if a name has blanks, commas or ``#``, or a link has no joint.
+    """
+    for name in (*sc.nodes, *sc.joints):
+        if not re.fullmatch(r"[^\s,;#]+", str(name)):
+            raise UnsolvableError(f"an edge list cannot hold the name {shown(name)}")
+    if lonely := [link for link in sc.nodes if not sc.degree(link)]:
+        raise UnsolvableError(f"an edge list cannot hold link {shown(lonely[0])}, which has no joint")
+    return "".join(f"{a} {b} {joint}\n" for joint, (a, b) in sc.joints.items())

@@ -1,30 +1,34 @@
-"""One path from a file to a mechanism and back: formats by extension.
+"""One path from a file to a mechanism and back: formats by extension, ids, lines of files of many.
 
 To add a format, write a reader or a writer and enter it in ``READERS`` or ``WRITERS`` (docs/architecture.md).
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TypeAlias
 
+from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, OpenError, UnsolvableError
+from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, numbered
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
     as_sc,
+    edge_list_text,
     graph6_text,
     graphml_text,
+    read_edge_list,
     read_graph6,
     read_graphml,
 )
-from graphs.files.edge_lists import edge_list_text, read_edge_list
-from graphs.files.ids import is_id, line_named, mechanism_of_id
-from graphs.files.kept_type import change_of_type
 from graphs.files.losses import (
+    Lost,
+    change_of_type,
     lost_as_bare_graph,
     lost_as_cp,
     lost_as_dxf,
@@ -34,18 +38,69 @@ from graphs.files.losses import (
     lost_as_svg,
     lost_as_typed_graph,
 )
-from graphs.files.native.documents import dumps, from_document
+from graphs.files.native import dumps, from_document
 from graphs.files.patterns.fold import fold_text, read_fold
-from graphs.files.patterns.legend import UNSTATED, Legend, Told
+from graphs.files.patterns.legend import UNSTATED, Legend, Looks
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
 from graphs.given import check_given
+from graphs.identity.chains import chain_from_id
+from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.plane import flattened
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_linkage", "write"]
+__all__ = [
+    "READERS",
+    "WRITERS",
+    "Entry",
+    "is_id",
+    "line_named",
+    "mechanism_of_id",
+    "read",
+    "read_all",
+    "read_linkage",
+    "write",
+]
+
+_IDS = ("k1:", "m1:")
+
+
+def is_id(path: str | Path) -> bool:
+    """Say whether the name of a file is the id of a mechanism."""
+    return str(path).startswith(_IDS) and not isinstance(path, Path)
+
+
+def mechanism_of_id(code: str) -> SCGraph:
+    """Return the mechanism of an id; a chain gets finite centres, as a bare link-joint graph does.
+
+    Raise FileError if it is not an id.
+    """
+    try:
+        if code.startswith("k1:"):
+            return sc_from_link_joint_graph(chain_from_id(code))
+        return mechanism_from_map_id(code)
+    except InvariantError as error:
+        raise FileError(code, "", error.offender, error.expected) from None
+
+
+_LINE = re.compile(r"(.+\.[gs]6):([1-9][0-9]{0,17})", re.IGNORECASE | re.DOTALL)
+
+
+def line_named(path: str | Path) -> tuple[Path, str | None]:
+    """Return the file of a line of a graph6 file, ``chains.g6:7``, and the line; None for a whole file.
+
+    An existing file with the whole name takes precedence.
+    """
+    parts = _LINE.fullmatch(str(path))
+    if parts is None or Path(path).exists():
+        return Path(path), None
+    return Path(parts[1]), parts[2]
+
+
+Reader: TypeAlias = Callable[[Path], Iterator[tuple[str, Mechanism]]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +124,8 @@ class Entry:
     mechanism: Mechanism
 
 
-def read_all(path: str | Path, *, colours: Told | None = None, layers: Told | None = None) -> Iterator[Entry]:
-    """Yield every mechanism of a file; most files hold one, graph6 files one a line, an id is one.
+def read_all(path: str | Path, *, colours: Looks | None = None, layers: Looks | None = None) -> Iterator[Entry]:
+    """Yield every mechanism of a file: one of most files, one per line of a graph6 file, or that of an id.
 
     Parameters
     ----------
@@ -89,7 +144,7 @@ def read_all(path: str | Path, *, colours: Told | None = None, layers: Told | No
     FileError
         If the file cannot be read.
     InvariantError
-        If an id is none, or a colour or an assignment.
+        If an id, a colour or an assignment is not valid.
 
     Examples
     --------
@@ -108,15 +163,15 @@ def read_all(path: str | Path, *, colours: Told | None = None, layers: Told | No
         yield Entry(str(path), mechanism_of_id(str(path)))
         return
     path, line = line_named(path)
-    found = list(_reader(path, Legend.of(colours, layers))(path))
-    for place, mechanism in found:
+    mechanisms = list(_reader(path, Legend.of(colours, layers))(path))
+    for place, mechanism in mechanisms:
         if line in (None, place):
-            yield Entry(f"{path}:{place}" if len(found) > 1 else str(path), mechanism)
-    if line is not None and all(line != place for place, _ in found):
-        raise FileError(path, f"line {line}", "no mechanism", f"one of {len(found)} lines")
+            yield Entry(f"{path}:{place}" if len(mechanisms) > 1 else str(path), mechanism)
+    if line is not None and all(line != place for place, _ in mechanisms):
+        raise FileError(path, f"line {line}", "no mechanism", f"one of {numbered(len(mechanisms), 'line')}")
 
 
-def read(path: str | Path, *, colours: Told | None = None, layers: Told | None = None) -> Mechanism:
+def read(path: str | Path, *, colours: Looks | None = None, layers: Looks | None = None) -> Mechanism:
     """Return the one mechanism of a file, or of an id.
 
     Parameters
@@ -125,7 +180,7 @@ def read(path: str | Path, *, colours: Told | None = None, layers: Told | None =
         A file whose extension names its format, or an id, ``k1:...`` or ``m1:...`` (a file so named is written
         ``./k1:...``), or a line of a graph6 file, ``chains.g6:7``.
     colours : mapping of str to str or sequence of str, optional
-        Of a drawing (SVG, DXF): assignment (M, V, B, C, F, U, J, or ``-`` for lines to leave out) to the look of
+        For a drawing (SVG, DXF): assignment (M, V, B, C, F, U, J, or ``-`` for lines to leave out) to the look of
         its lines: a colour of CSS or the number of one in DXF, a kind of dash (``dashed``, ``dash-dot``,
         ``dotted``, ``solid``), or both, ``"dashed #000000"``. Other lines are read as they are by themselves.
     layers : mapping of str to str or sequence of str, optional
@@ -135,9 +190,9 @@ def read(path: str | Path, *, colours: Told | None = None, layers: Told | None =
     ------
     FileError
         If the file cannot be read, or holds several mechanisms; if more than half of the lines of a drawing have
-        strokes that are not understood; if colours or layers are stated of a file that is no drawing.
+        strokes that are not understood; if colours or layers are stated for a file that is no drawing.
     InvariantError
-        If a colour or an assignment is none.
+        If a colour or an assignment is not valid.
 
     Examples
     --------
@@ -148,15 +203,15 @@ def read(path: str | Path, *, colours: Told | None = None, layers: Told | None =
     """
     entries = list(read_all(path, colours=colours, layers=layers))
     if len(entries) != 1:
-        named = f"one; name it by its line, {entries[0].label}" if entries else "one"
-        raise FileError(path, "", f"{len(entries)} mechanisms", named)
+        expected = f"one; try its line, {entries[0].label}" if entries else "one"
+        raise FileError(path, "", f"{len(entries)} mechanisms", expected)
     return entries[0].mechanism
 
 
 def read_linkage(path: str | Path) -> SurfaceLinkage:
     """Return the linkage of a file of a linkage on a cone or a cylinder.
 
-    Raise FileError if the file cannot be read, or has another mechanism, which has no angles.
+    Raise FileError if the file cannot be read, or has another mechanism.
     """
     linkage = read(path)
     if not isinstance(linkage, SurfaceLinkage):
@@ -183,22 +238,22 @@ def write(
         A sheet written as ``.json`` becomes the SC graph of its mechanism.
     path : str or Path
     lossy : bool, optional
-        Write also where the file is of another type: links, joints or centre classes do not correspond. What could
-        not be read again is never written.
+        Write even if the file reads back as another type: links, joints or centre classes do not correspond.
+        A file that could not be read again is never written.
     force : bool, optional
-        Replace a file that is there. Symbolic links and special files are never replaced.
+        Replace an existing file, but never a symbolic link or special file.
     made_of : Mechanism, optional
         What ``mechanism`` was made of, whose type must be kept; by default itself.
 
     Returns
     -------
     tuple of str
-        What the format could not hold, by kind and number.
+        What the format cannot hold, by kind and number.
 
     Raises
     ------
     FileError
-        If the extension is not known, the file cannot be written, or is there already.
+        If the extension is not known, the file cannot be written, or exists already.
     UnsolvableError
         If the format cannot hold the mechanism, or not without another type.
 
@@ -233,12 +288,12 @@ def write(
 
 
 def _holds_all(suffix: str, mechanism: Mechanism) -> bool:
-    """Tell whether a format is the one made for such a mechanism; of a sheet, a native file is its mechanism."""
+    """Return whether a format is the one made for a mechanism; the native file of a sheet is its mechanism."""
     return suffix == ".json" or (suffix == ".fold" and isinstance(mechanism, Sheet))
 
 
 def _read_back(written: Path, suffix: str, lost: tuple[str, ...]) -> Mechanism:
-    """Return what was written as it is read; what nobody could read is refused, however much may be lost."""
+    """Return the mechanism of a written file; refuse one that cannot be read, however much may be lost."""
     try:
         ((_, again),) = READERS[suffix](written)
     except FileError as error:
@@ -251,22 +306,20 @@ def _because(lost: tuple[str, ...]) -> str:
 
 
 def _check_type(again: Mechanism, suffix: str, mechanism: Mechanism, lost: tuple[str, ...]) -> None:
-    """Refuse what is read back as another type."""
+    """Refuse a mechanism of another type than the written one."""
     change = change_of_type(mechanism, again)
     if change is not None:
-        raise UnsolvableError(
-            f"a {suffix} file would be of another type: {change}{_because(lost)}; write it all the same with "
-            "--lossy (in Python lossy=True)"
-        )
+        wrong = f"a {suffix} file would be of another type: {change}{_because(lost)}"
+        raise UnsolvableError(f"{wrong}; try --lossy (in Python lossy=True)")
 
 
-def _reader(path: Path, legend: Legend) -> Callable[[Path], Iterator[tuple[str, Mechanism]]]:
+def _reader(path: Path, legend: Legend) -> Reader:
     suffix = path.suffix.lower()
     reader = READERS.get(suffix)
     if reader is not None and legend != UNSTATED:
         if suffix not in _DRAWINGS:
-            raise FileError(path, "", "colours or layers are stated, and it has none", "an .svg or .dxf file")
-        return partial(_DRAWINGS[suffix], legend=legend)
+            raise FileError(path, "", "the file has no colours or layers", "an .svg or .dxf file")
+        return _one_of(partial(_DRAWINGS[suffix], legend=legend))
     if reader is None and path.is_dir():
         raise OpenError(path, "", "a directory", "a file")
     if reader is None and not path.exists():
@@ -280,12 +333,28 @@ def _unknown(path: Path) -> str:
     return f"files ending in {path.suffix!r} are not known" if path.suffix else "the name has no extension"
 
 
-def _read_json(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", from_document(load_json(path), path)
+def _read_cp(path: Path) -> Mechanism:
+    from graphs.files.patterns.lines import sheet_from_cp  # tracing loads shapely, which takes time
+
+    return sheet_from_cp(path)
 
 
-def _read_fold(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", read_fold(path)
+def _read_opx(path: Path) -> Mechanism:
+    from graphs.files.patterns.lines import sheet_from_opx
+
+    return sheet_from_opx(path)
+
+
+def _read_dxf(path: Path, legend: Legend = UNSTATED) -> Mechanism:
+    from graphs.files.patterns.dxf import sheet_from_dxf
+
+    return sheet_from_dxf(path, legend)
+
+
+def _read_svg(path: Path, legend: Legend = UNSTATED) -> Mechanism:
+    from graphs.files.patterns.svg import sheet_from_svg
+
+    return sheet_from_svg(path, legend)
 
 
 def _read_graph6(path: Path) -> Iterator[tuple[str, Mechanism]]:
@@ -293,111 +362,79 @@ def _read_graph6(path: Path) -> Iterator[tuple[str, Mechanism]]:
         yield str(line), as_sc(graph, path, f"line {line}")
 
 
-def _read_graphml(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", as_linkage(read_graphml(path), path)
+def _one_of(read_one: Callable[[Path], Mechanism]) -> Reader:
+    """Return the reader of files that hold one mechanism."""
+    return lambda path: iter([("", read_one(path))])
 
 
-def _read_edges(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", as_sc(read_edge_list(path), path)
+_DRAWINGS: dict[str, Callable[..., Mechanism]] = {".svg": _read_svg, ".dxf": _read_dxf}
+"""Readers that take a legend too: the look of a line says what it is."""
 
-
-def _read_cp(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.cp import sheet_from_cp  # tracing loads shapely
-
-    yield "", sheet_from_cp(path)
-
-
-def _read_opx(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.opx import sheet_from_opx
-
-    yield "", sheet_from_opx(path)
-
-
-def _read_dxf(path: Path, legend: Legend = UNSTATED) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.dxf.sheets import sheet_from_dxf
-
-    yield "", sheet_from_dxf(path, legend)
-
-
-def _read_svg(path: Path, legend: Legend = UNSTATED) -> Iterator[tuple[str, Mechanism]]:
-    from graphs.files.patterns.svg import sheet_from_svg
-
-    yield "", sheet_from_svg(path, legend)
-
-
-def _read_obj(path: Path) -> Iterator[tuple[str, Mechanism]]:
-    yield "", sheet_from_obj(path)
-
-
-READERS: dict[str, Callable[[Path], Iterator[tuple[str, Mechanism]]]] = {
-    ".json": _read_json,
-    ".fold": _read_fold,
-    ".svg": _read_svg,
-    ".cp": _read_cp,
-    ".opx": _read_opx,
-    ".dxf": _read_dxf,
-    ".obj": _read_obj,
+READERS: dict[str, Reader] = {
+    ".json": _one_of(lambda path: from_document(load_json(path), path)),
+    ".fold": _one_of(read_fold),
+    ".svg": _one_of(_read_svg),
+    ".cp": _one_of(_read_cp),
+    ".opx": _one_of(_read_opx),
+    ".dxf": _one_of(_read_dxf),
+    ".obj": _one_of(sheet_from_obj),
     ".g6": _read_graph6,
     ".s6": _read_graph6,
-    ".graphml": _read_graphml,
-    ".edges": _read_edges,
-    ".csv": _read_edges,
-    ".txt": _read_edges,
+    ".graphml": _one_of(lambda path: as_linkage(read_graphml(path), path)),
+    **dict.fromkeys((".edges", ".csv", ".txt"), _one_of(lambda path: as_sc(read_edge_list(path), path))),
 }
 """Extension to the reader: path to (place in the file, mechanism)."""
 
-_DRAWINGS: dict[str, Callable[..., Iterator[tuple[str, Mechanism]]]] = {".svg": _read_svg, ".dxf": _read_dxf}
-"""Readers that take a legend too: what lines are is told by how they look."""
 
-
-def _write_json(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+def _write_json(mechanism: Mechanism) -> tuple[str, Lost]:
     held = to_sc(mechanism) if isinstance(mechanism, Sheet) else mechanism
     return dumps(held), lost_as_json(mechanism)
 
 
-def _write_fold(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+def _write_fold(mechanism: Mechanism) -> tuple[str, Lost]:
     return fold_text(to_sheet(mechanism)), lost_as_fold(mechanism)
 
 
-def _write_cp(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    from graphs.files.patterns.cp import cp_text
+def _write_cp(mechanism: Mechanism) -> tuple[str, Lost]:
+    from graphs.files.patterns.lines import cp_text
 
-    sheet = to_sheet(mechanism)
-    return cp_text(sheet), (*lost_as_cp(mechanism, sheet), *_how_it_stood(sheet))
-
-
-def _write_dxf(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
-    from graphs.files.patterns.dxf.sheets import dxf_text
-
-    sheet = to_sheet(mechanism)
-    return dxf_text(sheet), (*lost_as_dxf(mechanism, sheet), *_how_it_stood(sheet))
+    return _drawn(mechanism, cp_text, lost_as_cp)
 
 
-def _write_svg(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+def _write_dxf(mechanism: Mechanism) -> tuple[str, Lost]:
+    from graphs.files.patterns.dxf import dxf_text
+
+    return _drawn(mechanism, dxf_text, lost_as_dxf)
+
+
+def _write_svg(mechanism: Mechanism) -> tuple[str, Lost]:
     from graphs.files.patterns.svg import svg_text
 
+    return _drawn(mechanism, svg_text, lost_as_svg)
+
+
+def _drawn(
+    mechanism: Mechanism, text_of: Callable[[Sheet], str], lost_as: Callable[[Mechanism, Sheet], Lost]
+) -> tuple[str, Lost]:
+    """Return the text of a drawing, and what it loses; also the pose of a flat sheet turned to be drawn."""
     sheet = to_sheet(mechanism)
-    return svg_text(sheet), (*lost_as_svg(mechanism, sheet), *_how_it_stood(sheet))
+    text, flat = text_of(sheet), flattened(sheet)
+    pose = (f"the pose in space: {flat.turned}",) if flat is not None and flat.turned else ()
+    return text, (*lost_as(mechanism, sheet), *pose)
 
 
-def _how_it_stood(sheet: Sheet) -> tuple[str, ...]:
-    """Say how a flat sheet stood in space, where it had to be turned to be drawn."""
-    flat = flattened(sheet)
-    return (f"how it stood in space: {flat.turned}",) if flat is not None and flat.turned else ()
-
-
-def _write_obj(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+def _write_obj(mechanism: Mechanism) -> tuple[str, Lost]:
     sheet = to_sheet(mechanism)
     return obj_text(sheet), lost_as_obj(mechanism, sheet)
 
 
-def _write_graphml(mechanism: Mechanism) -> tuple[str, tuple[str, ...]]:
+def _write_graphml(mechanism: Mechanism) -> tuple[str, Lost]:
     if isinstance(mechanism, JointedLinkage):
         return graphml_text(mechanism.chain, mechanism.kinds), lost_as_typed_graph(mechanism)
     return graphml_text(to_sc(mechanism)), lost_as_bare_graph(mechanism, names=True)
 
 
-WRITERS: dict[str, Callable[[Mechanism], tuple[str, tuple[str, ...]]]] = {
+WRITERS: dict[str, Callable[[Mechanism], tuple[str, Lost]]] = {
     ".json": _write_json,
     ".fold": _write_fold,
     ".svg": _write_svg,

@@ -1,14 +1,19 @@
-"""What a format cannot hold of a mechanism, told by kind and number."""
+"""What a file cannot hold of a mechanism: by kind and number, and whether it is of another type when read back."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable
+from dataclasses import dataclass
 from math import isclose
+from typing import Any
 
 from graphs.convert.table import Mechanism, to_sc
-from graphs.files.names_as_text import are_kept
-from graphs.files.native.names import is_count
-from graphs.joints.linkage import JointedLinkage
+from graphs.count.report import mobility_report
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.files.bare import are_kept
+from graphs.files.native import is_count
+from graphs.identity.classes import class_code
+from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -19,6 +24,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.plain_text import plain
 
 __all__ = [
+    "change_of_type",
     "lost_as_bare_graph",
     "lost_as_cp",
     "lost_as_dxf",
@@ -36,50 +42,32 @@ _KEYS = 12
 
 
 def lost_as_json(mechanism: Mechanism) -> Lost:
-    """Return what a native file does not hold; for a sheet, all but its mechanism.
-
-    >>> lost_as_json(Sheet(3, ((0, 1),), "B", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)), "Kite"))
-    ('the title', 'coordinates of 3 vertices', 'the shape of 1 face')
-    """
+    """Return what a native file does not hold; for a sheet, all but its mechanism."""
     if not isinstance(mechanism, Sheet):
         return ()
     return (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
 
 
 def lost_as_fold(mechanism: Mechanism) -> Lost:
-    """Return what a FOLD file does not hold; for a sheet read from one, its other frames and keys.
-
-    >>> lost_as_fold(SCGraph(["A", "B"], [("A", "B")]))
-    ('names of 2 links',)
-    """
+    """Return what a FOLD file does not hold; for a sheet read from one, its other frames and keys."""
     return _of_its_file(mechanism) if isinstance(mechanism, Sheet) else _lost_as_sheet(mechanism)
 
 
 def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the ``.cp`` file of the sheet of a mechanism does not hold.
-
-    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, 90.0))
-    >>> lost_as_cp(sheet, sheet)
-    ('1 cut: as borders', '1 unassigned crease: as valleys', '1 fold angle', 'which lines bound which of 1 face')
-    """
+    """Return what the ``.cp`` file of the sheet of a mechanism does not hold."""
     letters = with_all_edges(sheet).assignments
-    told = [
+    lost = [
         *_letters(letters, "C", "cut", "as borders"),
         *_letters(letters, "J", "join", "as auxiliary lines"),
         *_letters(letters, "U", "unassigned crease", "as valleys"),
         *_angles(sheet),
         *_title(sheet),
     ]
-    return (*lost_as_fold(mechanism), *told, *_precision(sheet), _bounds(sheet))
+    return (*lost_as_fold(mechanism), *lost, *_precision(sheet), _bounds(sheet))
 
 
 def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the DXF file of the sheet of a mechanism does not hold.
-
-    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
-    >>> lost_as_dxf(sheet, sheet)
-    ('1 fold angle', 'which lines bound which of 1 face')
-    """
+    """Return what the DXF file of the sheet of a mechanism does not hold."""
     return (*lost_as_fold(mechanism), *_angles(sheet), *_title(sheet), *_precision(sheet), _bounds(sheet))
 
 
@@ -87,19 +75,14 @@ def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
     """Return what the SVG file of the sheet of a mechanism does not hold.
 
     Opacity holds fold angles up to 180 degrees, of mountains below zero and of valleys above it.
-
-    >>> sheet = Sheet(3, ((0, 1), (1, 2)), "JM", ((0, 1, 2),), fold_angles=(None, 90.0))
-    >>> lost_as_svg(sheet, sheet)
-    ('1 join: as flat edges', '1 fold angle', 'which lines bound which of 1 face')
     """
     letters = with_all_edges(sheet).assignments
     wrong = sum(
-        angle is not None and _is_told(letter, angle) and not _by_opacity(letter, angle)
+        angle is not None and _is_informative(letter, angle) and not _by_opacity(letter, angle)
         for letter, angle in zip(sheet.assignments, sheet.fold_angles or (), strict=False)
     )
-    angles = (_number(wrong, "fold angle"),) if wrong else ()
-    told = (*_letters(letters, "J", "join", "as flat edges"), *angles, *_precision(sheet))
-    return (*lost_as_fold(mechanism), *told, _bounds(sheet))
+    lost = (*_letters(letters, "J", "join", "as flat edges"), *_some(wrong, "fold angle"), *_precision(sheet))
+    return (*lost_as_fold(mechanism), *lost, _bounds(sheet))
 
 
 def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
@@ -108,77 +91,65 @@ def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
 
 
 def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
-    """Return what a bare link-joint graph, with names or without, does not hold.
-
-    >>> lost_as_bare_graph(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))]), names=False)
-    ('1 loop and its centre',)
-    """
+    """Return what a bare link-joint graph, with names or without, does not hold."""
     sc = to_sc(mechanism)
     loops = (*sc.loops, *sc.closing)
-    told = (
-        []
-        if not loops
-        else ["1 loop and its centre" if len(loops) == 1 else f"{len(loops)} loops and their centres"]
-    )
+    lost = list(_some(len(loops), "loop and its centre", "loops and their centres"))
     if sc.spatial_loops:
-        told.append(f"that {_number(sc.spatial_loops, 'loop has', 'loops have')} no centre")
+        lost.append(f"that {numbered(sc.spatial_loops, 'loop has', 'loops have')} no centre")
     if isinstance(mechanism, Sheet):
-        told += (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
+        lost += (*_of_its_file(mechanism), *_title(mechanism), *_shapes(mechanism), *_angles(mechanism))
     if isinstance(mechanism, SCDGraph):
-        told.append(f"the order of the sides of {_number(len(sc), 'link')}")
-    if isinstance(mechanism, SurfaceLinkage):
-        told.append(f"where joints lie on the {mechanism.kind}")
-    if isinstance(mechanism, HingedSolids):
-        told.append("the axes of its joints")
+        lost.append(f"the order of the sides of {numbered(len(sc), 'link')}")
+    lost += _places_of_joints(mechanism)
     if isinstance(mechanism, JointedLinkage) and mechanism.places:
-        told.append("the places of its joints")
+        lost.append("the places of its joints")
     if sc.ground is not None:
-        told.append("the ground link")
+        lost.append("the ground link")
     if names:
-        return (*told, *_listed(sc, are_kept, "whether names of {} are text or integers"))
-    return (*told, *(() if isinstance(mechanism, Sheet) else _names(sc)))
+        return (*lost, *_listed(sc, are_kept, "whether names of {} are text or integers"))
+    return (*lost, *(() if isinstance(mechanism, Sheet) else _names(sc)))
 
 
 def lost_as_typed_graph(linkage: JointedLinkage) -> Lost:
-    """Return what a link-joint graph with the types of joints does not hold.
-
-    >>> lost_as_typed_graph(JointedLinkage(SCGraph(2, [(0, 1)], ground=0), {}))
-    ('the ground link',)
-    """
+    """Return what a link-joint graph with the types of joints does not hold."""
     chain = linkage.chain
-    told = list(_some(len(chain.loops) + len(chain.closing), "loop and its centre", "loops and their centres"))
+    lost = list(_some(len(chain.loops) + len(chain.closing), "loop and its centre", "loops and their centres"))
     if linkage.places:
-        told.append("the places of its joints")
+        lost.append("the places of its joints")
     if chain.ground is not None:
-        told.append("the ground link")
-    return (*told, *_listed(chain, are_kept, "whether names of {} are text or integers"))
+        lost.append("the ground link")
+    return (*lost, *_listed(chain, are_kept, "whether names of {} are text or integers"))
 
 
 def _lost_as_sheet(mechanism: Mechanism) -> Lost:
-    """Return what is lost where a mechanism that is no sheet becomes one."""
+    """Return the losses of a mechanism that becomes a sheet."""
     if isinstance(mechanism, PolyhedronModel):
         return _model_as_sheet(mechanism)
     sc = to_sc(mechanism)
-    told: list[str] = []
+    lost: list[str] = []
     if isinstance(mechanism, SCDGraph):
-        told += _some(mechanism.counts.implicit_centres, "implicit centre")
-    told += _some(_loops_of(sc, Centre.INFINITE), "centre at infinity", "centres at infinity")
+        lost += _some(mechanism.counts.implicit_centres, "implicit centre")
+    lost += _some(_loops_of(sc, Centre.INFINITE), "centre at infinity", "centres at infinity")
     if sc.ground is not None:
-        told.append("the ground link")
-    if isinstance(mechanism, SurfaceLinkage):
-        told.append(f"where joints lie on the {mechanism.kind}")
-    if isinstance(mechanism, HingedSolids):
-        told.append("the axes of its joints")
+        lost.append("the ground link")
+    lost += _places_of_joints(mechanism)
     if isinstance(mechanism, JointedLinkage):
-        told.append("the kinds of its joints")
+        lost.append("the kinds of its joints")
     loops: tuple[Loop, ...] = (*sc.loops, *sc.closing)
-    told += _some(sum(loop.at is not None for loop in loops), "centre told by name", "centres told by name")
-    told += _some(sum(loop.name is not None for loop in loops), "name of a loop", "names of loops")
-    return (*told, *_names(sc))
+    lost += _some(sum(loop.at is not None for loop in loops), "named centre")
+    lost += _some(sum(loop.name is not None for loop in loops), "name of a loop", "names of loops")
+    return (*lost, *_names(sc))
+
+
+def _places_of_joints(mechanism: Mechanism) -> Lost:
+    if isinstance(mechanism, SurfaceLinkage):
+        return (f"the places of joints on the {mechanism.kind}",)
+    return ("the axes of its joints",) if isinstance(mechanism, HingedSolids) else ()
 
 
 def _model_as_sheet(model: PolyhedronModel) -> Lost:
-    told = [
+    lost = [
         *_some(len(model.centres), "remote centre"),
         *_some(len(model.on_line), "point on a line", "points on lines"),
         *_some(len(model.on_plane), "point on a plane", "points on planes"),
@@ -187,7 +158,7 @@ def _model_as_sheet(model: PolyhedronModel) -> Lost:
         *_some(0 if is_count(model.nodes) else len(model), "name of a vertex", "names of vertices"),
         *_some(0 if is_count(model.links) else len(model.links), "name of a link", "names of links"),
     ]
-    return tuple(told)
+    return tuple(lost)
 
 
 def _loops_of(sc: SCGraph, centre: Centre) -> int:
@@ -199,14 +170,14 @@ def _names(sc: SCGraph) -> Lost:
 
 
 def _listed(sc: SCGraph, are_held: Callable[[Collection[Hashable]], bool], line: str) -> Lost:
-    """Put into a line how many links and joints there are, of those whose names are not held."""
+    """Return a line with the numbers of links and joints whose names are not held."""
     kinds: tuple[tuple[Collection[Hashable], str], ...] = ((sc.nodes, "link"), (sc.joints, "joint"))
-    named = [_number(len(ids), kind) for ids, kind in kinds if not are_held(ids)]
+    named = [numbered(len(ids), kind) for ids, kind in kinds if not are_held(ids)]
     return (line.format(" and ".join(named)),) if named else ()
 
 
 def _of_its_file(sheet: Sheet) -> Lost:
-    """Tell what the file that a sheet was read from holds beside it."""
+    """Return what the file of a sheet holds beside the sheet."""
     if sheet.frames is None:
         return ()
     keys = sheet.frames.left_out
@@ -219,54 +190,120 @@ def _title(sheet: Sheet) -> Lost:
 
 
 def _precision(sheet: Sheet) -> Lost:
-    """Tell of the precision of a pattern whose points were welded, which decides about centres and hinges."""
-    return ("how far points were apart that were welded",) if sheet.spread else ()
+    """Return the precision of a pattern whose points were welded, which decides about centres and hinges."""
+    return ("the distances of welded points",) if sheet.spread else ()
 
 
 def _shapes(sheet: Sheet) -> Lost:
-    """Tell of coordinates, faces and assignments, where only the mechanism is kept."""
-    places = (
-        () if sheet.coordinates is None else (f"coordinates of {_number(sheet.vertices, 'vertex', 'vertices')}",)
-    )
-    folded = sum(letter in "MV" for letter in sheet.assignments)
-    faces = len(sheet.faces)
-    cuts = _letters(sheet.assignments, "C", "cut", "")
-    flat = _some(sum(letter in FLAT for letter in sheet.assignments), "flat edge")
-    kinds = (f"mountain or valley of {_number(folded, 'crease')}",) if folded else ()
+    """Return coordinates, faces and assignments, which a file of the mechanism alone does not hold."""
+    vertices, faces = numbered(sheet.vertices, "vertex", "vertices"), len(sheet.faces)
+    places = () if sheet.coordinates is None else (f"coordinates of {vertices}",)
     shape = "the shape of 1 face" if faces == 1 else f"the shapes of {faces} faces"
+    folded = sum(letter in "MV" for letter in sheet.assignments)
+    kinds = (f"mountain or valley of {numbered(folded, 'crease')}",) if folded else ()
+    cuts = _some(sheet.assignments.count("C"), "cut")
+    flat = _some(sum(letter in FLAT for letter in sheet.assignments), "flat edge")
     return (*places, shape, *kinds, *cuts, *flat)
 
 
 def _angles(sheet: Sheet) -> Lost:
     pairs = zip(sheet.assignments, sheet.fold_angles or (), strict=False)
-    return _some(sum(angle is not None and _is_told(letter, angle) for letter, angle in pairs), "fold angle")
+    return _some(
+        sum(angle is not None and _is_informative(letter, angle) for letter, angle in pairs), "fold angle"
+    )
 
 
-def _is_told(letter: str, angle: float) -> bool:
-    """Tell whether a fold angle says more than that an edge that hinges nothing is not folded."""
+def _is_informative(letter: str, angle: float) -> bool:
+    """Return whether a fold angle says more than that an edge without a hinge is not folded."""
     return letter in HINGES or angle != 0
 
 
 def _by_opacity(letter: str, angle: float) -> bool:
-    """Tell whether the colour and the opacity of a line tell its fold angle."""
+    """Return whether the colour and the opacity of a line give its fold angle."""
     signed = {"M": -abs(angle), "V": abs(angle)}
     return letter in signed and abs(angle) <= 180 and isclose(angle, signed[letter])
 
 
 def _letters(assignments: str, letter: str, kind: str, becomes: str) -> Lost:
     number = assignments.count(letter)
-    if not number:
-        return ()
-    return (_number(number, kind) + (f": {becomes}" if becomes else ""),)
+    return (f"{numbered(number, kind)}: {becomes}",) if number else ()
 
 
 def _bounds(sheet: Sheet) -> str:
-    return f"which lines bound which of {_number(len(sheet.faces), 'face')}"
+    return f"which lines bound which of {numbered(len(sheet.faces), 'face')}"
 
 
-def _some(number: int, one: str, more: str | None = None) -> Lost:
-    return (_number(number, one, more),) if number else ()
+def _some(number: int, one: str, more: str = "") -> Lost:
+    return (numbered(number, one, more),) if number else ()
 
 
-def _number(number: int, one: str, more: str | None = None) -> str:
-    return f"{number} {one if number == 1 else more or one + 's'}"
+@dataclass(frozen=True)
+class _Type:
+    """The type of a mechanism, cheap parts first; without ``sc`` only the mobility by count is known."""
+
+    mobility: int | None
+    kind: str
+    numbers: str
+    sc: SCGraph | None
+
+    @property
+    def words(self) -> str:
+        return f"M = {self.mobility} {self.kind}"
+
+    @property
+    def code(self) -> tuple[Any, ...] | None:
+        """The canonical code of links, joints and centre classes, whichever link is fixed."""
+        if self.sc is None:
+            return None
+        return class_code(SCGraph(self.sc.nodes, self.sc.joints, self.sc.loops, closing=self.sc.closing))
+
+
+def change_of_type(before: Mechanism, after: Mechanism) -> str | None:
+    """Return the change of the type of a mechanism in words; None if there is none, or `before` has no type.
+
+    A sheet with an edge of three faces has none. Types are equal if links, joints and centre classes correspond.
+    A polyhedron model that is more than its panels is compared by mobility alone, linkages with joints of all
+    kinds by the names of these.
+    """
+    if isinstance(before, JointedLinkage) and isinstance(after, JointedLinkage):
+        return None if _as_text(before) == _as_text(after) else "links, joints or their kinds differ"
+    try:
+        old = _type_of(before)
+    except (InvariantError, UnsolvableError):
+        return None
+    try:
+        new = _type_of(after)
+    except (InvariantError, UnsolvableError) as error:
+        return f"{old.words} would be no mechanism: {error}"
+    if (old.mobility, old.kind) != (new.mobility, new.kind) and None not in (old.sc, new.sc):
+        return f"{old.words} becomes {new.words}"
+    if old.mobility != new.mobility:
+        return f"M = {old.mobility} becomes M = {new.mobility}"
+    if None in (old.sc, new.sc):
+        return None
+    if old.numbers != new.numbers:
+        return f"{old.words}: {old.numbers} become {new.numbers}"
+    if old.code != new.code:
+        return f"{old.words}: the numbers stay, but other loops share a centre"
+    return None
+
+
+def _as_text(linkage: JointedLinkage) -> tuple[set[str], dict[str, tuple[set[str], JointKind]]]:
+    """Return links, and joints with their ends and kinds, by their names: these files keep."""
+    joints = {
+        str(joint): ({*map(str, ends)}, linkage.kinds[joint]) for joint, ends in linkage.chain.joints.items()
+    }
+    return {*map(str, linkage.chain.nodes)}, joints
+
+
+def _type_of(mechanism: Mechanism) -> _Type:
+    try:
+        sc = to_sc(mechanism)
+    except UnsolvableError:
+        if not isinstance(mechanism, PolyhedronModel):
+            raise
+        report = mobility_report(mechanism)
+        return _Type(report.mobility, report.mechanism_class, "", None)
+    report = mobility_report(sc)
+    numbers = f"{report.links} links, {report.joints} joints, {report.centres} centres"
+    return _Type(report.mobility, report.mechanism_class, numbers, sc)

@@ -12,8 +12,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 
@@ -43,22 +42,22 @@ def points_of(linkage: JointedLinkage) -> PolyhedronModel:
     >>> rod.mobility, mobility_of_model(points_of(rod))
     (2, 1)
     """
-    made = _Made(linkage)
+    model = _Model(linkage)
     for joint, (first, second) in linkage.chain.joints.items():
-        made.join(joint, linkage.kinds[joint], first, second)
-    made.complete(set(rods_between_balls(linkage)))
+        model.join(joint, linkage.kinds[joint], first, second)
+    model.complete(set(rods_between_balls(linkage)))
     centres = [
         RemoteCentre(3, tuple((f"{j}:1", f"{j}:2") for j in loop.joints) if loop.centre is Centre.FINITE else ())
         for loop in linkage.chain.centred_loops
     ]
-    held = {one.vertex for one in (*made.on_line, *made.on_plane)}
-    vertices = dict.fromkeys(vertex for body in made.bodies.values() for vertex in body)
+    held = {constraint.vertex for constraint in (*model.on_line, *model.on_plane)}
+    vertices = dict.fromkeys(vertex for body in model.bodies.values() for vertex in body)
     return PolyhedronModel(
-        sorted(vertices, key=held.__contains__),  # what spans lines and planes first
-        made.rods,
+        sorted(vertices, key=held.__contains__),  # vertices that span lines and planes first
+        model.rods,
         centres=centres,
-        on_line=made.on_line,
-        on_plane=made.on_plane,
+        on_line=model.on_line,
+        on_plane=model.on_plane,
     )
 
 
@@ -74,7 +73,7 @@ def rods_between_balls(linkage: JointedLinkage) -> Iterator[LinkId]:
             yield link
 
 
-class _Made:
+class _Model:
     """The model as it grows: the vertices of each link, pairs of them that have to be joined by a rod."""
 
     def __init__(self, linkage: JointedLinkage) -> None:
@@ -126,5 +125,5 @@ class _Made:
         yield from combinations(body[:_BODY], 2)
         for vertex in body[_BODY:]:
             third = self._partner.get(vertex, body[2])
-            others = [one for one in body[:_BODY] if one != third][:2]
-            yield from ((vertex, one) for one in (third, *others))
+            others = [corner for corner in body[:_BODY] if corner != third][:2]
+            yield from ((vertex, corner) for corner in (third, *others))

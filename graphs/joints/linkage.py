@@ -1,4 +1,4 @@
-"""A linkage with joints of all kinds: a link-joint graph, the kind of each joint, and perhaps where they are.
+"""A linkage with joints of all kinds: a link-joint graph, the kind of each joint, and perhaps their places.
 
 Theory: docs/theory/joints.md.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import Enum
 from math import hypot
 from types import MappingProxyType
 
@@ -15,18 +16,107 @@ from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered, shown
 from graphs.extent import LEAST, MOST, check_extent, in_reach
 from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind, kind_named
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["JointPlace", "JointedLinkage", "Leg", "legs", "plain_vector"]
+__all__ = ["JointKind", "JointPlace", "JointedLinkage", "Leg", "kind_named", "legs", "plain_vector"]
+
+
+class JointKind(Enum):
+    """A kind of joint, by the letter that names of legs use (UPS, RUS).
+
+    Attributes
+    ----------
+    REVOLUTE
+        Turns about an axis: a crease.
+    PRISMATIC
+        Slides along a direction.
+    UNIVERSAL
+        Turns about two axes that cross at a right angle, one held by each link.
+    SPHERICAL
+        Turns about a point.
+    CYLINDRICAL
+        Turns about an axis and slides along it.
+    PLANAR
+        Slides in a plane and turns about its normal.
+
+    Examples
+    --------
+    >>> JointKind("U").word, JointKind.UNIVERSAL.freedoms, JointKind.UNIVERSAL.axes
+    ('universal', 2, 2)
+    """
+
+    REVOLUTE = "R"
+    PRISMATIC = "P"
+    UNIVERSAL = "U"
+    SPHERICAL = "S"
+    CYLINDRICAL = "C"
+    PLANAR = "E"
+
+    @property
+    def freedoms(self) -> int:
+        """The degrees of freedom of one link against the other."""
+        return _FREEDOMS[self]
+
+    @property
+    def axes(self) -> int:
+        """The number of directions that place the joint; 0 for a spherical one."""
+        return {JointKind.UNIVERSAL: 2, JointKind.SPHERICAL: 0}.get(self, 1)
+
+    @property
+    def planar(self) -> bool:
+        """Whether it can be in a planar loop: it turns about the normal, slides along the plane, or does both."""
+        return self in (JointKind.REVOLUTE, JointKind.PRISMATIC, JointKind.PLANAR)
+
+    @property
+    def word(self) -> str:
+        """The kind in a word."""
+        return self.name.lower()
+
+
+_FREEDOMS = {
+    JointKind.REVOLUTE: 1,
+    JointKind.PRISMATIC: 1,
+    JointKind.UNIVERSAL: 2,
+    JointKind.CYLINDRICAL: 2,
+    JointKind.SPHERICAL: 3,
+    JointKind.PLANAR: 3,
+}
+_OTHER_WORDS = {"hinge": "R", "slider": "P", "cardan": "U", "hooke": "U", "ball": "S"}
+
+
+def kind_named(text: str) -> JointKind:
+    """Return the kind of joint that a word or a letter means, in small or large letters.
+
+    Parameters
+    ----------
+    text : str
+        Such as ``U``, ``universal`` or ``cardan``.
+
+    Raises
+    ------
+    InvariantError
+        If it is no kind of joint.
+
+    Examples
+    --------
+    >>> kind_named("universal"), kind_named("s").freedoms
+    (<JointKind.UNIVERSAL: 'U'>, 3)
+    """
+    word = text.strip().lower()
+    for kind in JointKind:
+        if word in (kind.value.lower(), kind.word) or _OTHER_WORDS.get(word) == kind.value:
+            return kind
+    known = ", ".join(f"{kind.value} ({kind.word})" for kind in JointKind)
+    raise InvariantError("joint type", f"the joint type {shown(text)}", f"one of {known}")
+
 
 Vector = tuple[float, float, float]
 
 
-def plain_vector(one: Floats) -> Vector:
+def plain_vector(vector: Floats) -> Vector:
     """Return a vector as three plain numbers."""
-    x, y, z = one.tolist()
+    x, y, z = vector.tolist()
     return (x, y, z)
 
 
@@ -36,15 +126,16 @@ _RIGHT = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class JointPlace:
-    """Where a joint is at a pose.
+    """The place of a joint at a configuration.
 
     Attributes
     ----------
     point : tuple of 3 floats
         On its axes, any unit of length.
     axes : tuple of tuples of 3 floats
-        Of a revolute or cylindrical joint its axis, of a prismatic one the way it slides, of a planar one the
-        normal, of a universal one the axes that its first and its second link hold; none of a spherical one.
+        For a revolute or cylindrical joint its axis, for a prismatic one the direction in which it slides, for a
+        planar one the normal, for a universal one the axes that its first and its second link hold; none for a
+        spherical one.
     """
 
     point: Vector
@@ -63,7 +154,7 @@ class JointedLinkage:
     kinds : mapping of joint id to JointKind, or its letter or word
         Joints that are left out are revolutes.
     places : mapping of joint id to JointPlace, optional
-        Of all joints, or of none: then it is a type, and stands for its general members.
+        Of all joints, or of none: then it is a type, and stands for its generic realisations.
 
     Raises
     ------
@@ -87,7 +178,8 @@ class JointedLinkage:
         for key in (*self.kinds, *self.places):
             if key not in self.chain.joints:
                 raise InvariantError("joint", f"{shown(key)} is no joint", "a joint id", ("joints", key))
-        whole = {joint: _kind(self.kinds.get(joint, JointKind.REVOLUTE)) for joint in self.chain.joints}
+        kinds = {joint: self.kinds.get(joint, JointKind.REVOLUTE) for joint in self.chain.joints}
+        whole = {joint: kind if isinstance(kind, JointKind) else kind_named(kind) for joint, kind in kinds.items()}
         for loop in (*self.chain.loops, *self.chain.closing):
             for joint in loop.joints:
                 _check_in_loop(loop, joint, whole[joint])
@@ -104,26 +196,22 @@ class JointedLinkage:
 
     @property
     def told_kinds(self) -> str:
-        """How many joints there are of each kind, in words."""
-        found = Counter(self.kinds.values())
-        return ", ".join(f"{found[kind]} {kind.word}" for kind in JointKind if found[kind])
+        """The numbers of joints of each kind, in words."""
+        numbers = Counter(self.kinds.values())
+        return ", ".join(f"{numbers[kind]} {kind.word}" for kind in JointKind if numbers[kind])
 
     def __repr__(self) -> str:
         letters = Counter(kind.value for kind in self.kinds.values())
-        told = " ".join(letter if n == 1 else f"{n}{letter}" for letter, n in sorted(letters.items()))
+        kinds = " ".join(letter if n == 1 else f"{n}{letter}" for letter, n in sorted(letters.items()))
         numbers = f"{numbered(len(self.chain), 'link')}, {numbered(len(self.kinds), 'joint')}"
-        return f"<JointedLinkage: {numbers}: {told}, {'placed' if self.places else 'a type'}>"
+        return f"<JointedLinkage: {numbers}: {kinds}, {'placed' if self.places else 'a type'}>"
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
     """Joints in a row, with binary links between them.
 
-    Attributes
-    ----------
-    joints : tuple of joint ids
-    links : tuple of link ids
-        One more than joints, in the order they are passed; of a ring the first is the last.
+    There is one more link than joints, in the order in which they are passed; of a ring the first is the last.
     """
 
     joints: tuple[JointId, ...]
@@ -134,16 +222,6 @@ def legs(chain: SCGraph) -> list[Leg]:
     """Return the rows of joints that binary links make: each joint is in one.
 
     The ground ends rows, however many joints it has. A ring of binary links is one row, from its first link on.
-
-    Parameters
-    ----------
-    chain : SCGraph
-
-    Examples
-    --------
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
-    >>> legs(ring)
-    [Leg(joints=(0, 1, 2, 3), links=(0, 1, 2, 3, 0))]
     """
     at: dict[LinkId, list[JointId]] = {link: [] for link in chain.nodes}
     for joint, ends in chain.joints.items():
@@ -151,14 +229,14 @@ def legs(chain: SCGraph) -> list[Leg]:
             at[link].append(joint)
     inside = {link for link, joints in at.items() if len(joints) == 2 and link != chain.ground}
     passed: set[JointId] = set()
-    found = []
+    rows = []
     for link in sorted(at, key=inside.__contains__):  # rings of binary links come last
         for joint in at[link]:
             if joint in passed or (link in inside and set(at[link]) & passed):
                 continue
-            found.append(_walked(chain, at, inside, (link, joint)))
-            passed.update(found[-1].joints)
-    return found
+            rows.append(_walked(chain, at, inside, (link, joint)))
+            passed.update(rows[-1].joints)
+    return rows
 
 
 def _walked(
@@ -182,41 +260,37 @@ def _check_in_loop(loop: Loop, joint: JointId, kind: JointKind) -> None:
     suits = kind.planar if loop.centre is Centre.INFINITE else kind is JointKind.REVOLUTE
     if loop.has_centre and not suits:
         where = "is planar" if loop.centre is Centre.INFINITE else "has a finite centre"
-        told = f"joint {shown(joint)} of {loop.label}, which {where}, is {kind.word}"
+        wrong = f"joint {shown(joint)} of {loop.label}, which {where}, is {kind.word}"
         expected = "a revolute, a slide or a planar joint" if loop.centre is Centre.INFINITE else "a revolute"
-        raise InvariantError("kinds", told, expected, ("joints", joint))
-
-
-def _kind(given: JointKind | str) -> JointKind:
-    return given if isinstance(given, JointKind) else kind_named(given)
+        raise InvariantError("kinds", wrong, expected, ("joints", joint))
 
 
 def _checked(joint: JointId, kind: JointKind, places: Mapping[JointId, JointPlace]) -> JointPlace:
     part = ("joints", joint)
     if joint not in places:
-        raise InvariantError(
-            "place", f"joint {shown(joint)} has no place", "one for each joint, or for none", part
-        )
+        wrong = f"joint {shown(joint)} has no place"
+        raise InvariantError("place", wrong, "one for each joint, or for none", part)
     place = places[joint]
     if len(place.axes) != kind.axes:
-        told = f"{kind.word} joint {shown(joint)} has {numbered(len(place.axes), 'axis', 'axes')}"
-        raise InvariantError("place", told, str(kind.axes), part)
-    vectors = tuple(_vector(joint, one) for one in (place.point, *place.axes))
+        wrong = f"{kind.word} joint {shown(joint)} has {numbered(len(place.axes), 'axis', 'axes')}"
+        raise InvariantError("place", wrong, str(kind.axes), part)
+    vectors = tuple(_vector(joint, vector) for vector in (place.point, *place.axes))
     for axis in vectors[1:]:
         if not LEAST <= hypot(*axis) <= MOST:
-            told = f"an axis of joint {shown(joint)} is {shown(list(axis))}"
-            raise InvariantError("place", told, "a vector that is not zero", part)
+            wrong = f"an axis of joint {shown(joint)} is {shown(list(axis))}"
+            raise InvariantError("place", wrong, "a vector that is not zero", part)
     if kind is JointKind.UNIVERSAL:
         one, other = vectors[1:]
         cosine = sum(x * y for x, y in zip(one, other, strict=True)) / hypot(*one) / hypot(*other)
         if abs(cosine) > _RIGHT:
-            told = f"the axes of universal joint {shown(joint)} have a cosine of {cosine:.1e}"
-            raise InvariantError("place", told, "a right angle", part)
+            wrong = f"the axes of universal joint {shown(joint)} have a cosine of {cosine:.1e}"
+            raise InvariantError("place", wrong, "a right angle", part)
     return JointPlace(vectors[0], vectors[1:])
 
 
-def _vector(joint: JointId, given: Sequence[float]) -> Vector:
-    if len(given) != 3 or not in_reach(given):
-        told = f"the place of joint {shown(joint)} has {shown(list(given))}"
-        raise InvariantError("place", told, f"three numbers, none beyond {MOST:g}", ("joints", joint))
-    return (float(given[0]), float(given[1]), float(given[2]))
+def _vector(joint: JointId, numbers: Sequence[float]) -> Vector:
+    if len(numbers) != 3 or not in_reach(numbers):
+        wrong = f"the place of joint {shown(joint)} has {shown(list(numbers))}"
+        raise InvariantError("place", wrong, f"three numbers, none beyond {MOST:g}", ("joints", joint))
+    x, y, z = map(float, numbers)
+    return x, y, z

@@ -1,32 +1,115 @@
-"""General members: places for the joints of a linkage that is given without any. Theory: docs/theory/joints.md."""
+"""Places for the joints of a linkage that has none, and slides that three parallel revolutes stand for.
+
+A *knee* is three parallel revolutes, the middle axis at equal arms from the two beside it. A prismatic joint
+between two binary links, with axes beyond them that are parallel to each other and across the slide, moves one end
+against the other in all ways of a plane; so do three parallel revolutes. Theory: docs/theory/joints.md.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.geometry import across, unit
+from graphs.geometry import across, frame_about, unit
 from graphs.ids import JointId
-from graphs.joints.kinds import JointKind
-from graphs.joints.knees import Knee, knees_of_type
-from graphs.joints.linkage import JointedLinkage, JointPlace, plain_vector
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, legs, plain_vector
 from graphs.loops.loop import Centre
+from graphs.mechanism.precision import precision_of_axes
+from graphs.tolerances import Tolerances
 
-__all__ = ["placed"]
+__all__ = ["Knee", "KneeEnd", "knees_of_type", "placed", "placed_knees"]
+
+_ENDS = (JointKind.REVOLUTE, JointKind.UNIVERSAL, JointKind.SPHERICAL)
+
+
+@dataclass(frozen=True, slots=True)
+class KneeEnd:
+    """A joint beside a slide.
+
+    `place` is 0 if its first link is beside the slide, 1 if its second is; `axis` is the number of the axis that
+    is to be across the slide, None for a spherical joint, which can turn about any.
+    """
+
+    joint: JointId
+    place: int
+    axis: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Knee:
+    """A slide, and the joints before and after it."""
+
+    slide: JointId
+    ends: tuple[KneeEnd, KneeEnd]
+
+
+def knees_of_type(linkage: JointedLinkage) -> list[Knee]:
+    """Return the slides that knees can stand for with suitable axes; each joint serves one of them."""
+    return list(_taken_once(_possible(linkage)))
+
+
+def placed_knees(linkage: JointedLinkage) -> list[tuple[Knee, Floats]]:
+    """Return the slides of a linkage with places that knees can stand for, each with the direction of its axes."""
+    points = np.array([place.point for place in linkage.places.values()])
+    axes = np.array([axis for place in linkage.places.values() for axis in place.axes]).reshape(-1, 3)
+    parallel = Tolerances.of(precision_of_axes(points, axes).size).parallel
+    normals = ((knee, _normal(linkage, knee, parallel)) for knee in _possible(linkage))
+    fitting = {knee: normal for knee, normal in normals if normal is not None}
+    return [(knee, fitting[knee]) for knee in _taken_once(iter(fitting))]
+
+
+def _possible(linkage: JointedLinkage) -> Iterator[Knee]:
+    """Yield the slides that have a joint of the right kind on both sides, binary links between."""
+    for leg in legs(linkage.chain):
+        for place in range(1, len(leg.joints) - 1):
+            before, slide, after = leg.joints[place - 1 : place + 2]
+            if linkage.kinds[slide] is JointKind.PRISMATIC:
+                ends = _end(linkage, before, leg.links[place]), _end(linkage, after, leg.links[place + 1])
+                if all(linkage.kinds[end.joint] in _ENDS for end in ends):
+                    yield Knee(slide, ends)
+
+
+def _end(linkage: JointedLinkage, joint: JointId, beside: object) -> KneeEnd:
+    place = 0 if linkage.chain.joints[joint][0] == beside else 1
+    axis = {JointKind.UNIVERSAL: place, JointKind.SPHERICAL: None}.get(linkage.kinds[joint], 0)
+    return KneeEnd(joint, place, axis)
+
+
+def _taken_once(knees: Iterator[Knee]) -> Iterator[Knee]:
+    serving: set[JointId] = set()
+    for knee in knees:
+        joints = {end.joint for end in knee.ends}
+        if not joints & serving:
+            serving |= joints
+            yield knee
+
+
+def _normal(linkage: JointedLinkage, knee: Knee, parallel: float) -> Floats | None:
+    """Return the direction across the slide that the axes beside it have in common, None if they have none."""
+    slide = unit(linkage.places[knee.slide].axes[0])
+    axes = [unit(linkage.places[end.joint].axes[end.axis]) for end in knee.ends if end.axis is not None]
+    if not axes:
+        return np.asarray(frame_about(slide)[1])
+    if any(abs(axis @ slide) > parallel or np.linalg.norm(np.cross(axis, axes[0])) > parallel for axis in axes):
+        return None
+    return axes[0]
 
 
 def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
-    """Return a linkage with places for its joints: its own, or random ones where it has none.
+    """Return a linkage with places for its joints: its own, or random ones if it has none.
 
-    Axes of loops with a centre meet there; of a planar loop they are parallel, and slides are across them.
+    Axes of loops with a centre meet there; those of a planar loop are parallel, and slides are across them.
     A prismatic joint between two binary links, with joints beyond them that can turn about parallel axes across
-    it, is given such axes: the usual way to build it, and three parallel revolutes do its work.
+    it, gets such axes: the usual way to build it, and three parallel revolutes do its work.
 
     Parameters
     ----------
     linkage : JointedLinkage
     seed : int, optional
-        Another seed is another member.
+        Random seed; another seed gives another realisation.
 
     Examples
     --------
@@ -64,10 +147,10 @@ def _turn_to_centres(
 ) -> None:
     """Give joints of loops with a centre axes through it, those of planar loops axes across or along the plane."""
     meeting: dict[JointId, list[tuple[Centre, Floats]]] = {}
-    for one in linkage.chain.centre_classes():
+    for centre_class in linkage.chain.centre_classes():
         at = unit(random.normal(size=3))
-        for joint in one.joints:
-            meeting.setdefault(joint, []).append((one.centre, at))
+        for joint in centre_class.joints:
+            meeting.setdefault(joint, []).append((centre_class.centre, at))
     for joint, centres in meeting.items():
         normals = [at for centre, at in centres if centre is Centre.INFINITE]
         if linkage.kinds[joint] is JointKind.PRISMATIC:

@@ -1,11 +1,11 @@
 """Assur groups: the smallest sets of links that can be positioned together, one set after the other.
 
-With one link fixed and as many inputs given as there are freedoms, each moving link of a spherical or planar
-mechanism has three freedoms and each joint takes two (an input all three): as many as there are. Every taken
-freedom is given to one of the two links it ties, so that each link pays for three; a link then depends on the
-others its freedoms are tied to, and the strong components of these dependencies are the Assur groups, whatever way
-the freedoms were given (Dulmage and Mendelsohn 1958). A group without an input can be taken off, if no other hangs
-on it: mobility stays.
+With one link fixed and as many inputs as there are freedoms, each moving link of a spherical or planar
+mechanism has three freedoms and each joint takes two (an input all three): as many as there are. Every such
+freedom is assigned to one of the two links it ties, so that each link pays for three; a link then depends on the
+others its freedoms are tied to, and the strong components of these dependencies are the Assur groups, whatever the
+assignment (Dulmage and Mendelsohn 1958). A group without an input can be taken off, if no other depends on it:
+mobility stays.
 
 Theory: docs/theory/reduction.md.
 """
@@ -59,13 +59,13 @@ class AssurGroup:
 
 @dataclass(frozen=True, slots=True)
 class AssurReduction(Printed):
-    """A mechanism without the Assur groups that nothing hangs on.
+    """A mechanism without the Assur groups that no other depends on.
 
     Attributes
     ----------
     before, graph : SCGraph
     groups : tuple of AssurGroup
-        All groups, each after those it hangs on.
+        All groups, each after those it depends on.
     removed : tuple of AssurGroup
         In the order in which they were taken off.
 
@@ -89,11 +89,11 @@ class AssurReduction(Printed):
             "{:6}  links {links}, joints {joints}, mobility {mobility}".format(when, **_counts(sc))
             for when, sc in (("before", self.before), ("after", self.graph))
         ]
-        taken = {group.links for group in self.removed}
+        removed = {group.links for group in self.removed}
         for number, group in enumerate(self.groups, start=1):
             words = f"group {number}: links {_listed(group.links)}, joints {_listed(group.joints)}"
             words += f", input {_listed(group.inputs)}" if group.inputs else ""
-            lines.append(words + ("   (taken off)" if group.links in taken else ""))
+            lines.append(words + ("   (taken off)" if group.links in removed else ""))
         return lines
 
     def __repr__(self) -> str:
@@ -110,7 +110,7 @@ class AssurReduction(Printed):
 
 
 def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tuple[AssurGroup, ...]:
-    """Return the Assur groups of a mechanism, each after those it hangs on.
+    """Return the Assur groups of a mechanism, each after those it depends on.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tupl
     InvariantError
         If there is no such link or joint.
     UnsolvableError
-        If the loops have not one centre, or these inputs do not drive the mechanism.
+        If the loops do not have one centre, or these inputs do not drive the mechanism.
 
     Examples
     --------
@@ -138,14 +138,14 @@ def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tupl
     """
     driven = _checked(sc, ground, inputs)
     payer = _shared_out(sc, ground, driven)
-    hangs_on = nx.DiGraph()
-    hangs_on.add_nodes_from(link for link in sc if link != ground)
+    depends_on = nx.DiGraph()
+    depends_on.add_nodes_from(link for link in sc if link != ground)
     for (joint, _), link in payer.items():
         a, b = sc.joints[joint]
         other = b if link == a else a
         if other != ground:
-            hangs_on.add_edge(link, other)
-    parts = nx.condensation(hangs_on)
+            depends_on.add_edge(link, other)
+    parts = nx.condensation(depends_on)
     place = {link: i for i, link in enumerate(sc)}
     first = {part: min(place[link] for link in parts.nodes[part]["members"]) for part in parts}
     order = list(nx.lexicographical_topological_sort(parts.reverse(), key=first.__getitem__))
@@ -159,66 +159,63 @@ def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tupl
 
 
 def _checked(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> frozenset[JointId]:
-    """Return the inputs, if the question makes sense."""
+    """Return the inputs; refuse a mechanism with several centres, or another number of inputs than freedoms."""
     driven = frozenset(inputs)
     if ground not in sc:
-        raise InvariantError(
-            "ground is a link", f"ground {shown(ground)} is no link", "a link", ("ground", ground)
-        )
+        wrong = f"ground {shown(ground)} is no link"
+        raise InvariantError("ground is a link", wrong, "a link", ("ground", ground))
     for joint in driven:
         if joint not in sc.joints:
             raise InvariantError("inputs are joints", f"input {shown(joint)} is no joint", "a joint")
     kind = mechanism_class(sc)
     if kind not in ("spherical", "planar") or sc.components != 1:
-        raise UnsolvableError(
-            f"Assur groups need one centre for all loops of a connected mechanism; this is: {kind}"
-        )
+        raise UnsolvableError(f"Assur groups need one centre for all loops of a connected mechanism; got {kind}")
     freedoms = loop_form(len(sc.joints), len(sc.centred_loops), 0)
     if len(driven) != freedoms:
-        raise UnsolvableError(f"{len(driven)} input(s) for {freedoms} freedom(s): name one input for each")
+        expected = numbered(freedoms, "degree of freedom", "degrees of freedom")
+        raise UnsolvableError(f"{numbered(len(driven), 'input')} for {expected}; expected {freedoms}")
     return driven
 
 
 def _shared_out(sc: SCGraph, ground: LinkId, driven: frozenset[JointId]) -> dict[tuple[JointId, int], LinkId]:
-    """Give every freedom that a joint takes to one of its links, three to each; augmenting paths."""
+    """Assign every freedom that a joint takes to one of its links, three to each, by augmenting paths."""
     payer: dict[tuple[JointId, int], LinkId] = {}
     paid: dict[LinkId, list[tuple[JointId, int]]] = {link: [] for link in sc if link != ground}
 
-    def settle(taken: tuple[JointId, int]) -> bool:
-        """Look breadth-first for a link that can still pay; on the way back each link takes what wanted it."""
-        wanted_by: dict[LinkId, tuple[JointId, int]] = {}
-        waiting = deque([taken])
+    def settle(start: tuple[JointId, int]) -> bool:
+        """Look breadth-first for a link that can still pay; then each link on the path pays for its freedom."""
+        reached_by: dict[LinkId, tuple[JointId, int]] = {}
+        waiting = deque([start])
         while waiting:
-            one = waiting.popleft()
-            for link in sc.joints[one[0]]:
-                if link == ground or link in wanted_by:
+            freedom = waiting.popleft()
+            for link in sc.joints[freedom[0]]:
+                if link == ground or link in reached_by:
                     continue
-                wanted_by[link] = one
+                reached_by[link] = freedom
                 if len(paid[link]) == 3:
                     waiting.extend(paid[link])
                     continue
                 while True:
-                    one = wanted_by[link]
-                    before = payer.get(one)
-                    payer[one] = link
-                    paid[link].append(one)
+                    freedom = reached_by[link]
+                    before = payer.get(freedom)
+                    payer[freedom] = link
+                    paid[link].append(freedom)
                     if before is None:
                         return True
-                    paid[before].remove(one)
+                    paid[before].remove(freedom)
                     link = before  # noqa: PLW2901 - its place is free now
         return False
 
     for joint in sc.joints:
         for k in range(3 if joint in driven else 2):
             if not settle((joint, k)):
-                raise UnsolvableError(
-                    f"with these inputs the part about joint {shown(joint)} is held twice over, and another moves"
-                )
+                wrong = f"these inputs constrain the part at joint {shown(joint)} twice, and leave another mobile"
+                raise UnsolvableError(wrong)
     return payer
 
 
 def reduce_assur(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> AssurReduction:
-    """Take off Assur groups without inputs that nothing hangs on, until each that is left drives or is needed.
+    """Take off Assur groups without inputs that no other depends on, until none is left.
 
     Parameters
     ----------
@@ -255,8 +252,8 @@ def _remaining(sc: SCGraph, ground: LinkId, groups: Sequence[AssurGroup]) -> SCG
     for group in groups:
         for joint in group.joints:
             graph.add_edge(*sc.joints[joint], key=joint)
-    made = sc_from_link_joint_graph(graph, sc.centred_loops[0].centre)
-    return SCGraph(made.nodes, made.joints, made.loops, ground=ground)
+    remaining = sc_from_link_joint_graph(graph, sc.centred_loops[0].centre)
+    return SCGraph(remaining.nodes, remaining.joints, remaining.loops, ground=ground)
 
 
 def _counts(sc: SCGraph) -> dict[str, int]:

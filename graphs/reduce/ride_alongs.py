@@ -3,28 +3,163 @@
 A *ride-along addendum* is two binary links u, v appended to two adjacent links a, b so that the four meet in one
 centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. Source: Wiener 2016, sections
 4.2.4 and 4.2.5. Theory: docs/theory/reduction.md.
+
+A block that is nothing but ride-alongs on ride-alongs comes down to a single four-bar, and several of its
+four-bars may be the last. Their centres differ, so the choice shows: it is made by what the centres are and not by
+the order in which links and joints are listed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import networkx as nx
 
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
+from graphs.edit.edits import counts_as_json
 from graphs.errors import InvariantError, numbered, shown
 from graphs.given import check_given
+from graphs.identity.bliss import ColouredGraph, labels_of
 from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
-from graphs.reduce.staying import links_of_loops_that_stay
-from graphs.reduce.taking import RULES, Taken, Terms, take_all
-from graphs.reduce.working import Removal, WorkingGraph
+from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 
-__all__ = ["Reduction", "ReductionStep", "reduce"]
+__all__ = ["Reduction", "ReductionStep", "links_of_loops_that_stay", "reduce"]
+
+
+class _FourBar(NamedTuple):
+    """A four-bar of a block, and the class of the loops that it is a sum of."""
+
+    links: frozenset[LinkId]
+    centre_class: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Choice:
+    """A block that came down to one four-bar: its last loop, here as a four-bar.
+
+    `there` are the four-bars that could stay, the last one among them.
+    """
+
+    last: int
+    here: _FourBar
+    there: tuple[_FourBar, ...]
+
+    @property
+    def classes(self) -> frozenset[int]:
+        return frozenset(one.centre_class for one in self.there)
+
+
+def links_of_loops_that_stay(
+    work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]
+) -> frozenset[LinkId]:
+    """Return the links of four-bars that should have stayed, if others did.
+
+    Ride-alongs were taken off until none was left, each block keeping a loop. The reduction has to be done again
+    with these links protected; none if it was right. A finite centre stays before one at infinity, a centre of its
+    own before one that other blocks have too. If several shared centres are still equal, canonical labels of the
+    remaining graph decide: then the choice has no meaning, but it is always the same.
+    """
+    choices = [_most_general(work, choice) for choice in _choices(work, taken, protected)]
+    labels = _labels(work, choices, protected) if any(len(choice.classes) > 1 for choice in choices) else {}
+    stay: set[LinkId] = set()
+    for choice in choices:
+        chosen = min(choice.there, key=lambda four_bar: labels.get(four_bar.centre_class, 0))
+        if chosen.centre_class != choice.here.centre_class:
+            stay |= chosen.links
+    return frozenset(stay)
+
+
+def _choices(work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]) -> list[_Choice]:
+    """Return the blocks that came down to one four-bar.
+
+    A link that is protected or lies in another block cannot go; a four-bar can be the last if it has all of these.
+    """
+    taken_off: dict[int, list[_FourBar]] = defaultdict(list)
+    for removal, _, onto in taken:
+        four_bar = _FourBar(frozenset((*removal.links, *onto)), work.class_of[removal.dropped])
+        taken_off[work.block_of[removal.joints[1]]].append(four_bar)
+    choices = []
+    for loop in work.kept_loops()[0]:
+        joints = work.loops[loop]
+        block = work.block_of[next(iter(joints))]
+        if loop not in work.class_of or len(joints) != 4 or work.loops_in_block[block] != 1:
+            continue
+        links = frozenset(link for joint in joints for link in work.joints[joint])
+        fixed = {link for link in links if link in protected or work.degree[link] > 2}
+        here = _FourBar(links, work.class_of[loop])
+        choices.append(_Choice(loop, here, (here, *(one for one in taken_off[block] if fixed <= one.links))))
+    return choices
+
+
+def _most_general(work: WorkingGraph, choice: _Choice) -> _Choice:
+    """Keep the four-bars of the most general kind: of one class, unless several shared classes are equal."""
+    kinds = {which: (_is_planar(work, which), _is_shared(work, which)) for which in choice.classes}
+    best = min(kinds.values())
+    there = [one for one in choice.there if kinds[one.centre_class] == best]
+    _, shared = best
+    return _Choice(choice.last, choice.here, tuple(there if shared else there[:1]))
+
+
+def _is_planar(work: WorkingGraph, which: int) -> bool:
+    return work.original.centre_classes()[which].centre is Centre.INFINITE
+
+
+def _is_shared(work: WorkingGraph, which: int) -> bool:
+    """Return whether a class has loops in several blocks, which a file says by naming their centre."""
+    return len({work.block_of[joint] for joint in work.original.centre_classes()[which].joints}) > 1
+
+
+def _labels(work: WorkingGraph, choices: Sequence[_Choice], protected: Collection[LinkId]) -> Mapping[int, int]:
+    """Return canonical labels of the classes in the graph of the remaining links, joints and classes.
+
+    A four-bar whose class is open stands for itself, beside the classes that it may have.
+    """
+    colours: list[tuple[object, ...]] = []
+    edges: list[tuple[int, int]] = []
+
+    def node(*colour: object) -> int:
+        colours.append(colour)
+        return len(colours) - 1
+
+    link_at = {link: node("link", link == work.original.ground, link in protected) for link in work.degree}
+    joint_at = {joint: node("joint") for joint in work.joints}
+    edges += [(joint_at[joint], link_at[end]) for joint, ends in work.joints.items() for end in ends]
+    open_choices = [choice for choice in choices if len(choice.classes) > 1]
+    class_at: dict[int, int] = {}
+    for which, loops in _loops_of_classes(work, choices).items():
+        number_closing = sum(loop in work.closing for loop in loops)
+        class_at[which] = node("class", _is_planar(work, which), len(loops), number_closing)
+        joints = set().union(*(work.loops[loop] for loop in loops))
+        edges += [(class_at[which], joint_at[joint]) for joint in joints]
+    for choice in open_choices:
+        four_bar = node("open")
+        edges += [(four_bar, joint_at[joint]) for joint in work.loops[choice.last]]
+        edges += [(four_bar, class_at[which]) for which in choice.classes]
+    palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
+    labels = labels_of(ColouredGraph(len(colours), edges, [palette[colour] for colour in colours]))
+    return {which: labels[place] for which, place in class_at.items()}
+
+
+def _loops_of_classes(work: WorkingGraph, choices: Sequence[_Choice]) -> dict[int, list[int]]:
+    """Return the loops of each class after the choices; none for open ones."""
+    independent, closing = work.kept_loops()
+    class_of = {loop: work.class_of[loop] for loop in (*independent, *closing) if loop in work.class_of}
+    for choice in choices:
+        del class_of[choice.last]
+        if len(choice.classes) == 1:
+            class_of[choice.last] = choice.there[0].centre_class
+    loops: dict[int, list[int]] = {which: [] for choice in choices for which in choice.classes}
+    for loop, which in class_of.items():
+        loops.setdefault(which, []).append(loop)
+    return loops
+
 
 _MOST_SHOWN = 200
 
@@ -74,7 +209,7 @@ class Reduction(Printed):
     steps : tuple of ReductionStep
         In the order in which they were taken.
     removals : tuple of Removal
-        The same, with what is needed to undo them.
+        The same, with the data to undo them.
 
     Examples
     --------
@@ -93,7 +228,7 @@ class Reduction(Printed):
     _work: WorkingGraph
 
     def undo(self, steps: int | None = None) -> SCGraph:
-        """Put back what the last steps took off, all of them unless told how many.
+        """Put back the links of the last steps, by default of all; then it is the original, ids included.
 
         Parameters
         ----------
@@ -102,7 +237,6 @@ class Reduction(Printed):
         Returns
         -------
         SCGraph
-            Undoing all steps gives the original, ids included.
 
         Raises
         ------
@@ -138,10 +272,11 @@ class Reduction(Printed):
         if not self.steps:
             return [*counts, "nothing to take off"]
         chains = self.chains()
-        told = f"{len(self.steps)} step(s) in {len(chains)} adjunct addend{'um' if len(chains) == 1 else 'a'}"
+        addenda = numbered(len(chains), "adjunct addendum", "adjunct addenda")
+        head = f"{numbered(len(self.steps), 'step')} in {addenda}"
         if len(self.steps) > _MOST_SHOWN:
-            return [*counts, told, f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"]
-        return [*counts, told, *(line for chain in chains for line in self._tree(chain))]
+            return [*counts, head, f"more than {_MOST_SHOWN} steps: --json (in Python to_json) lists them"]
+        return [*counts, head, *(line for chain in chains for line in self._tree(chain))]
 
     def _tree(self, chain: nx.DiGraph) -> list[str]:
         """Draw an adjunct addendum from the mechanism outwards."""
@@ -153,9 +288,9 @@ class Reduction(Printed):
             u, v, a, b = map(plain, (*step.removed, *step.onto))
             lines.append(f"{before}step {number + 1}: links {u}, {v} on {a}, {b}")
             above = sorted(chain.successors(number), reverse=True)
-            for place, one in enumerate(above):  # the last comes first, and is taken last
+            for place, child in enumerate(above):  # the last comes first, and is drawn last
                 corner, beside = ("└── ", "    ") if place == 0 else ("├── ", "│   ")
-                waiting.append((one, under + corner, under + beside))
+                waiting.append((child, under + corner, under + beside))
         return lines
 
     def __repr__(self) -> str:
@@ -163,22 +298,13 @@ class Reduction(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the reduction as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-
-        def counts(sc: SCGraph) -> dict[str, Any]:
-            return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility_report(sc).mobility}
-
         return {
             "rule": self.rule,
-            "before": counts(self.original),
-            "after": counts(self.graph),
+            "before": counts_as_json(self.original),
+            "after": counts_as_json(self.graph),
             "steps": [
-                {
-                    "removed": list(step.removed),
-                    "onto": list(step.onto),
-                    "joints": list(step.joints),
-                    "joint": step.joint,
-                    "sits_on": step.sits_on,
-                }
+                {"removed": list(step.removed), "onto": list(step.onto), "joints": list(step.joints)}
+                | {"joint": step.joint, "sits_on": step.sits_on}
                 for step in self.steps
             ],
         }
@@ -215,7 +341,7 @@ def reduce(
     Notes
     -----
     The mobility count stays. Ride-along reduction takes linear time and, up to isomorphism, gives the same graph,
-    with the same centres, in whichever order the parts of the mechanism are given. Where a block comes down to
+    with the same centres, in whichever order the parts of the mechanism are listed. Where a block comes down to
     a single four-bar and several of its four-bars could be it, one of the most general kind stays: a finite centre
     before one at infinity, a centre of its own before one that another block has too (docs/theory/reduction.md).
     Dyad reduction promises neither.
@@ -240,16 +366,16 @@ def reduce(
             raise InvariantError("keep", f"{shown(link)} is to be kept and is no link", "one of the links")
     if sc.ground is not None:
         protected.add(sc.ground)
-    terms = Terms(rule, fully, frozenset(protected))
+    terms = ReductionTerms(rule, fully, frozenset(protected))
     work = WorkingGraph(sc)
     taken = take_all(work, terms)
     if rule == "ride-along" and not fully and (stay := links_of_loops_that_stay(work, taken, terms.protected)):
         work = WorkingGraph(sc)
-        taken = take_all(work, Terms(rule, fully, terms.protected | stay))
+        taken = take_all(work, ReductionTerms(rule, fully, terms.protected | stay))
     return Reduction(sc, work.graph(), rule, _steps(taken), tuple(one.removal for one in taken), work)
 
 
-def _steps(taken: Sequence[Taken]) -> tuple[ReductionStep, ...]:
+def _steps(taken: Sequence[TakenAddendum]) -> tuple[ReductionStep, ...]:
     """Add to each step the one it sits on: the first that takes off one of its two bases."""
     taker = {link: i for i, one in enumerate(taken) for link in one.removal.links}
     steps = []

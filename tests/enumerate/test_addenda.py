@@ -4,7 +4,7 @@ import pytest
 from enumerate.addenda import AddendumCountJob, AddendumJob, addenda
 from enumerate.runner.running import run
 from enumerate.runner.totals import CountSink
-from graphs.edit.sc import add_ride_along
+from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.identity.classes import class_code

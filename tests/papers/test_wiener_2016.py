@@ -20,7 +20,7 @@ from graphs.count.equations import (
 )
 from graphs.count.relative import relative_polyhedron, relative_spherical_system
 from graphs.count.report import mobility_report
-from graphs.edit.sc import add_loop
+from graphs.edit.edits import add_loop
 from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.mechanism.polyhedron import PolyhedronModel

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import synth
-from graphs.convert.by_name import FORMS
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.table import CONVERSIONS, Mechanism, to_sc
+from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import SynthedraError
 from graphs.files.formats import WRITERS, read_all

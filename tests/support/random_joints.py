@@ -2,8 +2,7 @@
 
 import random
 
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.mechanism.sc import SCGraph
 
 

@@ -1,13 +1,17 @@
-"""FOLD files, 1.0 to 1.2: the frame that holds the pattern; faces that are not given are traced.
+"""FOLD files, 1.0 to 1.2: the frame that holds the pattern; missing faces are traced.
 
 Read as a :class:`graphs.mechanism.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The
 format is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
-demands, and told of when the sheet is written (:mod:`graphs.files.losses`).
+demands, and named when the sheet is written (:mod:`graphs.files.losses`).
+
+FOLD 1.1, "file_frames": a frame with ``frame_inherit`` takes every key it lacks from its ``frame_parent``, the key
+frame (0) or an earlier or later one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from math import isclose
@@ -16,28 +20,127 @@ from typing import Any, cast
 
 import numpy as np
 
-from graphs.convert.loose_creases import creases_on_no_face, joins_faces, traced_anew
+from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.errors import FileError, numbered
-from graphs.files.check import Checker
-from graphs.files.patterns.fold_frames import resolved_frame
-from graphs.files.patterns.simple import with_simple_faces
-from graphs.files.text import json_text, load_json
+from graphs.files.text import Checker, json_text, load_json
 from graphs.mechanism.plane import flattened
 from graphs.mechanism.precision import written_by
 from graphs.mechanism.reading import WrittenPrecision
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet
 from graphs.work_limits import most
 
-__all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
+__all__ = ["FoldFrames", "fold_text", "fold_text_of_poses", "read_fold", "resolved_frame", "sheet_from_fold"]
+
+_OLD_NAMES = {
+    "edges_foldAngles": "edges_foldAngle",
+    "edges_lengths": "edges_length",
+    "edges_crease_angle_os": "edges_foldAngle",
+}
+"""Names of FOLD 1.0 and of early Origami Simulator to those of today."""
+
+
+def resolved_frame(
+    document: Mapping[str, Any], check: Checker, frame: int | None = None
+) -> tuple[dict[str, Any], list[str]]:
+    """Return the frame that holds the pattern, and notes on how it was found.
+
+    It is the key frame (number 0) if that has edges or faces, else the first frame that does; or the chosen frame.
+    Raise FileError if there is no such frame, or frames are not as FOLD has them, or inherit in a circle.
+    """
+    frames = [document]
+    if document.get("file_frames") is not None:
+        listed = check.list(document["file_frames"], "file_frames", what="a list of frames")
+        for i, item in enumerate(listed):
+            if not isinstance(item, dict):
+                check.fail(f"file_frames[{i}]", item, "a frame (an object)")
+        frames += listed
+    notes: list[str] = []
+    if frame is not None:
+        if frame >= len(frames):
+            raise FileError(check.path, "", f"no frame {frame}", f"a frame from 0 to {len(frames) - 1}")
+        return _inherited(frames, frame, check, notes), list(dict.fromkeys(notes))
+    which = _first_with_pattern(frames, check, notes)
+    chosen = _inherited(frames, which, check, notes)
+    if which:
+        notes.append(f"the key frame is empty; frame {which} of {len(frames) - 1} was read")
+    elif len(frames) > 1:
+        notes.append(f"{numbered(len(frames) - 1, 'more frame')} not read")
+    return chosen, list(dict.fromkeys(notes))
+
+
+_PATTERN = ("faces_vertices", "edges_vertices")
+
+
+def _first_with_pattern(frames: list[Mapping[str, Any]], check: Checker, notes: list[str]) -> int:
+    """Return the number of the first frame that has faces or edges, its own or inherited; else 0.
+
+    What a frame has is found from what its parent has: a chain of frames is gone through once, not from each.
+    """
+    has: dict[int, dict[str, bool]] = {}
+    for index in range(len(frames)):
+        for number in reversed(_ancestors(frames, index, check, has)):
+            own, parent = _named_today(frames[number], notes), _parent(frames, number, check)
+            above = {} if parent is None else has[parent]
+            has[number] = {key: bool(own[key]) if key in own else above.get(key, False) for key in _PATTERN}
+        if any(has[index].values()):
+            return index
+    return 0
+
+
+def _ancestors(
+    frames: list[Mapping[str, Any]], index: int, check: Checker, known: Container[int] = ()
+) -> list[int]:
+    """Return a frame, its parent, and so on up to one that is known or inherits nothing."""
+    chain: dict[int, None] = {}
+    above: int | None = index
+    while above is not None and above not in known:
+        if above in chain:
+            place = f"file_frames[{above - 1}].frame_parent"
+            raise FileError(check.path, place, "frames inherit in a circle", "parents without a circle")
+        chain[above] = None
+        above = _parent(frames, above, check)
+    return list(chain)
+
+
+def _parent(frames: list[Mapping[str, Any]], index: int, check: Checker) -> int | None:
+    frame = frames[index]
+    if not index or frame.get("frame_inherit") is not True:
+        return None
+    place = f"file_frames[{index - 1}].frame_parent"
+    return check.integer(frame.get("frame_parent", 0), place, most=len(frames) - 1)
+
+
+def _inherited(frames: list[Mapping[str, Any]], index: int, check: Checker, notes: list[str]) -> dict[str, Any]:
+    """Return a frame with what it inherits."""
+    merged: dict[str, Any] = {}
+    for ancestor in reversed(_ancestors(frames, index, check)):
+        merged |= _named_today(frames[ancestor], notes)
+    return merged
+
+
+def _named_today(frame: Mapping[str, Any], notes: list[str]) -> dict[str, Any]:
+    """Return a frame without old key names, null keys and the list of frames."""
+    renamed = {}
+    for key, value in frame.items():
+        if key == "file_frames" or value is None:
+            continue
+        today = _OLD_NAMES.get(key, key)
+        if today != key and today in frame:
+            continue
+        if today != key:
+            notes.append(f"old key {key} read as {today}")
+        renamed[today] = value
+    return renamed
+
 
 _FAR = 1e300
 _SPREAD = "synthedra:spread"
-"""Own key: how far points were apart that were welded in tracing; centres and hinges hang on it."""
+"""Own key: the distances of points welded in tracing; centres and hinges depend on it."""
 _PRECISION = "synthedra:precision"
 """Own key: the error that a coordinate may have, in the unit of the coordinates."""
 _ASSIGNMENTS = HINGES + FLAT + "BC"
 _TITLES = ("frame_title", "file_title")
-"""The first that is there is the title."""
+"""The first of these keys that a frame has is the title."""
 _HELD = {
     *("vertices_coords", "edges_vertices", "edges_assignment", "edges_foldAngle", "faces_vertices"),
     *(_SPREAD, _PRECISION),
@@ -49,15 +152,15 @@ _NOTHING_NEW = {
     *("vertices_vertices", "vertices_edges", "vertices_faces", "edges_edges", "edges_faces"),
     *("faces_edges", "faces_faces"),
 }
-"""Keys that speak of the file itself, or follow from those that are held; other frames are told by number."""
+"""Keys that speak of the file itself, or follow from those that are held; other frames are counted."""
 
 
 @dataclass(frozen=True)
 class FoldFrames:
     """The frames of a FOLD file.
 
-    `sheet` is that of the file when no frame is chosen, `unit` is its ``frame_unit``, and `left_out` are the keys
-    of its frame that it does not hold. `document` is the parsed file, None if it has the key frame only.
+    `sheet` is that of the file if no frame is chosen, `unit` its ``frame_unit``, `left_out` the keys of its frame
+    that the sheet does not hold. `document` is the parsed file, None if it has the key frame only.
     """
 
     path: Path
@@ -68,7 +171,7 @@ class FoldFrames:
 
     @property
     def others(self) -> int:
-        """How many there are besides the key frame."""
+        """The number of frames besides the key frame."""
         return 0 if self.document is None else len(self.document["file_frames"])
 
     def frame(self, number: int) -> Sheet:
@@ -165,37 +268,37 @@ def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
 
 
 def _traced(sheet: Sheet, check: Checker) -> Sheet:
-    """Trace the faces of a pattern that comes without; it must be flat."""
-    from graphs.convert.tracing import MOST  # tracing loads shapely
-    from graphs.convert.welding import Lines
-    from graphs.files.patterns.traced import traced_sheet
+    """Trace the faces of a pattern without faces; it must be flat."""
+    from graphs.convert.tracing import (
+        MOST,  # tracing loads shapely
+        Lines,
+    )
+    from graphs.files.patterns.lines import traced_sheet
 
     if not sheet.edges or sheet.coordinates is None:
         raise FileError(check.path, "faces_vertices", "missing", "faces, or edges with coordinates to trace them")
     if any(abs(x) >= MOST for place in sheet.coordinates for x in place):
-        raise FileError(
-            check.path, "vertices_coords", "a number too large to trace faces", f"less than {MOST:.0e}"
-        )
+        wrong = "a number too large to trace faces"
+        raise FileError(check.path, "vertices_coords", wrong, f"less than {MOST:.0e}")
     flat = flattened(sheet)
     if flat is None:
         raise FileError(check.path, "faces_vertices", "missing, and the pattern is not flat", "the faces")
     ends = flat.places[np.array(sheet.edges)]
     lines = Lines(ends, sheet.assignments, sheet.fold_angles)
-    found = traced_sheet(lines, check, title=sheet.title, precision=sheet.precision)
+    traced = traced_sheet(lines, check, title=sheet.title, precision=sheet.precision)
     turned = (flat.turned,) if flat.turned else ()
-    return replace(found, repairs=("faces traced", *turned, *sheet.repairs, *found.repairs))
+    return replace(traced, repairs=("faces traced", *turned, *sheet.repairs, *traced.repairs))
 
 
 def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
-    """Trace a pattern anew if creases of it lie on no face, where that can be done."""
+    """Trace a pattern anew if creases of it lie on no face and that can be done."""
     loose = creases_on_no_face(sheet)
     if not loose:
         return sheet
-    found = check.build(lambda: traced_anew(sheet))
-    if found is not None and joins_faces(found):
-        return replace(
-            found, repairs=(f"{numbered(loose, 'crease line')} on no face: faces traced anew", *found.repairs)
-        )
+    traced = check.build(lambda: traced_anew(sheet))
+    if traced is not None and joins_faces(traced):
+        note = f"{numbered(loose, 'crease line')} on no face: faces traced anew"
+        return replace(traced, repairs=(note, *traced.repairs))
     if not joins_faces(sheet):
         wrong = f"{numbered(loose, 'crease line')} on no face, and none between two faces"
         raise FileError(check.path, "faces_vertices", wrong, "faces that have the creases as sides")
@@ -204,11 +307,7 @@ def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
 
 def fold_text(sheet: Sheet) -> str:
     """Return the text of a FOLD 1.2 file; without coordinates the frame is marked abstract."""
-    document: dict[str, Any] = {
-        "file_spec": 1.2,
-        "file_creator": "synthedra",
-        "file_classes": ["singleModel"],
-    }
+    document: dict[str, Any] = {"file_spec": 1.2, "file_creator": "synthedra", "file_classes": ["singleModel"]}
     if sheet.title:
         document["frame_title"] = sheet.title
     if sheet.spread:
@@ -229,11 +328,11 @@ def fold_text(sheet: Sheet) -> str:
 
 
 def _hides_precision(sheet: Sheet) -> bool:
-    """Tell whether the precision of a sheet is known, and its numbers do not say the same."""
+    """Return whether the precision of a sheet is known, and its digits do not say the same."""
     if sheet.precision is None or sheet.coordinates is None:
         return False
-    told = written_by(np.array(sheet.coordinates))
-    return sheet.precision.stated or told is None or not isclose(told.length, sheet.precision.length)
+    by_digits = written_by(np.array(sheet.coordinates))
+    return sheet.precision.stated or by_digits is None or not isclose(by_digits.length, sheet.precision.length)
 
 
 def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...]:
@@ -247,9 +346,9 @@ def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...
 
 
 def _all_between(rows: list[Any], least: float, greatest: float, kinds: set[type]) -> bool:
-    """Tell whether rows are lists of numbers of some kinds, at once: what is large is read at this speed.
+    """Return whether rows are lists of numbers of some kinds in a range: fast, for large files.
 
-    Where they are not, each is looked at closely to say which.
+    If not, each is looked at closely to say which is wrong.
     """
     if not set(map(type, rows)) <= {list}:
         return False
@@ -306,3 +405,25 @@ def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[flo
             if x is not None:
                 check.number(x, f"edges_foldAngle[{i}]")
     return tuple(None if x is None else float(x) for x in listed)
+
+
+def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
+    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it.
+
+    A pose is the same sheet with other coordinates and fold angles.
+    """
+    document = json.loads(fold_text(sheet))
+    document["file_classes"] = ["animation"]
+    document["file_frames"] = [
+        {
+            "frame_classes": ["foldedForm"],
+            "frame_attributes": ["3D"],
+            "frame_title": f"pose {number}",
+            "frame_parent": 0,
+            "frame_inherit": True,
+            "vertices_coords": [list(place) for place in pose.coordinates or ()],
+            **({} if pose.fold_angles is None else {"edges_foldAngle": list(pose.fold_angles)}),
+        }
+        for number, pose in enumerate(poses)
+    ]
+    return json_text(document)

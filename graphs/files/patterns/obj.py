@@ -1,6 +1,6 @@
 """Wavefront OBJ: vertices and faces of a folded or flat sheet.
 
-Sides between two faces are creases. OBJ has no word for what kind; a comment ``#e a b M -90`` tells the assignment
+Sides between two faces are creases. OBJ has no word for their kind; a comment ``#e a b M -90`` has the assignment
 of the edge between two vertices (numbered from 1) and, if known, its fold angle in degrees.
 """
 
@@ -12,10 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
+from graphs.convert.faces import with_simple_faces
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import Checker
-from graphs.files.patterns.simple import with_simple_faces
-from graphs.files.text import read_text
+from graphs.files.text import Checker, read_text
 from graphs.mechanism.precision import written_by
 from graphs.mechanism.sheet import Sheet
 
@@ -54,9 +53,7 @@ def sheet_from_obj(path: Path) -> Sheet:
     if not faces:
         raise FileError(path, "", "no faces", "lines 'f a b c ...'")
     known = {
-        pair: what
-        for pair, what in edges.items()
-        if pair[0] != pair[1] and min(pair) >= 0 and max(pair) < len(places)
+        (a, b): edge for (a, b), edge in edges.items() if a != b and 0 <= min(a, b) <= max(a, b) < len(places)
     }
     letters = "".join(letter for letter, _ in known.values())
     angles = tuple(angle for _, angle in known.values())
@@ -77,11 +74,7 @@ def sheet_from_obj(path: Path) -> Sheet:
 
 
 def obj_text(sheet: Sheet) -> str:
-    """Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates.
-
-    >>> obj_text(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).splitlines()[-1]
-    'f 1 2 3'
-    """
+    """Return the OBJ text of a sheet, a flat one in z = 0; UnsolvableError if it has no coordinates."""
     if sheet.coordinates is None:
         raise UnsolvableError("an OBJ file needs coordinates, and the sheet has none")
     rows = ["v " + " ".join(repr(x) for x in (*place, 0.0)[:3]) for place in sheet.coordinates]

@@ -6,46 +6,263 @@ Shapes, transforms and styles are read by svgelements; curves become polylines.
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from io import BytesIO
 from itertools import pairwise
-from math import isfinite
+from math import hypot, isfinite, sqrt
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+from xml.etree import ElementTree
 from xml.etree.ElementTree import ParseError
 from xml.sax.saxutils import escape
 
 import numpy as np
 
-from graphs.convert.tracing import MOST
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import MOST, Lines
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.check import Checker
-from graphs.files.patterns.css_colours import rgb_of_css
-from graphs.files.patterns.legend import LEFT_OUT, UNSTATED, Legend
-from graphs.files.patterns.strokes import COLOURS, Stroke, dash_of_lengths, name_of_rgb
-from graphs.files.patterns.svg_digits import precision_of_shapes
-from graphs.files.patterns.svg_work import check_work_of_svg
-from graphs.files.patterns.traced import traced_sheet
-from graphs.files.text import read_text
+from graphs.files.patterns.legend import (
+    COLOURS,
+    LEFT_OUT,
+    UNSTATED,
+    Legend,
+    Stroke,
+    dash_of_lengths,
+    name_of_rgb,
+    rgb_of_css,
+)
+from graphs.files.patterns.lines import traced_sheet
+from graphs.files.text import Checker, read_text
+from graphs.mechanism.evidence.digits import digits_of
 from graphs.mechanism.plane import flat_places
+from graphs.mechanism.reading import WrittenPrecision
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.plain_text import plain
+from graphs.work_limits import how_to_raise, most
 
-__all__ = ["sheet_from_svg", "svg_text"]
+__all__ = ["check_work_of_svg", "precision_of_shapes", "sheet_from_svg", "svg_text"]
+
+_LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
+
+_LONG_NUMBER = re.compile(r"[0-9]{101}")
+
+
+def check_work_of_svg(text: str, path: Path) -> None:
+    """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn.
+
+    Raise FileError if shapes are drawn by use more often than the limit ``shapes``, elements (used ones included)
+    are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform or style sheet is
+    too long; ElementTree.ParseError if the text is not XML.
+    """
+    root = ElementTree.fromstring(text)
+    named = {element.get("id"): element for element in root.iter() if element.get("id") is not None}
+    drawn: dict[ElementTree.Element, int] = {}
+    levels: dict[ElementTree.Element, int] = {}
+    waiting, open_ones = [root], set[ElementTree.Element]()
+    while waiting:  # depth first, without recursion: files nest as deep as they like
+        element = waiting[-1]
+        if element in drawn:
+            waiting.pop()
+            continue
+        inner = [*element, *_used(element, named)]
+        missing = [child for child in inner if child not in drawn]
+        if not missing:
+            drawn[element] = 1 + sum(drawn[child] for child in inner)
+            levels[element] = 1 + max((levels[child] for child in inner), default=0)
+            open_ones.discard(element)
+            waiting.pop()
+            continue
+        open_ones.add(element)
+        if around := [child for child in missing if child in open_ones]:
+            raise FileError(path, "", f"the shape {shown(around[0].get('id'))} uses itself", "other shapes")
+        waiting += missing
+    for element in drawn:
+        _check_text(element, path)
+    _check(path, "shapes", drawn[root] - len(drawn), "shapes drawn by 'use'")
+    _check(path, "levels", levels[root], "levels of elements in elements")
+
+
+def _check_text(element: ElementTree.Element, path: Path) -> None:
+    """Refuse text that the patterns by which svgelements reads it would look through again and again."""
+    name = element.tag.rpartition("}")[2]
+    for key, value in element.items():
+        if key not in (*_LINKS, "id") and _LONG_NUMBER.search(value):
+            raise FileError(path, f"{name}: {key}", "a number of more than 100 digits", "coordinates")
+        if key == "transform":
+            _check(path, "letters", len(value), "letters in a transform")
+    if name == "style":
+        text = element.text or ""
+        _check(path, "letters", len(text), "letters in a style sheet")
+        if "{" in text.rpartition("}")[2]:
+            raise FileError(path, "style", "a rule that does not end", "'}' after the last rule")
+
+
+def _check(path: Path, limit: str, needed: int, what: str) -> None:
+    if needed > most(limit):
+        raise FileError(path, "", f"{needed} {what}", how_to_raise(limit, needed))
+
+
+def _used(element: ElementTree.Element, named: dict[str | None, ElementTree.Element]) -> list[ElementTree.Element]:
+    if element.tag.rpartition("}")[2] != "use":
+        return []
+    targets = (element.get(key, "").removeprefix("#") for key in _LINKS)
+    return [named[target] for target in targets if target in named][:1]
+
+
+_WRITTEN = {
+    "path": ("d",),
+    "line": ("x1", "y1", "x2", "y2"),
+    "polyline": ("points",),
+    "polygon": ("points",),
+    "rect": ("x", "y", "width", "height"),
+    "circle": ("cx", "cy", "r"),
+    "ellipse": ("cx", "cy", "rx", "ry"),
+}
+"""The attributes with coordinates, by element."""
+_UNITS = {"px": 1.0, "pt": 4 / 3, "pc": 16.0, "mm": 96 / 25.4, "cm": 96 / 2.54, "in": 96.0}
+_LENGTH = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(px|pt|pc|mm|cm|in)?")
+_COMMAND = re.compile(r"([MLHVCSQTAZmlhvcsqtaz])([^MLHVCSQTAZmlhvcsqtaz]*)")
+_TO_A_STEP = {"h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "a": 7}
+"""Numbers of each step of a relative command; of the others two."""
+_FUNCTION = re.compile(r"([a-zA-Z]+)\s*\(([^)]*)\)")
+_SHIFT = slice(4, None)
+_ROUNDED = 4
+"""Entries of a matrix with fewer decimals are taken to be exact."""
+
+
+class _Shape(NamedTuple):
+    """The numbers of a shape, by the factor of their unit; how many errors add up; its transform."""
+
+    numbers: dict[float, list[float]]
+    steps: int
+    transform: str
+    reach: float
+
+
+class _Digit(NamedTuple):
+    """Half of what the last decimal of the file's matrices, and of its shifts, is worth."""
+
+    of_matrices: float
+    of_shifts: float
+
+
+def precision_of_shapes(shapes: Iterable[Any]) -> WrittenPrecision | None:
+    """Return the precision of written shapes of svgelements, None if nothing says it.
+
+    The length is in the unit of the drawing, after units and transforms. Errors of the numbers of relative
+    commands are independent, so they add up as the root of their number.
+    """
+    written = [_as_written(shape) for shape in shapes]
+    of_unit: defaultdict[float, list[float]] = defaultdict(list)
+    for shape in written:
+        for unit, numbers in shape.numbers.items():
+            of_unit[unit] += numbers
+    digits = {unit: digits_of(numbers, float(np.ptp(numbers)) / 2.0) for unit, numbers in of_unit.items()}
+    transforms = {shape.transform for shape in written}
+    digit = _Digit(_last_decimal(transforms, "matrix", slice(4), _ROUNDED), _last_shift(transforms))
+    worst, source = 0.0, ""
+    for shape in written:
+        errors = [(row.error * unit, row.source) for unit in shape.numbers if (row := digits[unit]) is not None]
+        length, why = max(errors, default=(0.0, ""))
+        error = length * sqrt(shape.steps) * _stretch(shape.transform)
+        error += _error_of_transform(shape.transform, shape.reach, digit)
+        if error > worst:
+            worst, source = error, why or "digits of a transform"
+    return WrittenPrecision(worst, source) if worst > 0.0 else None
+
+
+def _as_written(shape: Any) -> _Shape:
+    values = shape.values
+    words = [str(values.get(name) or "") for name in _WRITTEN.get(str(values.get("tag")), ())]
+    numbers: defaultdict[float, list[float]] = defaultdict(list)
+    reach = 0.0
+    for word in words:
+        for number, unit in _LENGTH.findall(word):
+            factor = _UNITS.get(unit, 1.0)
+            numbers[factor].append(float(number))
+            reach = max(reach, abs(float(number)) * factor)
+    around = str(values.get("viewport_transform") or "")
+    transform = str(values.get("transform") or "").removeprefix(around)
+    steps = _steps(words[0]) if values.get("tag") == "path" and words else 1
+    return _Shape(dict(numbers), steps, transform if _same(around) else f"{_scaled(around)} {transform}", reach)
+
+
+def _same(around: str) -> bool:
+    """Return whether the view box changes no size: its place does not matter, since all shapes move alike."""
+    return "scale" not in around and "matrix" not in around
+
+
+def _scaled(around: str) -> str:
+    """Return the size that a view box is drawn in; its digits are not written, but those of a division."""
+    return f"scale({_stretch(around):.3g})"
+
+
+def _steps(path: str) -> int:
+    """Return the most numbers in turn that are relative to the last, and so add up their errors."""
+    most = steps = 0
+    for letter, numbers in _COMMAND.findall(path):
+        if letter in "Zz":
+            continue
+        many = len(_LENGTH.findall(numbers))
+        steps = steps + many // _TO_A_STEP.get(letter, 2) if letter.islower() else 1
+        most = max(most, steps)
+    return max(most, 1)
+
+
+def _functions(transform: str) -> Iterator[tuple[str, list[str], str]]:
+    """Yield the functions of a transform, the texts of their numbers, and the functions before each."""
+    for match in _FUNCTION.finditer(transform):
+        yield match[1].lower(), [number for number, _ in _LENGTH.findall(match[2])], transform[: match.start()]
+
+
+def _error_of_transform(transform: str, reach: float, digit: _Digit) -> float:
+    """Return how far off a shape is drawn for the digits of its transform."""
+    error = 0.0
+    for name, numbers, before in _functions(transform):
+        if name == "matrix" and len(numbers) == 6:
+            error += _stretch(before) * (digit.of_matrices * reach + digit.of_shifts)
+        elif name == "translate":
+            error += _stretch(before) * digit.of_shifts
+    return error
+
+
+def _last_shift(transforms: set[str]) -> float:
+    """Return half of what the last decimal of shifts is worth; 0 where all shapes are shifted alike."""
+    if len(transforms) < 2:
+        return 0.0
+    shifts = [_last_decimal(transforms, "matrix", _SHIFT, 1), _last_decimal(transforms, "translate", slice(2), 1)]
+    return min((shift for shift in shifts if shift), default=0.0)
+
+
+def _last_decimal(transforms: set[str], function: str, part: slice, least: int) -> float:
+    """Return half of what the last decimal of a function is worth; 0 of fewer decimals than the least."""
+    numbers = [
+        number
+        for transform in transforms
+        for name, row, _ in _functions(transform)
+        if name == function
+        for number in row[part]
+    ]
+    decimals = max((len(text.partition(".")[2]) for text in numbers if "e" not in text.lower()), default=0)
+    return 0.5 * 10.0**-decimals if decimals >= least else 0.0
+
+
+def _stretch(transform: str) -> float:
+    """Return how much longer a transform makes a length, at most."""
+    import svgelements
+
+    matrix = svgelements.Matrix(transform)
+    a, b, c, d = (float(x) for x in (matrix.a, matrix.b, matrix.c, matrix.d))
+    # The larger singular value: half the sums of lengths of what turns and what mirrors.
+    return (hypot(a + d, b - c) + hypot(a - d, b + c)) / 2.0
+
 
 _LONGEST_TITLE = 1_000
 _DECIMALS = 12
-"""Of fold angles in degrees: what is finer comes of dividing by 180."""
+"""Decimals of fold angles in degrees: finer ones come of dividing by 180."""
 _LONGEST_LOOK = 40
-_NAMES = (
-    "class",
-    "id",
-    "data-name",
-    "{http://www.inkscape.org/namespaces/inkscape}label",
-)
+_NAMES = ("class", "id", "data-name", "{http://www.inkscape.org/namespaces/inkscape}label")
 """Attributes with names of groups, layers and shapes: of Illustrator, of Inkscape."""
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
 _PIECES = 8
@@ -53,9 +270,9 @@ _PIECES = 8
 
 
 def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
-    """Read the lines of an SVG file and trace its faces; the legend says what strokes are, where that was stated.
+    """Read the lines of an SVG file and trace its faces; the legend has the stated assignments of strokes.
 
-    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.traced`), or most are not
+    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.lines`), or most are not
     understood.
     """
     check = Checker(path)
@@ -70,7 +287,7 @@ def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
         if letter is None or letter == LEFT_OUT:
             continue
         try:
-            with np.errstate(all="ignore"):  # what is not finite is refused below
+            with np.errstate(all="ignore"):  # numbers that are not finite are refused below
                 pieces = _pieces(shape)
         except (ValueError, TypeError, IndexError, AttributeError, ArithmeticError) as error:
             raise FileError(path, "", f"a shape cannot be drawn: {shown(str(error))}", "SVG shapes") from None
@@ -89,7 +306,7 @@ def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
 
 
 def _borders_of_cuts(sheet: Sheet, letters: str) -> str:
-    """Return the assignments of a drawing: where nothing is a border, cuts with a face on one side only are."""
+    """Return the assignments of a drawing: without borders, cuts with a face on one side only are borders."""
     if "B" in letters:
         return sheet.assignments
     sides = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
@@ -113,7 +330,7 @@ def _stroked_shapes(path: Path) -> Iterator[tuple[Any, tuple[str, ...]]]:
         raise FileError(path, f"line {line} column {column}", "not XML", "SVG") from None
     except FileError:
         raise
-    except RecursionError:  # where the limit was raised beyond what Python's stack holds
+    except RecursionError:  # the limit was raised beyond Python's stack
         raise FileError(path, "", "elements nested more deeply than Python can follow", "fewer groups") from None
     except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError) as error:
         raise FileError(path, "", f"not SVG: {shown(str(error))}", "SVG") from None
@@ -125,7 +342,7 @@ def _stroked_shapes(path: Path) -> Iterator[tuple[Any, tuple[str, ...]]]:
 
 
 def _with_names(drawing: Any) -> Iterator[tuple[Any, tuple[str, ...]]]:
-    """Yield what is drawn with the names of itself and of the groups it is in, the innermost first."""
+    """Yield drawn elements with their names and those of their groups, the innermost first."""
     waiting: list[tuple[Any, tuple[str, ...]]] = [(drawing, ())]
     while waiting:  # without recursion: files nest as deep as they like
         element, outer = waiting.pop()
@@ -134,23 +351,24 @@ def _with_names(drawing: Any) -> Iterator[tuple[Any, tuple[str, ...]]]:
         names = tuple(str(own[key]) for key in _NAMES if own.get(key))
         names = (*(name for name in names if name not in outer), *outer)
         if isinstance(element, list):
-            waiting += [(one, names) for one in reversed(element)]
+            waiting += [(child, names) for child in reversed(element)]
         else:
             yield element, names
 
 
 def _stroke(shape: Any, names: tuple[str, ...]) -> Stroke:
-    """Return how a shape looks; what svgelements takes for black is read by ourselves."""
-    rgb = (int(shape.stroke.red), int(shape.stroke.green), int(shape.stroke.blue))
+    """Return the look of a shape; svgelements takes unknown colours for black, so colours are read here."""
     written = str(shape.values.get("stroke") or "")
-    read = rgb_of_css(written) if written else rgb
-    dash = dash_of_lengths(
-        [float(word) for word in _NUMBER.findall(str(shape.values.get("stroke-dasharray") or ""))]
+    rgb = (
+        rgb_of_css(written)
+        if written
+        else (int(shape.stroke.red), int(shape.stroke.green), int(shape.stroke.blue))
     )
-    look = "stroke " + plain(written, _LONGEST_LOOK) if read is None else name_of_rgb(read)
-    return Stroke(
-        read, dash, names, kind=look if dash == "solid" else f"{dash} {look}", lines=_number_of_lines(shape)
-    )
+    lengths = _NUMBER.findall(str(shape.values.get("stroke-dasharray") or ""))
+    dash = dash_of_lengths([float(length) for length in lengths])
+    look = "stroke " + plain(written, _LONGEST_LOOK) if rgb is None else name_of_rgb(rgb)
+    kind = look if dash == "solid" else f"{dash} {look}"
+    return Stroke(rgb, dash, names, kind=kind, lines=_number_of_lines(shape))
 
 
 def _number_of_lines(shape: Any) -> int:
@@ -183,17 +401,9 @@ def _fold_angle(letter: str, opacity: float) -> float | None:
 
 
 def svg_text(sheet: Sheet) -> str:
-    """Return the SVG text of a flat sheet, a line for each edge; opacity tells the fold angle, full for 180.
+    """Return the SVG text of a flat sheet, a line for each edge; opacity is the fold angle, full for 180 degrees.
 
-    Raises
-    ------
-    UnsolvableError
-        If the sheet has no coordinates, is not flat, or has no line.
-
-    Examples
-    --------
-    >>> print(svg_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (2.0, 1.0)))).splitlines()[-2])
-    <line x1="0.0" y1="1.0" x2="2.0" y2="0.0" stroke="#ff0000"/>
+    Raise UnsolvableError if the sheet has no coordinates, is not flat, or has no line.
     """
     places = flat_places(sheet, "an SVG crease pattern")
     if not (sheet.edges or sheet.faces):

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from graphs.arrays import Floats
-from graphs.files.solids.mesh import Mesh
+from graphs.files.solids.meshes import Mesh
 from graphs.plain_text import plain
 
 __all__ = ["gltf_text"]

@@ -14,7 +14,7 @@ from toy_job import Squares
 from enumerate.runner.running import Interrupted, run
 from enumerate.runner.sinks import FolderSink, JsonLinesSink, RowSink
 from enumerate.runner.store import SqliteSink, read_rows
-from graphs.files import unfinished
+from graphs.files import atomic
 from graphs.files.atomic import FolderBeside
 
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
@@ -121,12 +121,12 @@ def test_a_second_signal_does_not_disturb_cleaning_up(tmp_path):
 
 
 def test_a_folder_of_many_files_is_removed_by_another_process(tmp_path, monkeypatch):
-    monkeypatch.setattr(unfinished, "_PATIENCE", 0.0)
+    monkeypatch.setattr(atomic, "_PATIENCE", 0.0)
     folder = FolderBeside(tmp_path / "folder")
     for number in range(50):
         (folder.path / f"{number}.json").touch()
     folder.discard()
-    (remover,) = unfinished._removers
+    (remover,) = atomic._removers
     assert remover.wait(timeout=60) == 0
     assert list(tmp_path.iterdir()) == []
-    unfinished._removers.clear()
+    atomic._removers.clear()

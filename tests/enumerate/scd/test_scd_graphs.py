@@ -18,11 +18,11 @@ from enumerate.scd.graphs import (
 )
 from enumerate.scd.jobs import SCDJob, scd_count_job
 from enumerate.scd.query import PlacementQuery, SCDQuery
-from graphs.convert.reconstruction import polyhedron_of
+from graphs.convert.panels import polyhedron_of
 from graphs.convert.table import to_sc
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import FaceKind

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 import synth
-from graphs.convert.centres import axes_meet
+from graphs.convert.cycles import axes_meet
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.tracing import trace_sheet
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import Lines, trace_sheet
 from graphs.loops.loop import Centre
 from graphs.mechanism.sheet import Sheet
 

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from graphs.answer.mechanisms import mobility
-from graphs.convert.tracing import trace_sheet
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import Lines, trace_sheet
 from graphs.files.formats import read
 
 SQUARE = [((0, 0), (10, 0)), ((10, 0), (10, 10)), ((10, 10), (0, 10)), ((0, 10), (0, 0))]

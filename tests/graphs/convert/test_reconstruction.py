@@ -2,8 +2,7 @@ from hypothesis import given
 from strategies import scd_graphs
 
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.panels import scd_from_panels
-from graphs.convert.reconstruction import internal_rods, polyhedron_of, vertex_steps
+from graphs.convert.panels import internal_rods, polyhedron_of, scd_from_panels, vertex_steps
 from graphs.count.equations import mobility_of_model
 from graphs.loops.loop import Loop
 from graphs.mechanism.drawing import FaceKind

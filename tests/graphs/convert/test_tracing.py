@@ -8,13 +8,12 @@ import pytest
 import shapely
 from hypothesis import given, settings, strategies as st
 
-from graphs.convert import welding
+from graphs.convert import tracing
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.tracing import TOLERANCES, trace_sheet
-from graphs.convert.welding import Lines, network_of, networks_of
+from graphs.convert.tracing import TOLERANCES, Lines, network_of, networks_of, trace_sheet
 from graphs.errors import InvariantError
 from graphs.files.formats import read, write
-from graphs.files.patterns.cp import cp_text, sheet_from_cp
+from graphs.files.patterns.lines import cp_text, sheet_from_cp
 
 SQUARE = [((0, 0), (1, 0)), ((1, 0), (1, 1)), ((1, 1), (0, 1)), ((0, 1), (0, 0))]
 
@@ -227,8 +226,8 @@ def same(one, other):
 
 @pytest.mark.parametrize("number", [20, pytest.param(3000, marks=pytest.mark.slow)])
 def test_tolerances_that_weld_alike_give_what_each_gives_by_itself(number, rng, monkeypatch):
-    welded, weldings = welding._welded_network, []
-    monkeypatch.setattr(welding, "_welded_network", lambda *given: weldings.append(given) or welded(*given))
+    welded, weldings = tracing._welded_network, []
+    monkeypatch.setattr(tracing, "_welded_network", lambda *given: weldings.append(given) or welded(*given))
     for _ in range(number):
         lines = noisy_lines(rng)
         tried = [t * lines.size for t in TOLERANCES]
@@ -253,8 +252,8 @@ def grid(n):
 
 @pytest.mark.parametrize("n", [12, pytest.param(150, marks=pytest.mark.slow)])
 def test_a_clean_drawing_is_welded_once_for_all_tolerances(n, monkeypatch):
-    welded, weldings = welding._welded, []
-    monkeypatch.setattr(welding, "_welded", lambda *given: weldings.append(given) or welded(*given))
+    welded, weldings = tracing._welded, []
+    monkeypatch.setattr(tracing, "_welded", lambda *given: weldings.append(given) or welded(*given))
     sheet = grid(n)
     assert (len(sheet.faces), sheet.repairs) == (n * n, ())
     assert len(weldings) == 1

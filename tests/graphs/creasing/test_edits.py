@@ -4,8 +4,7 @@ import pytest
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
-from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
-from graphs.creasing.named import joint_of_sheet_named
+from graphs.creasing.edits import crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
 from graphs.edit.named import joint_named, link_named
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read

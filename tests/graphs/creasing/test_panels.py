@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import synth
-from graphs.creasing.panels import take_off_panels
+from graphs.creasing.edits import take_off_panels
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.reduce.ride_alongs import reduce

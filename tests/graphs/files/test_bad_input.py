@@ -138,7 +138,7 @@ TEXTS = {
     "s6: self-joint": ("a.s6", b":Af", "line 1: a joint joins link"),
     "graphml: no XML": ("a.graphml", b"<graphml", "not XML"),
     "graphml: no graph": ("a.graphml", b"<html/>", "not GraphML"),
-    "edges: one word": ("a.edges", b"0 1\n2\n", "line 2: 1 word(s); expected two links"),
+    "edges: one word": ("a.edges", b"0 1\n2\n", "line 2: 1 word; expected two links"),
     "edges: comments": ("a.edges", b"# nothing\n", "no joints; expected lines with two links each"),
     "edges: self-joint": ("a.edges", b"0 1\n1 1\n", "a joint joins link 1 to itself"),
     "edges: joint twice": ("a.edges", b"0 1 a\n1 2 a\n", "the joint id 'a' occurs twice"),
@@ -200,7 +200,7 @@ def test_a_directory_a_missing_file_and_a_closed_one(tmp_path):
 def test_several_mechanisms_in_a_file_are_not_one(tmp_path):
     path = tmp_path / "two.g6"
     path.write_text("C~\nCl\n", encoding="ascii")
-    with pytest.raises(FileError, match=r"2 mechanisms; expected one; name it by its line, .*two\.g6:1"):
+    with pytest.raises(FileError, match=r"2 mechanisms; expected one; try its line, .*two\.g6:1"):
         read(path)
     assert read(f"{path}:2").number_of_edges() == 4
     assert [entry.label for entry in read_all(f"{path}:2")] == [f"{path}:2"]

@@ -6,8 +6,7 @@ from strategies import sc_graphs
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.count.report import mobility_report
 from graphs.errors import FileError, UnsolvableError
-from graphs.files.bare import graph6_text, graphml_text
-from graphs.files.edge_lists import edge_list_text
+from graphs.files.bare import edge_list_text, graph6_text, graphml_text
 from graphs.files.formats import read, read_all, write
 from graphs.mechanism.sc import SCGraph
 

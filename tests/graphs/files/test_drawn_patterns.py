@@ -33,7 +33,7 @@ def svg(path, *strokes_and_lines):
 BLACK, RED = 'stroke="#000"', 'stroke="#f00"'
 NO_PATTERNS = {
     "no border": (((2, BORDER), (3, CROSS)), "no border among 6 lines; expected border lines"),
-    "open border": (((1, BORDER[:3]),), "3 lines enclose no face; expected a border that is closed"),
+    "open border": (((1, BORDER[:3]),), "3 lines enclose no face; expected a closed border"),
     "all black": (((1, BORDER), (1, CROSS)), "4 faces and no crease; expected mountains or valleys"),
     "nothing left": (
         ((1, BORDER), (2, [(0.2, 0.2, 0.8, 0.8), (0.3, 0.2, 0.5, 0.3)])),

@@ -60,7 +60,7 @@ def test_names_with_commas_and_ids_of_joints_in_a_table(tmp_path):
 
 
 BAD = {
-    "cells": ("source,target\n0,1\n2\n", r"line 3: 1 cell\(s\); expected 2, one for each column"),
+    "cells": ("source,target\n0,1\n2\n", r"line 3: 1 cell; expected 2, one for each column"),
     "empty": ("source,target\n0,\n", "line 2: an empty cell; expected the name of a link"),
     "quotes": ('source,target\n"0,1\n', "line 2: no cells: .*; expected cells, quotes closed"),
     "names": ("alpha,beta\n0,1\n1,2\n", "line 1: columns called 'alpha, beta'; expected source and target"),

@@ -6,9 +6,7 @@ import pytest
 
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, read_all
-from graphs.files.patterns.css_colours import rgb_of_css
-from graphs.files.patterns.legend import Legend
-from graphs.files.patterns.strokes import letter_of_colour
+from graphs.files.patterns.legend import Legend, letter_of_colour, rgb_of_css
 
 INKSCAPE = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 RED = 'stroke="red"'
@@ -129,5 +127,5 @@ def test_what_cannot_be_stated_is_told_of(tmp_path):
     with pytest.raises(InvariantError, match="the look 'reddish'"):
         Legend.of({"M": "reddish"})
     (tmp_path / "a.cp").write_text("1 0 0 1 0\n")
-    with pytest.raises(FileError, match=r"it has none; expected an \.svg or \.dxf file"):
+    with pytest.raises(FileError, match=r"no colours or layers; expected an \.svg or \.dxf file"):
         read(tmp_path / "a.cp", colours={"M": "red"})

@@ -10,7 +10,7 @@ from strategies import ODD_NAMES, models, randoms, sc_graphs, scd_graphs
 
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read, write
-from graphs.files.native.documents import document, dumps, from_document
+from graphs.files.native import document, dumps, from_document
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

@@ -9,7 +9,7 @@ from random_joints import random_jointed
 
 from graphs.errors import FileError
 from graphs.files.formats import read, write
-from graphs.files.native.documents import document, dumps, from_document
+from graphs.files.native import document, dumps, from_document
 from graphs.joints import JointedLinkage, JointKind, placed, revolutes_of
 from graphs.mechanism.sc import SCGraph
 

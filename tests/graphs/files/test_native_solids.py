@@ -8,7 +8,7 @@ import pytest
 from graphs.answer.mechanisms import mobility
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, write
-from graphs.files.native.documents import dumps, from_document
+from graphs.files.native import dumps, from_document
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids

@@ -9,7 +9,7 @@ from graphs.files.formats import WRITERS, read, write
 
 COUNTS = ("class", "links", "joints", "loops", "centres", "mobility")
 POSE = ("dof", "h", "certainty", "flat")
-OF_THE_POSE = ("coordinates of", "how far points were apart", "other frame")
+OF_THE_POSE = ("coordinates of", "the distances of welded points", "other frame")
 """In a line that tells that the freedoms at the pose are lost, or what they hang on."""
 SMALL = (*names_of_patterns(710), "ossvg_simpleVertex.svg")
 PATTERNS = [name if name in SMALL else pytest.param(name, marks=pytest.mark.slow) for name in names_of_patterns()]

@@ -7,9 +7,8 @@ import sys
 
 import pytest
 
-from graphs.files import unfinished
-from graphs.files.atomic import Beside, FolderBeside
-from graphs.files.unfinished import remove_left
+from graphs.files import atomic
+from graphs.files.atomic import Beside, FolderBeside, remove_left
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no locks that end with a process")
 
@@ -91,7 +90,7 @@ def test_where_there_are_no_locks_nothing_is_taken_for_left_over(tmp_path, monke
     def refuse(*_):
         raise OSError("no locks on this file system")
 
-    monkeypatch.setattr(unfinished.fcntl, "flock", refuse)
+    monkeypatch.setattr(atomic.fcntl, "flock", refuse)
     beside = Beside(tmp_path / "rows.jsonl")
     left = tmp_path / ".rows.jsonl.01234567.unfinished"
     left.touch()

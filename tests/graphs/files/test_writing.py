@@ -9,9 +9,8 @@ import pytest
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.atomic import FolderBeside, check_new_folder, check_place
-from graphs.files.formats import READERS, WRITERS, read, write
-from graphs.files.ids import mechanism_of_id
-from graphs.files.kept_type import change_of_type
+from graphs.files.formats import READERS, WRITERS, mechanism_of_id, read, write
+from graphs.files.losses import change_of_type
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
@@ -153,7 +152,7 @@ def test_fold_keeps_the_precision_of_a_traced_pattern(tmp_path):
     traced = replace(Sheet(5, (), "", FAN, PLACES), spread=0.001)
     assert write(traced, tmp_path / "a.fold") == ()
     assert read(tmp_path / "a.fold").spread == 0.001
-    assert write(traced, tmp_path / "a.obj") == ("how far points were apart that were welded",)
+    assert write(traced, tmp_path / "a.obj") == ("the distances of welded points",)
 
 
 @pytest.mark.parametrize("angle", [1e-05, -12345.678, 2.5e-300, 1e22, -180.0, 0.1 + 0.2])

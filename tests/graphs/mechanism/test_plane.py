@@ -62,7 +62,7 @@ def test_flat_formats_take_sheets_flat_in_any_plane(name, suffix, tmp_path):
     sheet = read(tmp_path / "a.fold")
     assert mobility(sheet).pose.flat
     lost = write(sheet, tmp_path / f"a{suffix}")
-    assert [line for line in lost if "plane" in line] == ([f"how it stood in space: {told}"] if told else [])
+    assert [line for line in lost if "plane" in line] == ([f"the pose in space: {told}"] if told else [])
     again = mobility(read(tmp_path / f"a{suffix}"))
     assert (again.links, again.joints, again.mobility) == (4, 4, 1)
 

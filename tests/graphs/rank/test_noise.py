@@ -9,8 +9,7 @@ from noisy import SIZE, disturbed, exact_freedoms, random_sheet
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.tracing import trace_sheet
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import Lines, trace_sheet
 from graphs.errors import InvariantError
 from graphs.mechanism.precision import precision_of, precision_of_sheet
 from graphs.mechanism.sc import SCGraph

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from strategies import random_scd
 
-from graphs.convert.reconstruction import polyhedron_of
+from graphs.convert.panels import polyhedron_of
 from graphs.count.equations import mobility_of_model
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read

@@ -62,4 +62,4 @@ def test_the_commands_answer_too(number, tmp_path):
     (told,) = json.loads(run("mobility", "--json", "--no-exact", file).stdout)
     assert (told["mobility"], told["centres"]) == (1, number)
     assert json.loads(run("reduce", "--json", file).stdout)["after"] == {"links": 4, "joints": 4, "mobility": 1}
-    assert f"{number - 1} step(s) in {number - 1} adjunct addenda" in run("reduce", file).stdout
+    assert f"{number - 1} steps in {number - 1} adjunct addenda" in run("reduce", file).stdout

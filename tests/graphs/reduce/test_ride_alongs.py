@@ -10,14 +10,14 @@ from strategies import randoms, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
-from graphs.edit.sc import add_ride_along
+from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
 from graphs.identity.classes import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import reduce
-from graphs.reduce.taking import RULES
+from graphs.reduce.working import RULES
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 
@@ -109,7 +109,7 @@ def test_an_addendum_is_printed_as_a_tree():
     for a, b in ((0, 1), (4, 5), (0, 4), (6, 7), (6, 4)):
         sc = add_ride_along(sc, a, b).graph
     assert str(reduce(sc, keep=range(4))).splitlines()[2:] == [
-        "5 step(s) in 1 adjunct addendum",
+        "5 steps in 1 adjunct addendum",
         "step 5: links 4, 5 on 0, 1",
         "├── step 1: links 8, 9 on 0, 4",
         "└── step 4: links 6, 7 on 4, 5",

@@ -19,8 +19,7 @@ import synth
 from enumerate.sc.graphs import sc_rows
 from graphs.edit.analogues import planar_analogue
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError
-from graphs.files.formats import read
-from graphs.files.ids import mechanism_of_id
+from graphs.files.formats import mechanism_of_id, read
 from graphs.files.patterns.fold import read_fold
 from graphs.identity.drawings import map_id
 from synth.atlas.asked.finding import find_type

@@ -61,7 +61,7 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     out = run("reduce", data / "wiener" / "fortune-teller.json", "-o", tmp_path / "eight.json").stdout
     assert "before  links 16, joints 20, mobility 5" in out
     assert "after   links 8, joints 8, mobility 5" in out
-    assert "4 step(s) in 4 adjunct addenda" in out
+    assert "4 steps in 4 adjunct addenda" in out
     assert len(read(tmp_path / "eight.json")) == 8
     told = json.loads(run("reduce", "--json", data / "wiener" / "fortune-teller.json").stdout)
     assert told["before"] == {"links": 16, "joints": 20, "mobility": 5}

@@ -9,8 +9,7 @@ import sys
 import pytest
 from mutated_files import mutated, seeds
 
-from graphs.convert.by_name import FORMS
-from graphs.convert.table import CONVERSIONS
+from graphs.convert.table import CONVERSIONS, FORMS
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, WRITERS, read_all
 

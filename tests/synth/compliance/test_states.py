@@ -9,7 +9,7 @@ import pytest
 from commands import run
 
 import synth
-from graphs.edit.sc import lock_joint
+from graphs.edit.edits import lock_joint
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph

@@ -13,7 +13,7 @@ from commands import run
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from graphs.files.solids.mesh import is_watertight
+from graphs.files.solids.meshes import is_watertight
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
 from synth.templates.solids import plates_in_space, plates_of, poses_of, write_solids

@@ -8,7 +8,7 @@ from commands import run
 from conical import STEPHENSON
 
 from graphs.errors import UnsolvableError
-from graphs.files.solids.mesh import is_watertight
+from graphs.files.solids.meshes import is_watertight
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps

@@ -7,7 +7,7 @@ from math import cos, radians, sin
 import numpy as np
 
 from graphs.files.solids.gltf import gltf_text
-from graphs.files.solids.mesh import Mesh
+from graphs.files.solids.meshes import Mesh
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
 TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import synth
-from graphs.convert.tracing import trace_sheet
-from graphs.convert.welding import Lines
+from graphs.convert.tracing import Lines, trace_sheet
 from graphs.mechanism.sheet import with_all_edges
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.scene.shapes import Disc, Line

@@ -1,32 +1,177 @@
-"""Chains of revolutes seen as joints of other kinds, by where their axes lie. Theory: docs/theory/joints.md."""
+"""Joints of all kinds as chains of revolutes, a mechanism of creases that does the same; such chains recognised.
+
+S is three revolutes about a point, U two whose axes cross at a right angle, the planar joint three parallel ones,
+a slide the linkage of Sarrus (or a knee, `graphs.joints.placing`), C a slide and a revolute along it. Source:
+Wiener 2016, sections 5.1 and 5.2. Theory: docs/theory/joints.md.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import count, pairwise
 
 import numpy as np
 
 from graphs.arrays import Floats
-from graphs.geometry import across, unit
+from graphs.geometry import across, frame_about, unit
 from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs, plain_vector
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs, plain_vector
+from graphs.joints.placing import placed, placed_knees
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import Tolerances
 
-__all__ = ["recognised"]
+__all__ = ["recognised", "revolutes_of"]
+
+_SMALL = 0.1
+"""Size of the chain that stands for a joint, in units of the extent."""
+_ARM = 0.5
+"""Height of a knee over the line between its ends, in units of their distance."""
+_TRIANGLE = ((0.0, 0.0), (1.0, 0.2), (0.3, 0.9))
+"""Axes of a planar joint in its plane: no two sides are equal, unlike those of a knee."""
+
+Line = tuple[Floats, Floats]
+Row = list[Line]
+"""Axes that follow each other, with a link between each two."""
+
+
+def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
+    """Return the mechanism of revolutes that stands for a linkage with joints of all kinds.
+
+    A joint that is one revolute keeps its id; of others the revolutes are called by its id, a colon and a number,
+    and so are the links between them.
+
+    Parameters
+    ----------
+    linkage : JointedLinkage
+        Without places it gets random ones.
+    seed : int, optional
+        Random seed for these.
+
+    Examples
+    --------
+    A leg of a platform: RR-R-RRR, neighbours sharing axes.
+
+    >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
+    >>> kinds = {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC, "s": JointKind.SPHERICAL}
+    >>> list(revolutes_of(JointedLinkage(leg, kinds)).axes)
+    ['u:1', 'u:2', 'p', 's:1', 's:2', 's:3']
+    """
+    whole = placed(linkage, seed)
+    mechanism = _RevoluteMechanism(whole)
+    knees = {knee.slide: (knee, normal) for knee, normal in placed_knees(whole)}
+    shared = {end.joint: (end.place, normal) for knee, normal in knees.values() for end in knee.ends}
+    points = {joint: np.array(place.point) for joint, place in whole.places.items()}
+    size = _SMALL * (extent_of(np.array(list(points.values())).reshape(-1, 3)) or 1.0)
+    for joint, kind in whole.kinds.items():
+        if joint in knees:
+            knee, normal = knees[joint]
+            one, other = (points[end.joint] for end in knee.ends)
+            mechanism.add(joint, [[_knee(one, other, normal, size)]])
+        elif kind is JointKind.SPHERICAL:
+            mechanism.add(joint, [_about_a_point(points[joint], shared.get(joint))])
+        else:
+            mechanism.add(
+                joint, _rows(kind, whole.places[joint], size), along=_turned_along(kind, whole.places[joint])
+            )
+    old = whole.chain
+    loops, closing = (
+        [loop for loop in some if loop.has_centre and set(loop.joints) <= mechanism.joints.keys()]
+        for some in (old.loops, old.closing)
+    )  # a slide that the linkage of Sarrus stands for is no axis of a planar loop
+    chain = SCGraph(mechanism.links, mechanism.joints, loops, closing=closing, ground=old.ground)
+    return HingedSolids(chain, mechanism.axes)
+
+
+class _RevoluteMechanism:
+    """The mechanism of revolutes as it grows."""
+
+    def __init__(self, linkage: JointedLinkage) -> None:
+        self.links: list[LinkId] = list(linkage.chain.nodes)
+        self.joints: dict[JointId, tuple[LinkId, LinkId]] = {}
+        self.axes: dict[JointId, Axis] = {}
+        self._ends: Mapping[JointId, tuple[LinkId, LinkId]] = linkage.chain.joints
+        self._names = {str(name) for name in (*self.links, *self._ends)}
+
+    def add(self, joint: JointId, rows: list[Row], along: Line | None = None) -> None:
+        """Put rows of revolutes side by side for a joint, and after them one more if there is one along them."""
+        first, last = self._ends[joint]
+        alone = len(rows) == 1 and len(rows[0]) == 1
+        names = iter([joint]) if alone else self._new_names(joint)
+        links = self._new_names(joint)
+        middle = last if along is None else self._link(next(links))
+        for row in rows:
+            inner = [self._link(next(links)) for _ in row[1:]]
+            self._join((first, *inner, middle), row, names)
+        if along is not None:
+            self._join((middle, last), [along], names)
+
+    def _link(self, name: LinkId) -> LinkId:
+        self.links.append(name)
+        return name
+
+    def _join(self, links: tuple[LinkId, ...], row: Row, names: Iterator[JointId]) -> None:
+        for ends, (point, direction) in zip(pairwise(links), row, strict=True):
+            name = next(names)
+            self.joints[name] = ends
+            self.axes[name] = plain_vector(point), plain_vector(direction)
+
+    def _new_names(self, joint: JointId) -> Iterator[str]:
+        """Yield names that neither the linkage nor another of its joints has."""
+        for number in count(1):
+            name = f"{joint}:{number}"
+            while name in self._names:
+                name += "'"
+            yield name
+
+
+def _rows(kind: JointKind, place: JointPlace, size: float) -> list[Row]:
+    point, axes = np.array(place.point), [unit(axis) for axis in place.axes]
+    if kind in (JointKind.REVOLUTE, JointKind.UNIVERSAL):
+        return [[(point, axis) for axis in axes]]
+    x, y, _ = frame_about(axes[0])
+    if kind is JointKind.PLANAR:
+        return [[(point + size * (u * x + v * y), axes[0]) for u, v in _TRIANGLE]]
+    step = size * axes[0]  # a prismatic or a cylindrical joint: the linkage of Sarrus
+    return [
+        [(point - step + size * out, turn), (point + 2 * size * out, turn), (point + step + size * out, turn)]
+        for turn, out in ((x, y), (y, x))
+    ]
+
+
+def _turned_along(kind: JointKind, place: JointPlace) -> Line | None:
+    """Return the revolute that a cylindrical joint has along its slide."""
+    return (np.array(place.point), unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
+
+
+def _knee(one: Floats, other: Floats, normal: Floats, size: float) -> Line:
+    """Return the middle axis of a knee between parallel axes through two points."""
+    step = across(other - one, normal)
+    length = float(np.linalg.norm(step))
+    if length < size:  # the two lie on each other: any arm will do
+        return one + step / 2 + size * frame_about(normal)[0], normal
+    return (one + other) / 2 + _ARM * np.cross(normal, step), normal
+
+
+def _about_a_point(point: Floats, shared: tuple[int, Floats] | None) -> Row:
+    """Return three axes at right angles, the first or the last of them that of a knee beside it."""
+    if shared is None:
+        return [(point, axis) for axis in np.eye(3)]
+    place, normal = shared
+    axes = [normal, *frame_about(normal)[:2]]
+    return [(point, axis) for axis in (axes if place == 0 else axes[::-1])]
+
 
 _FLAT = 1e-3
 """Volume of three unit vectors through a point that turn about it in all ways, at least."""
 
 
 def recognised(solids: HingedSolids) -> JointedLinkage:
-    """Return a mechanism of revolutes with its chains of joints seen as the joints that they stand for.
+    """Return a mechanism of revolutes with its chains of joints recognised as the joints that they stand for.
 
-    Joints of loops with a centre are revolutes. The others are looked through in this order: two knees side by
+    Joints of loops with a centre are revolutes. The others are searched in this order: two knees side by
     side between two links, across each other, are a slide (Sarrus), and with a revolute along it a cylindrical
     joint; other knees are slides between the joints beside them; of axes in a row three through a point are a
     spherical joint, two that cross at a right angle a universal one, three that are parallel a planar one. Links
@@ -38,22 +183,22 @@ def recognised(solids: HingedSolids) -> JointedLinkage:
 
     Examples
     --------
-    >>> from graphs.joints.as_revolutes import revolutes_of
+    >>> from graphs.joints.revolutes import revolutes_of
     >>> kinds = {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC, "s": JointKind.SPHERICAL}
     >>> leg = JointedLinkage(SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)}), kinds)
     >>> recognised(revolutes_of(leg))
     <JointedLinkage: 4 links, 3 joints: P S U, placed>
     """
-    seen = _Seen(solids)
-    seen.sarrus()
-    seen.knees()
-    seen.rows()
-    seen.cylinders()
-    return seen.linkage()
+    recognition = _Recognition(solids)
+    recognition.sarrus()
+    recognition.knees()
+    recognition.rows()
+    recognition.cylinders()
+    return recognition.linkage()
 
 
 @dataclass(frozen=True, slots=True)
-class _Bent:
+class _BentRow:
     """Three parallel axes in a row, the middle one with equal arms, and binary links between them."""
 
     joints: tuple[JointId, JointId, JointId]
@@ -62,7 +207,7 @@ class _Bent:
     along: Floats
 
 
-class _Seen:
+class _Recognition:
     """A linkage in which more and more joints are not revolutes."""
 
     def __init__(self, solids: HingedSolids) -> None:
@@ -82,7 +227,7 @@ class _Seen:
         self._kept = {joint for loop in loops if loop.has_centre for joint in loop.joints}
 
     def linkage(self) -> JointedLinkage:
-        """Return what was seen."""
+        """Return the linkage with the joints recognised so far."""
         chain = self._graph()
         places = {
             joint: JointPlace(plain_vector(self._points[joint]), tuple(map(plain_vector, self._axes[joint])))
@@ -92,15 +237,15 @@ class _Seen:
 
     def sarrus(self) -> None:
         """Take two knees side by side, across each other, for a slide."""
-        beside: dict[frozenset[LinkId], list[_Bent]] = {}
-        taken: set[JointId] = set()
+        beside: dict[frozenset[LinkId], list[_BentRow]] = {}
+        used: set[JointId] = set()
         for bent in self._bent():
             others = beside.setdefault(frozenset((bent.links[0], bent.links[3])), [])
             for other in others:
                 joints = {*bent.joints, *other.joints}
                 crossed = np.linalg.norm(np.cross(bent.normal, other.normal)) > _FLAT
-                if crossed and not joints & taken and len(joints) == 6 and bent.links[0] != bent.links[3]:
-                    taken |= joints
+                if crossed and not joints & used and len(joints) == 6 and bent.links[0] != bent.links[3]:
+                    used |= joints
                     first, last = other.links[0], other.links[3]
                     ways = [unit(np.cross(other.normal, bent.normal))]
                     inner = (*other.links[1:3], *bent.links[1:3])
@@ -111,10 +256,10 @@ class _Seen:
 
     def knees(self) -> None:
         """Take the middle axis of a knee for a slide."""
-        taken: set[JointId] = set()
+        used: set[JointId] = set()
         for bent in self._bent():
-            if not set(bent.joints) & taken:
-                taken.update(bent.joints)
+            if not set(bent.joints) & used:
+                used.update(bent.joints)
                 self._kinds[bent.joints[1]] = JointKind.PRISMATIC
                 self._axes[bent.joints[1]] = [bent.along]
 
@@ -159,7 +304,7 @@ class _Seen:
                 return size
         return 1
 
-    def _bent(self) -> list[_Bent]:
+    def _bent(self) -> list[_BentRow]:
         found = []
         for leg in self._legs():
             for place in range(len(leg.joints) - 2):
@@ -176,7 +321,7 @@ class _Seen:
                 if abs(arms[0] - arms[1]) <= self._near < length and min(arms) > self._near:
                     a, b, c, d = leg.links[place : place + 4]
                     x, y, z = joints
-                    found.append(_Bent((x, y, z), (a, b, c, d), normal, (other - one) / length))
+                    found.append(_BentRow((x, y, z), (a, b, c, d), normal, (other - one) / length))
         return found
 
     def _is_parallel(self, joints: Sequence[JointId]) -> bool:
@@ -201,7 +346,7 @@ class _Seen:
         return p + along * u
 
     def _pass(self, joints: Sequence[JointId], point: Floats) -> bool:
-        """Tell whether axes pass through a point."""
+        """Return whether axes pass through a point."""
         offs = (across(point - self._points[joint], self._axes[joint][0]) for joint in joints)
         return all(np.linalg.norm(off) <= self._near for off in offs)
 
@@ -226,7 +371,7 @@ class _Seen:
         self._points[name], self._axes[name] = where, axes
 
     def _name(self, joints: Sequence[JointId]) -> JointId:
-        """Return what the names of joints are before a colon, if that is the same of all; else all names."""
+        """Return the part of the names of joints before a colon, if they have it in common; else all names."""
         stems = {str(joint).rpartition(":")[0] or str(joint) for joint in joints}
         name = stems.pop() if len(stems) == 1 else "+".join(map(str, joints))
         while name in map(str, self._joints):
@@ -234,11 +379,11 @@ class _Seen:
         return int(name) if name.isdecimal() and str(int(name)) == name else name
 
     def _legs(self) -> list[Leg]:
-        """Return the rows of joints that there are now; rings begin where no joint would be cut in two."""
+        """Return the present rows of joints; rings begin between two chains that stand for joints."""
         return [self._well_begun(leg) for leg in legs(self._graph())]
 
     def _well_begun(self, leg: Leg) -> Leg:
-        """Return a ring of binary links as it begins between two joints; other rows begin where they must."""
+        """Return a ring of binary links from between two chains on; other rows as they are."""
         first = leg.links[0]
         if first == self._chain.ground or self._degree(first) != 2:
             return leg
@@ -252,7 +397,7 @@ class _Seen:
         return sum(link in ends for ends in self._joints.values())
 
     def _parts(self, one: JointId, other: JointId) -> bool:
-        """Tell whether two joints belong to different chains: their axes neither meet nor are parallel."""
+        """Return whether two joints belong to different chains: their axes neither meet nor are parallel."""
         pair = (one, other)
         if any(self._kinds[joint] is not JointKind.REVOLUTE for joint in pair):
             return True

@@ -1,25 +1,337 @@
-"""Edits of SCD graphs: the sides of the links are kept, and Eq. 7 predicts the change of mobility.
+"""Edits of SC and SCD graphs, each with the change of mobility that the relative equations predict.
 
-Source: Wiener 2016, sections 4.2.2 to 4.2.4 and 6.3.2, Eq. 7. Edits of SC graphs, whose links have no shape,
-are in :mod:`graphs.edit.sc`. Theory: docs/theory/edits.md.
+An edit returns a new graph; nothing is changed in place. Edits of SCD graphs keep the sides of the links. Source:
+Wiener 2016, sections 4.2 and 6.3.2, Eqs. 5 to 7. Theory: docs/theory/edits.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Container, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import count, islice
 from typing import Any
 
-from graphs.count.relative import relative_polyhedron
-from graphs.edit.sc import Edit, fresh
-from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
+from graphs.count.relative import relative_cgk, relative_polyhedron, relative_spherical_system
+from graphs.count.report import mobility_report
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.ids import JointId, Joints, LinkId
+from graphs.loops.cycle_space import cut_into_cycles, dependent_loop
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.rotation import Side
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 
-__all__ = ["crease_link", "lock_hinge", "make_explicit", "make_implicit", "ride_along"]
+__all__ = [
+    "Edit",
+    "add_crease",
+    "add_loop",
+    "add_ride_along",
+    "counted_change",
+    "counts_as_json",
+    "crease_link",
+    "fresh",
+    "lock_hinge",
+    "lock_joint",
+    "make_explicit",
+    "make_implicit",
+    "ride_along",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """A mechanism before and after an edit.
+
+    Attributes
+    ----------
+    what : str
+        The edit in words.
+    before, graph : SCGraph
+        The mechanism before and after.
+    predicted : int
+        The change of mobility that the relative equation gives for the parts added and taken away.
+    equation : str
+        That equation.
+
+    Examples
+    --------
+    >>> edit = lock_joint(SCGraph(3, [(0, 1), (1, 2)]), 0)
+    >>> edit.what, edit.predicted, edit.counted, edit.equation
+    ('lock joint 0', -1, -1, 'Eq. 6')
+    """
+
+    what: str
+    before: SCGraph
+    graph: SCGraph
+    predicted: int
+    equation: str
+
+    @property
+    def counted(self) -> int:
+        """The change of mobility as the difference of the two counts."""
+        return counted_change(self.before, self.graph)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the edit as plain data."""
+        keys = ("what", "equation", "predicted", "counted")
+        return {key: getattr(self, key) for key in keys} | counts_as_json(self.graph)
+
+
+def counted_change(before: SCGraph, after: SCGraph) -> int:
+    """Return the difference of the mobility counts of two graphs."""
+    mobilities = mobility_report(before).mobility, mobility_report(after).mobility
+    assert mobilities[0] is not None
+    assert mobilities[1] is not None
+    return mobilities[1] - mobilities[0]
+
+
+def counts_as_json(sc: SCGraph) -> dict[str, Any]:
+    """Return the numbers of links and joints and the mobility of an edited graph as plain data."""
+    return {"links": len(sc), "joints": len(sc.joints), "mobility": mobility_report(sc).mobility}
+
+
+def fresh(used: Iterable[Hashable], number: int) -> list[int]:
+    """Return new integer ids whose text is not used."""
+    texts = {str(name) for name in used}
+    unused = (candidate for candidate in count(len(texts)) if str(candidate) not in texts)
+    return list(islice(unused, number))
+
+
+def add_loop(
+    sc: SCGraph,
+    a: LinkId,
+    b: LinkId,
+    links: int,
+    *,
+    centre: Centre | str = Centre.FINITE,
+    through: Sequence[JointId] | None = None,
+) -> Edit:
+    """Append a chain of new links between two links, and so close a loop.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    a, b : link ids
+        Different links.
+    links : int
+        Number of new links, 0 for a joint only.
+    centre : Centre, optional
+        Of the new loop; ``"none"`` for a spatial one.
+    through : sequence of joint ids, optional
+        The rest of the loop, a path from a to b; by default the joint between them.
+
+    Returns
+    -------
+    Edit
+        dM = 3 k - 2 (k + 1) for k links and a loop with a centre (Eq. 6), k - 5 for a spatial one (Eq. 5).
+
+    Raises
+    ------
+    InvariantError
+        If a or b is no link, or the loop is no cycle.
+    UnsolvableError
+        If a and b are not joined by one joint, without ``through``.
+
+    Examples
+    --------
+    Wiener 4.2.5.1: three links and four joints add one freedom.
+
+    >>> ring = SCGraph(6, [(i, (i + 1) % 6) for i in range(6)], [Loop(range(6))])
+    >>> edit = add_loop(ring, 0, 1, 3)
+    >>> edit.predicted, edit.counted
+    (1, 1)
+    """
+    _check_links(sc, a, b)
+    if links < 0:
+        raise InvariantError("chain of links", f"a chain of {links} links", "0 or more")
+    if through is None:
+        between = list(sc[a][b]) if sc.has_edge(a, b) else []
+        if len(between) != 1:
+            wrong = f"links {shown(a)} and {shown(b)} have {numbered(len(between), 'joint')} between them"
+            raise UnsolvableError(f"{wrong}: say which joints the new loop goes through")
+        through = between
+    new_links = fresh(sc.nodes, links)
+    new_joints = fresh(sc.joints, links + 1)
+    chain = [a, *new_links, b]
+    joints = dict(sc.joints) | {joint: (chain[i], chain[i + 1]) for i, joint in enumerate(new_joints)}
+    loop = Loop((*through, *new_joints), Centre(centre))
+    spatial = loop.centre is Centre.NONE
+    predicted = relative_cgk(links, links + 1, 6) if spatial else relative_spherical_system(links, links + 1)
+    graph = SCGraph([*sc.nodes, *new_links], joints, [*sc.loops, loop], closing=sc.closing, ground=sc.ground)
+    kind = "spatial" if spatial else "spherical" if loop.centre is Centre.FINITE else "planar"
+    what = f"{kind} loop of {numbered(links, 'new link')} between {shown(a)} and {shown(b)}"
+    return Edit(what, sc, graph, predicted, "Eq. 5" if spatial else "Eq. 6")
+
+
+def add_ride_along(sc: SCGraph, a: LinkId, b: LinkId) -> Edit:
+    """Append a ride-along to two adjacent links: two links, three joints, one finite centre, dM = 0.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    a, b : link ids
+        Links with one joint between them.
+
+    Returns
+    -------
+    Edit
+
+    Raises
+    ------
+    InvariantError, UnsolvableError
+        As :func:`add_loop`.
+
+    Examples
+    --------
+    >>> ring = SCGraph(4, [(i, (i + 1) % 4) for i in range(4)], [Loop(range(4))])
+    >>> edit = add_ride_along(ring, 0, 1)
+    >>> edit.predicted, edit.counted, len(edit.graph)
+    (0, 0, 6)
+    """
+    edit = add_loop(sc, a, b, 2)
+    return replace(edit, what=f"ride-along on {shown(a)} and {shown(b)}")
+
+
+def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
+    """Crease a link: part of its joints goes to a new link, which a new joint joins to the old one. dM = 1.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    link : link id
+    moved : collection of joint ids
+        The joints of the link that lie beyond the crease; none for a flap.
+
+    Returns
+    -------
+    Edit
+        A loop with a joint on either side of the crease passes the crease too.
+
+    Raises
+    ------
+    InvariantError
+        If ``link`` is no link, or a joint to move is not at it.
+
+    Examples
+    --------
+    >>> ring = SCGraph(4, [(i, (i + 1) % 4) for i in range(4)], [Loop(range(4))])
+    >>> edit = add_crease(ring, 0, [3])
+    >>> edit.predicted, edit.counted, edit.graph.loops[0].joints
+    (1, 1, (0, 1, 2, 3, 4))
+    """
+    _check_links(sc, link)
+    beyond = set(moved)
+    for joint in moved:
+        if joint not in sc.joints or link not in sc.joints[joint]:
+            wrong = f"joint {shown(joint)} is not at link {shown(link)}"
+            raise InvariantError("crease", wrong, "one of its joints")
+    (half,) = fresh(sc.nodes, 1)
+    (crease,) = fresh(sc.joints, 1)
+    joints = _moved_joints(sc, link, half, beyond)
+    at_link = {joint for joint, ends in sc.joints.items() if link in ends}
+
+    def creased(loop: Loop) -> Loop:
+        here = at_link.intersection(loop.joints)
+        parted = bool(here & beyond) and bool(here - beyond)
+        return replace(loop, joints=(*loop.joints, crease)) if parted else loop
+
+    graph = SCGraph(
+        [*sc.nodes, half],
+        {**joints, crease: (link, half)},
+        map(creased, sc.loops),
+        closing=map(creased, sc.closing),
+        ground=sc.ground,
+    )
+    return Edit(f"crease in {shown(link)}", sc, graph, relative_spherical_system(1, 1), "Eq. 6")
+
+
+def _moved_joints(sc: SCGraph, link: LinkId, half: LinkId, moved: Container[object]) -> Joints:
+    """Return the joints of a graph; those of a link that are moved end at its other half."""
+
+    def end_of(joint: JointId, end: LinkId) -> LinkId:
+        return half if end == link and joint in moved else end
+
+    return {joint: (end_of(joint, a), end_of(joint, b)) for joint, (a, b) in sc.joints.items()}
+
+
+def _joints_of_locked(sc: SCGraph, joint: JointId) -> Joints:
+    """Return the joints but a locked one, its second link replaced by its first."""
+    kept, gone = sc.joints[joint]
+    return {
+        other: (kept if a == gone else a, kept if b == gone else b)
+        for other, (a, b) in sc.joints.items()
+        if other != joint
+    }
+
+
+def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
+    """Lock a joint: its two links become one, the first. dM = -1 (thesis 6.3.2).
+
+    Parameters
+    ----------
+    sc : SCGraph
+    joint : joint id
+
+    Returns
+    -------
+    Edit
+
+    Raises
+    ------
+    InvariantError
+        If there is no such joint.
+    UnsolvableError
+        If other joints join the same two links: they would join the link to itself.
+
+    Examples
+    --------
+    >>> ring = SCGraph(5, [(i, (i + 1) % 5) for i in range(5)], [Loop(range(5))])
+    >>> edit = lock_joint(ring, 0)
+    >>> edit.predicted, edit.counted, len(edit.graph)
+    (-1, -1, 4)
+    """
+    if joint not in sc.joints:
+        raise InvariantError("lock", f"{shown(joint)} is no joint", "one of the joints")
+    kept, gone = sc.joints[joint]
+    beside = [other for other in sc[kept][gone] if other != joint]
+    if beside:
+        raise UnsolvableError(f"joint {shown(beside[0])} joins the same two links as joint {shown(joint)}")
+    joints = _joints_of_locked(sc, joint)
+    loops = _contracted(sc.loops, joint, joints)
+    closing = [
+        loop
+        for loop in _contracted(sc.closing, joint, joints)
+        if not any(set(loop.joints) == set(other.joints) for other in loops)
+    ]
+    graph = SCGraph(
+        [link for link in sc.nodes if link != gone],
+        joints,
+        loops,
+        closing=closing,
+        ground=kept if sc.ground == gone else sc.ground,
+    )
+    return Edit(f"lock joint {shown(joint)}", sc, graph, relative_spherical_system(-1, -1), "Eq. 6")
+
+
+def _contracted(loops: Sequence[Loop], joint: JointId, joints: Joints) -> list[Loop]:
+    """Take a joint out of loops; if a loop then passes a link twice, keep a part independent of the rest."""
+    result = [tuple(other for other in loop.joints if other != joint) for loop in loops]
+    for i, around in enumerate(result):
+        parts = cut_into_cycles(around, joints)
+        if len(parts) > 1:
+            rest = [other for k, other in enumerate(result) if k != i]
+            result[i] = next(part for part in parts if dependent_loop([*rest, part]) is None)
+    return [replace(loop, joints=around) for loop, around in zip(loops, result, strict=True)]
+
+
+def _check_links(sc: SCGraph, *links: LinkId) -> None:
+    for link in links:
+        if link not in sc:
+            raise InvariantError("edit", f"{shown(link)} is no link", "one of the links")
+    if len(set(links)) < len(links):
+        raise InvariantError("edit", f"link {shown(links[0])} is named twice", "two different links")
+
 
 _EQUATION = "Eq. 7"
 
@@ -66,18 +378,13 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
         second = _place(scd, link, end)
         apart = (second - first) % len(sides)
         if apart in (0, 1, len(sides) - 1):
-            raise InvariantError(
-                "crease", f"vertices {start} and {end} of link {shown(link)} are neighbours, or one", "a diagonal"
-            )
+            wrong = f"vertices {start} and {end} of link {shown(link)} are neighbours or equal"
+            raise InvariantError("crease", wrong, "a diagonal")
         predicted = relative_polyhedron(0, 0, -1)
     (half,), (crease,) = fresh(scd.nodes, 1), fresh(scd.joints, 1)
     turned = sides[first + 1 :] + sides[: first + 1]
     cut = (second - first) % len(sides)
     beyond, kept = turned[:cut], turned[cut:]
-    joints = {
-        joint: tuple(half if one == link and joint in beyond else one for one in ends)
-        for joint, ends in scd.joints.items()
-    }
 
     def creased(loop: Loop) -> Loop:
         here = [joint for joint in sides if joint in loop.joints]
@@ -87,7 +394,7 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
     graph = _rebuilt(
         scd,
         links=[*scd.nodes, half],
-        joints={**{joint: (a, b) for joint, (a, b) in joints.items()}, crease: (link, half)},
+        joints={**_moved_joints(scd, link, half, beyond), crease: (link, half)},
         rotation={**scd.rotation, link: [*kept, crease], half: [*beyond, crease]},
         loops=[creased(loop) for loop in scd.loops],
         closing=[creased(loop) for loop in scd.closing],
@@ -162,10 +469,8 @@ def make_explicit(scd: SCDGraph, loop: int) -> Edit:
     rotation = {link: list(sides) for link, sides in scd.rotation.items()}
     for corner in scd.faces[face].corners:
         sides = rotation[corner.link]
-        start = sides.index(corner.leaving)
         for _ in range(corner.open_edges):
-            del sides[(start + 1) % len(sides)]
-            start = sides.index(corner.leaving)
+            del sides[(sides.index(corner.leaving) + 1) % len(sides)]
     k = scd.faces[face].open_edges
     graph = _rebuilt(scd, rotation=rotation)
     what = f"explicit centre in {scd.loops[loop].label}"
@@ -257,18 +562,11 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     for loop in (*scd.loops, *scd.closing):
         ends = [link for other in loop.joints for link in scd.joints[other]]
         if joint not in loop.joints and kept in ends and gone in ends:
-            raise UnsolvableError(
-                f"{loop.label} would pass the locked links twice; lock the joint of the SC graph"
-            )
+            raise UnsolvableError(f"{loop.label} would pass the locked links twice; try the SC graph")
     i, k = scd.rotation[kept].index(joint), scd.rotation[gone].index(joint)
     inserted = [*scd.rotation[gone][k + 1 :], *scd.rotation[gone][:k]]
     rotation: dict[LinkId, Sequence[Side]] = {link: sides for link, sides in scd.rotation.items() if link != gone}
     rotation[kept] = [*scd.rotation[kept][:i], *inserted, *scd.rotation[kept][i + 1 :]]
-    joints = {
-        other: (kept if a == gone else a, kept if b == gone else b)
-        for other, (a, b) in scd.joints.items()
-        if other != joint
-    }
 
     def without(loop: Loop) -> Loop:
         return replace(loop, joints=tuple(other for other in loop.joints if other != joint))
@@ -276,7 +574,7 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     graph = _rebuilt(
         scd,
         links=[link for link in scd.nodes if link != gone],
-        joints=joints,
+        joints=_joints_of_locked(scd, joint),
         rotation=rotation,
         loops=[without(loop) for loop in scd.loops],
         closing=[without(loop) for loop in scd.closing],
@@ -288,16 +586,8 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
 
 def _rebuilt(scd: SCDGraph, **changes: Any) -> SCDGraph:
     """Return the graph with some of its parts changed."""
-    parts: dict[str, Any] = {
-        "links": scd.nodes,
-        "joints": scd.joints,
-        "loops": scd.loops,
-        "rotation": scd.rotation,
-        "outer": scd.outer,
-        "closing": scd.closing,
-        "ground": scd.ground,
-    }
-    return SCDGraph(**(parts | changes))
+    keys = ("joints", "loops", "rotation", "outer", "closing", "ground")
+    return SCDGraph(**({"links": scd.nodes} | {key: getattr(scd, key) for key in keys} | changes))
 
 
 def _sides(scd: SCDGraph, link: LinkId) -> tuple[Side, ...]:
@@ -326,12 +616,10 @@ def _opposite_open_edge(scd: SCDGraph, link: LinkId, vertex: int, place: int) ->
 def _face_with(scd: SCDGraph, loop: int, kind: FaceKind) -> int:
     if not 0 <= loop < len(scd.loops):
         raise InvariantError("edit", f"there is no loop {shown(loop)}", f"0 to {len(scd.loops) - 1}")
-    if (
-        loop not in scd.drawing.face_loops
-        or scd.drawing.kind_of_face(scd.drawing.face_loops.index(loop)) is not kind
-    ):
+    face = scd.drawing.face_loops.index(loop) if loop in scd.drawing.face_loops else None
+    if face is None or scd.drawing.kind_of_face(face) is not kind:
         raise InvariantError("edit", f"the centre of {scd.loops[loop].label} is not {kind.value}", kind.value)
-    return scd.drawing.face_loops.index(loop)
+    return face
 
 
 def _with_ride_along(
