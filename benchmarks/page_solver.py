@@ -24,7 +24,7 @@ import numpy as np
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
 from synth.folding.vertices import largest_panel
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.bodies import bodies_of_sheet
 from synth.viewer.solver_data import solver_data
 

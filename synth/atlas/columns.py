@@ -5,12 +5,34 @@ Theory: docs/theory/atlas.md.
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from math import inf
+from pathlib import Path
+from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn
+from enumerate.runner.columns import Column, ListColumn, unstored
+from enumerate.strings.panel_strings import ChainString
+from graphs.errors import StoreError, shown
 from graphs.mechanism.arrangement import ARRANGEMENTS
+from graphs.plain_text import plain
 
-__all__ = ["COLUMNS", "KINDS", "SCHEMA", "AtlasColumn", "stored_columns"]
+__all__ = [
+    "COLUMNS",
+    "KINDS",
+    "SCHEMA",
+    "AtlasColumn",
+    "NamedType",
+    "damaged",
+    "name_of_type",
+    "named_types",
+    "stored_columns",
+    "text_values",
+    "value_of",
+]
 
 SCHEMA = 2
 """Version of the columns and of what they mean."""
@@ -95,3 +117,103 @@ COLUMNS: dict[str, AtlasColumn] = {
 def stored_columns() -> dict[str, Column]:
     """Return the columns as the runner of enumerations takes them."""
     return {name: column.holds for name, column in COLUMNS.items()}
+
+
+_NAMES = {int: "a whole number", float: "a number", str: "a text", bool: "0 or 1"}
+_NEVER_EMPTY = ("id", "kind")
+
+
+def value_of(path: Path, name: str, stored: Any) -> Any:
+    """Return the value of a column as stored by SQLite; None if it is unknown, or the kind of type has none.
+
+    Raise StoreError, with the path of the atlas, if it is no value of this column.
+
+    >>> value_of(Path("a.sqlite"), "assortment", "[4,2]"), value_of(Path("a.sqlite"), "planar", 1)
+    ((4, 2), True)
+    >>> value_of(Path("a.sqlite"), "links", "six")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.StoreError: a.sqlite: is damaged: links is 'six'; expected a whole number; build it again
+    """
+    if stored is None and name not in _NEVER_EMPTY:
+        return None
+    holds = COLUMNS[name].holds
+    if isinstance(holds, ListColumn):
+        return _list_of(path, name, stored, holds)
+    if name == "kind" and stored not in KINDS:
+        raise damaged(path, name, stored, f"one of {', '.join(KINDS)}")
+    if not isinstance(stored, (int, float) if holds is float else int if holds is bool else holds):
+        raise damaged(path, name, stored, _NAMES[holds])
+    if (holds is bool and stored not in (0, 1)) or stored in (inf, -inf):
+        raise damaged(path, name, stored, _NAMES[holds])
+    return bool(stored) if holds is bool else stored
+
+
+def text_values(path: Path, what: str, values: Iterable[Any]) -> None:
+    """Check that values of the view of relations, or of a row of a statement, are texts.
+
+    Raise StoreError if one is not.
+    """
+    for value in values:
+        if not isinstance(value, str):
+            raise damaged(path, what, value, "a text")
+
+
+def damaged(path: Path, what: str, value: Any, expected: str) -> StoreError:
+    """Return the error that tells of a value which nobody wrote."""
+    return StoreError(
+        f"{plain(path, 4096)}: is damaged: {what} is {shown(value)}; expected {expected}; build it again"
+    )
+
+
+def _list_of(path: Path, name: str, stored: Any, column: ListColumn) -> tuple[Any, ...]:
+    kind = column.kind or object
+    try:
+        values = unstored(stored) if isinstance(stored, str) else None
+    except (ValueError, TypeError, RecursionError):
+        values = None
+    if values is None or not all(isinstance(value, kind) for value in values):
+        raise damaged(path, name, stored, "a list in JSON")
+    return values
+
+
+@dataclass(frozen=True, slots=True)
+class NamedType:
+    """A type that has a name, and the source that uses it."""
+
+    kind: str
+    id: str
+    name: str
+    source: str
+
+
+@cache
+def named_types() -> tuple[NamedType, ...]:
+    """Return all types of the file, in its order.
+
+    Examples
+    --------
+    >>> next(one for one in named_types() if one.name == "Watt chain").id
+    'k1:E`hW'
+    """
+    text = files("synth.atlas").joinpath("named.json").read_text(encoding="utf-8")
+    return tuple(NamedType(**entry) for entry in json.loads(text))
+
+
+@cache
+def _names() -> dict[tuple[str, str], str]:
+    names: dict[tuple[str, str], list[str]] = {}
+    for one in named_types():
+        names.setdefault((one.kind, one.id), []).append(one.name)
+    return {key: "; ".join(dict.fromkeys(every)) for key, every in names.items()}
+
+
+def name_of_type(kind: str, code: str) -> str | None:
+    """Return the name of a type, or None; a string has the name of the joints for which it stands.
+
+    >>> name_of_type("chain", "k1:E`hW"), name_of_type("string", "RR-R-RRR"), name_of_type("chain", "k1:Bw")
+    ('Watt chain', 'UPS', None)
+    """
+    if kind == "string":
+        return ChainString.parse(code).mechanism
+    return _names().get((kind, code))

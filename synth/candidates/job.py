@@ -1,7 +1,7 @@
 """Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.runner.running`).
 
 A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
-Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidates.values`,
+Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidates.rows`,
 `synth.conformed.all_angles`, `synth.conformed.rates` and `synth.conformed.behaviours`. Theory:
 docs/theory/conical-candidates.md.
 """

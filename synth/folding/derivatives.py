@@ -148,7 +148,7 @@ class SheetDerivatives:
     >>> from synth.folding.motion import fold
     >>> from synth.motion.derivatives import derivatives_by_parameters
     >>> from synth.motion.linkage import linkage_of_sheet
-    >>> from synth.patterns.creases.tessellations import miura
+    >>> from synth.patterns.creases import miura
     >>> sheet = miura(3, 3, 1.0)
     >>> mechanism = mechanism_of_sheet(sheet)
     >>> shape = SheetDerivatives(sheet, mechanism, linkage_of_sheet(sheet, mechanism))

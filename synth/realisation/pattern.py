@@ -1,6 +1,7 @@
-"""What is to be drawn of a type: panels, creases and borders in numbers, and which creases point to which centre.
+"""The panels, creases and borders of a type in numbers, and which creases point to which centre.
 
 A bounded face without open edges is an inner vertex; one with open edges is a hole; the outer face is the border.
+Also walks round vertices and holes, the simplest type with a drawing, and a check for types without a flat sheet.
 Theory: docs/theory/realisation.md.
 """
 
@@ -9,19 +10,33 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import networkx as nx
 import numpy as np
 
+from enumerate.scd.graphs import mechanism_of, scd_graphs_of
 from graphs.arrays import Flags, Floats, Ints
 from graphs.convert.panels import rings_of
-from graphs.errors import UnsolvableError
+from graphs.convert.table import Mechanism, to_scd
+from graphs.errors import UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
 
-__all__ = ["Pattern", "Pointing", "pattern_of"]
+__all__ = [
+    "Pattern",
+    "Pointing",
+    "Sides",
+    "check_holes",
+    "creases_round",
+    "half_turns",
+    "pattern_of",
+    "sides_of",
+    "simplest_drawn",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,3 +214,133 @@ def _explicit_vertex(scd: SCDGraph, faces: list[int]) -> int | None:
             corner = scd.faces[face].corners[0]
             return scd.vertices[corner.link][corner.last_side]
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """Which side follows which along its panel, counter-clockwise (`after`) and clockwise (`before`).
+
+    `creases` gives the crease that a side is, in both directions; sides of the border are not in it.
+    """
+
+    after: dict[Edge, Edge]
+    before: dict[Edge, Edge]
+    creases: dict[Edge, int]
+
+
+def sides_of(pattern: Pattern) -> Sides:
+    """Return which side of a pattern follows which.
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
+    >>> len(sides_of(fan).after), len(sides_of(fan).creases)
+    (12, 8)
+    """
+    after: dict[Edge, Edge] = {}
+    for panel in pattern.panels:
+        sides = list(sides_of_face(panel))
+        after.update(zip(sides, [*sides[1:], sides[0]], strict=True))
+    creases = {side: number for number, (a, b) in enumerate(pattern.creases) for side in ((a, b), (b, a))}
+    return Sides(after, {second: first for first, second in after.items()}, creases)
+
+
+def creases_round(pattern: Pattern) -> list[tuple[int, ...]]:
+    """Return the creases in the order in which a walk meets them: round each inner vertex, then round each hole.
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
+    >>> [len(creases) for creases in creases_round(fan)]
+    [4]
+    """
+    sides = sides_of(pattern)
+    starts = [next(side for side in sides.after if side[0] == vertex) for vertex in pattern.inner.tolist()]
+    starts += [next(side for side in sides_of_face(ring[::-1]) if side in sides.after) for ring in pattern.holes]
+    return [_walk(sides, start) for start in starts]
+
+
+def _walk(sides: Sides, start: Edge) -> tuple[int, ...]:
+    """Return the creases that are crossed by one who keeps an inner vertex, or a hole, on one hand."""
+    met = []
+    side = start
+    while True:
+        if side in sides.creases:
+            met.append(sides.creases[side])
+            side = side[::-1]
+        side = sides.after[side]
+        if side == start:
+            return tuple(met)
+
+
+def check_holes(pattern: Pattern) -> None:
+    """Raise `UnsolvableError` for a hole round which creases cannot turn once, their centre being outside it.
+
+    The message names the panels round the hole and what each allows.
+    """
+    for one in pattern.pointings:
+        known = [turns for turns in (half_turns(pattern, one, hole) for hole in one.holes) if turns is not None]
+        short = [turns for turns in known if sum(turns.values()) < 2]
+        if len(short) > (not one.infinite and one.vertex is None):  # such a centre may lie in one of the holes
+            raise UnsolvableError(_told(pattern, short[-1]))
+
+
+def _told(pattern: Pattern, turns: dict[int, int]) -> str:
+    names = ", ".join(shown(pattern.links[panel]) for panel in turns)
+    parts = " + ".join(map(str, turns.values()))
+    return (
+        f"flat, the directions of creases would turn by 2 half turns round the hole between panel(s) {names}, "
+        f"whose centre is outside it; they can turn by {sum(turns.values())} there: by {parts}"
+    )
+
+
+def half_turns(pattern: Pattern, one: Pointing, hole: int) -> dict[int, int] | None:
+    """Return by how many half turns at most creases turn in each panel round a hole.
+
+    The pointing is to a centre outside the hole, which is a place in ``pattern.holes``. None where something hangs
+    into the hole: the panels round it are not just those between its creases.
+    """
+    ring = pattern.holes[hole]
+    inside = {panel: _sides_in(around, ring) for panel, around in enumerate(pattern.panels)}
+    inside = {panel: sides for panel, sides in inside.items() if sides}
+    reaching = [place for place, ends in enumerate(pattern.creases) if one.vertex in ends]
+    creases = [crease for crease in (*one.creases, *reaching) if set(pattern.creases[crease]) & set(ring)]
+    if len(creases) != len(inside):
+        return None
+    return {panel: max(len(pattern.panels[panel]) - 2 - sides - 1, 0) for panel, sides in inside.items()}
+
+
+def _sides_in(panel: tuple[int, ...], ring: tuple[int, ...]) -> int:
+    """Return how many open edges a panel has round a hole."""
+    border = {frozenset(side) for side in sides_of_face(ring)}
+    return sum(frozenset(side) in border for side in sides_of_face(panel))
+
+
+_MORE_SIDES = 4
+"""Links get at most so many sides more than the joints of the link with the most."""
+
+
+def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
+    """Return the SCD graph that something is, has, or, of an SC graph, the first of the fewest open edges.
+
+    With it come notes on what was chosen. Raises `UnsolvableError` if it has no drawing, or no valid placement of
+    open edges.
+
+    >>> from graphs.loops.loop import Loop
+    >>> scd, notes = simplest_drawn(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> scd.counts.open_edges, notes
+    (4, ('an SCD graph of the fewest open edges was taken: 4 open edges',))
+    """
+    if isinstance(mechanism, SCDGraph) or not isinstance(mechanism, SCGraph):
+        return to_scd(mechanism), ()
+    if not nx.check_planarity(nx.Graph(mechanism))[0]:
+        raise UnsolvableError("the chain is not planar: its panels cannot be drawn without crossings")
+    widest = max(dict(mechanism.degree).values())
+    for most in range(max(3, widest), widest + _MORE_SIDES + 1):
+        mechanism_of(mechanism, most)  # which says what stands in the way
+        found = list(scd_graphs_of(mechanism, most))
+        if found:
+            scd = min(found, key=lambda one: one.counts.open_edges)
+            told = numbered(scd.counts.open_edges, "open edge")
+            return scd, (f"an SCD graph of the fewest open edges was taken: {told}",)
+    raise UnsolvableError(f"no placement of open edges with links of up to {widest + _MORE_SIDES} sides is valid")

@@ -29,17 +29,13 @@ from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.branches import first_branch, search_for
 from synth.motion.walk.allowance import Allowance
+from synth.realisation.conditions import Kept, Wishes, wishes_for
 from synth.realisation.drawing import Drawn, drawings
-from synth.realisation.figures import ShapeFigures, figures_of
-from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips
-from synth.realisation.pattern import Pattern, pattern_of
-from synth.realisation.refusing import check_holes
-from synth.realisation.simplest import simplest_drawn
-from synth.realisation.space.lifting import lifted
-from synth.realisation.space.receding import receded, with_finite_centres
-from synth.realisation.special.answer import SpecialSearch
-from synth.realisation.special.search import SpecialWishes, search_special
-from synth.realisation.wanted.wishes import Kept, Wishes, wishes_for
+from synth.realisation.measures import ShapeFigures, figures_of
+from synth.realisation.pattern import Pattern, check_holes, pattern_of, simplest_drawn
+from synth.realisation.space import lifted, receded, with_finite_centres
+from synth.realisation.special.search import SpecialSearch, SpecialWishes, search_special
+from synth.realisation.strips import drawn_string, folded_strip, is_strip, strips
 
 __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 

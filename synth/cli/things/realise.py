@@ -16,7 +16,7 @@ from synth.cli.things.realise_special import SpecialOutput, refuse_others, searc
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
-    from synth.realisation.forms.on_cone import OnOneCone
+    from synth.realisation.on_cone import OnOneCone
     from synth.realisation.realised import Realised
 
 __all__ = ["realise"]
@@ -194,7 +194,7 @@ def realise(
 def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:
     from enumerate.strings.panel_strings import ChainString
     from graphs.errors import FileError
-    from synth.realisation.forms.on_cone import CONE_ANGLE, realise_on_cone
+    from synth.realisation.on_cone import CONE_ANGLE, realise_on_cone
 
     thing: Any = given(file).thing
     if isinstance(thing, ChainString):

@@ -28,7 +28,7 @@ def realise_many(source: str, running: RunOptions, options: dict[str, Any], *, a
     from enumerate.runner.columns import row_as_dict
     from enumerate.runner.store import read_rows
     from graphs.errors import numbered
-    from synth.realisation.many.job import COLUMNS, RealisationJob, summary_of
+    from synth.realisation.many import COLUMNS, RealisationJob, summary_of
 
     job = RealisationJob(source, tuple(sorted(options.items())))
     made, store = _sink_of(running)
@@ -50,7 +50,7 @@ def realise_many(source: str, running: RunOptions, options: dict[str, Any], *, a
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
     """Return what makes the sink, and where the store is."""
     from enumerate.runner.store import SqliteSink
-    from synth.realisation.many.folder import FolderOfThings, store_beside
+    from synth.realisation.many import FolderOfThings, store_beside
 
     if running.output is None:
         raise click.UsageError("many types need a place: -o FOLDER, or -o FILE.sqlite")

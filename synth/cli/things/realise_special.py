@@ -12,7 +12,7 @@ from synth.cli.output import about, check_output, print_answer, print_json, tell
 from synth.cli.things.given import given
 
 if TYPE_CHECKING:
-    from synth.realisation.special.answer import SpecialSearch
+    from synth.realisation.special.search import SpecialSearch
 
 __all__ = ["SpecialOutput", "refuse_others", "search_special_geometry"]
 

@@ -102,7 +102,7 @@ def alike_classes(
     or one of the mirrors alone there are more classes:
 
     >>> from synth.motion.linkage import linkage_of_sheet
-    >>> from synth.patterns.creases.bases import waterbomb_base
+    >>> from synth.patterns.creases import waterbomb_base
     >>> base = waterbomb_base()
     >>> linkage = linkage_of_sheet(base)
     >>> [classes.tolist() for classes in alike_classes(base, linkage, np.array([-1.0, 1, 1, -1, 1, 1]))]

@@ -103,7 +103,7 @@ def fold_to(sheet: Sheet, angle: float) -> Reached:
     --------
     The waterbomb base has three freedoms. On its symmetric motion the diagonals fold alike, and so does the line:
 
-    >>> from synth.patterns.creases.bases import waterbomb_base
+    >>> from synth.patterns.creases import waterbomb_base
     >>> reached = fold_to(waterbomb_base(), np.radians(41.54))
     >>> np.degrees(reached.folding.path.angles[-1]).round(2).tolist(), reached.alike
     ([-30.02, 41.54, 41.54, -30.02, 41.54, 41.54], True)

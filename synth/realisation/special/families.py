@@ -1,38 +1,278 @@
-"""Families of axes in space whose members may move although counts say no.
-
-Each family adds conditions to those of the type: a symmetry, groups of axes that are parallel or meet, equal
-links, poses along a motion that close. Starts are random, and symmetric where the family is. Theory:
-docs/theory/realisation.md.
-"""
+"""Placeholder."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from math import cos, lcm, pi, radians, sin
 
+import networkx as nx
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import lines_meet, unit
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from synth.motion.walk.allowance import Allowance
-from synth.realisation.special.conditions import (
+from synth.realisation.conditions import (
+    Condition,
+    Wishes,
+    agreeing_ratios,
+    bent_line,
+    bundles,
+    flat_folding,
+    panels_between_vertices,
+    parallel_creases,
+    straight_lines,
+    symmetries,
+)
+from synth.realisation.drawing import drawings
+from synth.realisation.pattern import Pattern
+from synth.realisation.special.axes import (
     AxisCondition,
     AxisGroup,
     AxisSymmetry,
+    axes_along_a_motion,
+    axes_meeting,
     equal_links,
     meeting,
     normal,
     symmetric,
 )
-from synth.realisation.special.solving import axes_along_a_motion, axes_meeting
-from synth.realisation.special.symmetries import named_motions
 
-__all__ = ["AxisFamily", "TypeOfAxes", "axis_families", "degenerate", "solids_of", "type_of_axes"]
+__all__ = [
+    "AxisFamily",
+    "SheetFamily",
+    "TypeOfAxes",
+    "axis_families",
+    "degenerate",
+    "named_motions",
+    "sheet_families",
+    "solids_of",
+    "type_of_axes",
+]
+
+_MODES = 4
+"""So many choices of modes are tried for each start: signs have to agree round panels too, and are not asked."""
+_BENT = (radians(10.0), radians(40.0))
+"""Lines that a symmetry lets bend are bent by so much: the most even drawing has them all but straight."""
+
+
+@dataclass(frozen=True)
+class SheetFamily:
+    """Flat sheets of a type that obey further conditions.
+
+    Lines may be `bent` by a random angle; `ratios` of half-angle tangents may have to agree round panels, in
+    random modes of the vertices.
+    """
+
+    name: str
+    wishes: Wishes
+    bent: bool = False
+    ratios: bool = False
+
+    def members(self, pattern: Pattern, seed: int, tries: int, work: Allowance) -> Iterator[tuple[int, Sheet]]:
+        """Yield drawings as sheets, the longer side about 1, with the number of the try."""
+        if not (self.bent or self.ratios):
+            for drawn in drawings(pattern, seed, tries, self.wishes, work):
+                yield drawn.number, _sheet(pattern, drawn.places)
+            return
+        for number in range(_MODES * tries if self.ratios else tries):
+            random = np.random.default_rng((seed, number))
+            wishes = replace(self.wishes, others=(*self.wishes.others, *self._random(pattern, random)))
+            first = number + self.ratios  # the most even drawing has ratios of nothing
+            for drawn in drawings(pattern, seed, 1, wishes, work, first=first):
+                yield number, _sheet(pattern, drawn.places)
+            if work.used_up:
+                return
+
+    def _random(self, pattern: Pattern, random: np.random.Generator) -> Iterator[Condition]:
+        if self.ratios:
+            yield agreeing_ratios(pattern, (random.random(len(pattern.inner)) < 0.5).tolist())
+        if self.bent:
+            condition = bent_line(pattern, float(random.uniform(*_BENT) * random.choice([-1.0, 1.0])))
+            assert condition is not None
+            yield condition
+
+
+def _sheet(pattern: Pattern, places: Floats) -> Sheet:
+    creases = len(pattern.creases)
+    places = places - places.min(axis=0)
+    places = places / places.max()
+    return Sheet(
+        pattern.vertices,
+        tuple((int(a), int(b)) for a, b in pattern.edges),
+        "U" * creases + "B" * (len(pattern.edges) - creases),
+        pattern.panels,
+        tuple(tuple(map(float, row)) for row in places),
+    )
+
+
+def sheet_families(pattern: Pattern) -> list[SheetFamily]:
+    """Return the families that are tried, in their order; flat-foldable ones only where vertices can be.
+
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> from synth.realisation.pattern import pattern_of
+    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
+    >>> [one.name for one in sheet_families(fan)][:2]
+    ['flat-foldable, lines 1 straight', 'flat-foldable, lines 2 straight']
+    """
+    conditions = _of_lines(pattern)
+    groups, bendable = symmetries(pattern), bool(bundles(pattern))
+    found = []
+    for flat in (True, False) if _can_fold_flat(pattern) else (False,):
+        head = ("flat-foldable",) if flat else ()
+        found += [SheetFamily(", ".join((*head, name)), Wishes(flat, None, needed)) for name, needed in conditions]
+        for group in groups:
+            name = ", ".join((*head, str(group)))
+            found.append(SheetFamily(name, Wishes(flat, group)))
+            if bendable:
+                found.append(SheetFamily(f"{name}, lines bent", Wishes(flat, group), bent=True))
+        if flat:
+            found += _with_ratios(pattern)
+    return found
+
+
+def _with_ratios(pattern: Pattern) -> list[SheetFamily]:
+    """Return the families of flat-foldable sheets without other conditions, or with ratios that agree."""
+    plain = SheetFamily("flat-foldable", Wishes(True))
+    if not panels_between_vertices(pattern):
+        return [plain]
+    name = "flat-foldable, ratios that agree round panels"
+    bent = SheetFamily(f"{name}, lines bent", Wishes(True), bent=True, ratios=True)
+    return [plain, bent, SheetFamily(name, Wishes(True), ratios=True)]
+
+
+def _of_lines(pattern: Pattern) -> list[tuple[str, tuple[Condition, ...]]]:
+    """Return conditions on lines and parallel creases, with their names."""
+    straight = [
+        (f"lines {number} straight", (straight_lines(pattern, bundle),))
+        for number, bundle in enumerate(bundles(pattern), 1)
+    ]
+    parallel = parallel_creases(pattern)
+    if parallel is None:
+        return [*straight]
+    name = "opposite creases of panels parallel"
+    both = [(f"{one}, {name}", (*conditions, parallel)) for one, conditions in straight]
+    return [*both, (name, (parallel,)), *straight]
+
+
+def _can_fold_flat(pattern: Pattern) -> bool:
+    try:
+        flat_folding(pattern)
+    except UnsolvableError:
+        return False
+    return True
+
+
+_MOST = 240
+"""Symmetries of a type that are looked at; rings of six have twelve, types with more are very regular."""
+_KINDS = 4
+"""Kinds of symmetry that are tried, those that move most joints first."""
+
+Image = tuple[int, ...]
+
+
+def named_motions(graph: SCGraph) -> list[tuple[str, AxisSymmetry]]:
+    """Return isometries by which a member of the type may be symmetric, one for each kind of symmetry.
+
+    A symmetry of order two is half a turn about a line, or a mirror; others are turns about a line. Images are
+    those of the joints, then of the centre classes, in their order.
+
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> [name for name, _ in named_motions(ring)][:1]
+    ['line symmetry, 0 joints and 2 links on themselves']
+    """
+    joints = len(graph.joints)
+    found = []
+    for image in _kinds(_automorphisms(graph)):
+        order = _order(image)
+        fixed = f"{numbered(sum(image[place] == place for place in range(joints)), 'joint')} and "
+        fixed += numbered(_links_kept(graph, image), "link")
+        if order == 2:
+            found.append(
+                (f"line symmetry, {fixed} on themselves", AxisSymmetry(image, np.diag([-1.0, -1.0, 1.0])))
+            )
+            found.append(
+                (f"plane symmetry, {fixed} on themselves", AxisSymmetry(image, np.diag([1.0, 1.0, -1.0])))
+            )
+        else:
+            found.append((f"turns by {360 / order:.6g} degrees about a line", AxisSymmetry(image, _turn(order))))
+    return found
+
+
+def _turn(order: int) -> Floats:
+    angle = 2.0 * pi / order
+    return np.array([[cos(angle), -sin(angle), 0.0], [sin(angle), cos(angle), 0.0], [0.0, 0.0, 1.0]])
+
+
+def _automorphisms(graph: SCGraph) -> list[Image]:
+    """Return where joints and centre classes go, in every symmetry but the identity."""
+    joints, classes, links = list(graph.joints), graph.centre_classes(), list(graph.nodes)
+    whole = nx.Graph()
+    for place in range(len(joints)):
+        whole.add_node(place, kind="joint")
+    for number, one in enumerate(classes):
+        whole.add_node(len(joints) + number, kind=one.centre.value)
+    first = len(joints) + len(classes)
+    for number in range(len(links)):
+        whole.add_node(first + number, kind="link")
+    number_of = {link: first + number for number, link in enumerate(links)}
+    for place, ends in enumerate(graph.joints.values()):
+        whole.add_edges_from((place, number_of[link]) for link in ends)
+    for number, one in enumerate(classes):
+        members = [place for place, joint in enumerate(joints) if joint in one.joints]
+        whole.add_edges_from((len(joints) + number, place) for place in members)
+    same_kind = nx.isomorphism.categorical_node_match("kind", None)
+    matcher = nx.isomorphism.GraphMatcher(whole, whole, same_kind)
+    images = {tuple(one[place] for place in range(first)) for one in islice(matcher.isomorphisms_iter(), _MOST)}
+    return sorted(images - {tuple(range(first))})
+
+
+def _kinds(images: list[Image]) -> list[Image]:
+    """Return one symmetry of each class of conjugates, those that move most first."""
+    left, chosen = set(images), []
+    for image in images:
+        if image in left:
+            chosen.append(image)
+            left -= {_conjugate(image, by) for by in images}
+            left.discard(image)
+    return sorted(chosen, key=lambda one: (sum(to == place for place, to in enumerate(one)), _order(one), one))[
+        :_KINDS
+    ]
+
+
+def _conjugate(image: Image, by: Image) -> Image:
+    moved = [0] * len(image)
+    for place, to in enumerate(image):
+        moved[by[place]] = by[to]
+    return tuple(moved)
+
+
+def _links_kept(graph: SCGraph, image: Image) -> int:
+    """Return how many links have their joints taken to their own joints."""
+    place = {joint: number for number, joint in enumerate(graph.joints)}
+    of_links = [{place[joint] for _, _, joint in graph.edges(link, keys=True)} for link in graph.nodes]
+    return sum({image[one] for one in joints} == joints for joints in of_links)
+
+
+def _order(image: Image) -> int:
+    """Return the least number of times after which all are at their places again."""
+    lengths, seen = [1], set()
+    for place in range(len(image)):
+        length = 0
+        while place not in seen:
+            seen.add(place)
+            place, length = image[place], length + 1  # noqa: PLW2901
+        lengths.append(max(length, 1))
+    return lcm(*lengths)
+
 
 _TRIPLES = (
     ("two triples of parallel axes", Centre.INFINITE, Centre.INFINITE),

@@ -11,7 +11,7 @@ from synth.advice.diagonals import Diagonal
 from synth.advice.locks import cheapest_sets
 from synth.advice.search import Bounds, Candidates, smallest_sets
 from synth.motion.walk.allowance import Allowance
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 
 
 def strip(panels):

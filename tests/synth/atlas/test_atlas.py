@@ -23,14 +23,11 @@ from graphs.files.formats import read
 from graphs.files.ids import mechanism_of_id
 from graphs.files.patterns.fold import read_fold
 from graphs.identity.drawings import map_id
-from synth.atlas.asked.finding import find_type
-from synth.atlas.asked.opened import Atlas, open_atlas
-from synth.atlas.asked.written import write_rows
-from synth.atlas.columns import COLUMNS, KINDS
-from synth.atlas.made.building import build_atlas
-from synth.atlas.made.job import AtlasJob
-from synth.atlas.made.plan import AtlasPlan
-from synth.atlas.names import named_types
+from synth.atlas.building import AtlasJob, AtlasPlan, build_atlas
+from synth.atlas.columns import COLUMNS, KINDS, named_types
+from synth.atlas.finding import find_type
+from synth.atlas.opened import Atlas, open_atlas
+from synth.atlas.written import write_rows
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 MOST_LINKS = 10

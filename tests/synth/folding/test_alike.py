@@ -13,7 +13,7 @@ from synth.folding.alike.reaching import fold_to
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.second_order import rates_at
 from synth.patterns import generate
-from synth.patterns.creases.bases import fan, preliminary_base, waterbomb_base
+from synth.patterns.creases import fan, preliminary_base, waterbomb_base
 
 ASKED = [
     ("waterbomb-base", {}, 30),

@@ -15,8 +15,7 @@ from synth.motion.newton import corrected
 from synth.motion.second_order import rates_near
 from synth.motion.singular.quadrics import quadrics_of
 from synth.motion.walk.allowance import Allowance
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 
 
 def branches(sheet):

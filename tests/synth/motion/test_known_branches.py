@@ -21,10 +21,8 @@ from synth.motion.placement import moved
 from synth.motion.second_order import largest_only, rates_at, spaces_within
 from synth.motion.singular.quadrics import all_quadrics, local_forms
 from synth.motion.singular.sampling import followed, general_rates, same_part
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import map_sheet, miura
-from synth.patterns.creases.tubes import kresling, miura_tube
-from synth.patterns.goods.pop_ups import box_pop_up
+from synth.patterns.creases import fan, kresling, map_sheet, miura, miura_tube
+from synth.patterns.goods import box_pop_up
 
 
 def linkage(sheet):

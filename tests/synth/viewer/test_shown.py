@@ -9,7 +9,7 @@ import pytest
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.motion.linkage import linkage_of_sheet
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.bodies import hull_faces
 from synth.viewer.shown import shown_of
 from synth.viewer.solver_data import factor_order, solver_data

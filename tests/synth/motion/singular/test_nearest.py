@@ -14,8 +14,7 @@ from synth.motion.second_order import largest_only, rates_at, rates_near, spaces
 from synth.motion.singular import nearest
 from synth.motion.singular.nearest import begun_near, spaces_near
 from synth.motion.singular.quadrics import quadrics_of
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import map_sheet, miura
+from synth.patterns.creases import fan, map_sheet, miura
 from synth.verdict.judged import mobility
 
 

@@ -11,10 +11,8 @@ from synth.motion.second_order import rates_at, spaces_within
 from synth.motion.singular.definite import definite_weights
 from synth.motion.singular.quadrics import Quadric, all_quadrics, local_forms, quadrics_of, shared_quadrics
 from synth.motion.singular.rigidity import rigidity_of
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
-from synth.patterns.creases.tubes import kresling
-from synth.patterns.goods.pop_ups import box_pop_up
+from synth.patterns.creases import fan, kresling, miura
+from synth.patterns.goods import box_pop_up
 
 
 def disturbed(axes, rng):

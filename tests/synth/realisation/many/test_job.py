@@ -17,8 +17,7 @@ from graphs.errors import StoreError
 from graphs.files.formats import read, write
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import mechanism_from_map_id
-from synth.realisation.many.folder import FolderOfThings, store_beside
-from synth.realisation.many.job import COLUMNS, RealisationJob, summary_of
+from synth.realisation.many import COLUMNS, FolderOfThings, RealisationJob, store_beside, summary_of
 from synth.realisation.realised import realise
 
 CUBE = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
