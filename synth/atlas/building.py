@@ -1,10 +1,11 @@
-"""Building an atlas: the rows of its job in a store of the runner, then what makes it quick to ask.
+"""Building an atlas: its plan, the rows of its job in a store of the runner, the views and indexes for questions.
 
-The rows are in the table ``type`` of a store (`enumerate.runner.store_units`), so that a build that was killed
-goes on, and damage is found. When all are there, the view ``types`` is made (the columns of
-`synth.atlas.columns`), the view ``relations`` (which type is what of which), and an index for each column that
-people ask for. What makes a file an atlas is the table ``atlas``: versions of the schema and of synthedra, the
-command.
+Each kind of type is listed by its own job; its rows become rows of the atlas (`synth.atlas.filling`) in the table
+``type`` of a store (`enumerate.runner.store_units`), so that a build that was killed can resume, and damage is
+found. When all are there, the view ``types`` is made (the columns of `synth.atlas.columns`), the view
+``relations`` (the relations between types), and an index for each column that is often asked for. The table
+``atlas`` makes a file an atlas: versions of the schema and of synthedra, the command. Theory:
+docs/theory/atlas.md.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ from synth.candidates.job import CandidateJob
 __all__ = ["RELATIONS", "AtlasJob", "AtlasPlan", "AtlasSink", "build_atlas"]
 
 _FEWEST = 4
-"""Links of a chain, at least: fewer are rigid, or not closed."""
+"""Fewest links of a chain: with less it is rigid, or not closed."""
 _REALISED_AT_ONCE, _AT_ONCE = 8, 2000
 """Placements of a unit where each is realised, which takes long, and where none is."""
 
@@ -59,7 +60,7 @@ class AtlasPlan:
     max_degree : int
         Most sides of a link of an SCD graph.
     chain_links : int, optional
-        Chains of 4 links to so many; by default as of SC graphs.
+        Chains of 4 links to so many; by default `max_links`.
     creases : int
         R/- strings of one crease to so many, with the limits of `enumerate.strings`; 0 for none.
     orders_of : tuple of str
@@ -102,9 +103,8 @@ class AtlasPlan:
             if value < least:
                 raise InvariantError("atlas", f"{name} {value}", f"{least} or more")
         if not self.dofs or len(set(self.dofs)) != len(self.dofs) or min(self.dofs) < 1:
-            raise InvariantError(
-                "atlas", f"degrees of freedom {list(self.dofs)}", "numbers of 1 or more, each once"
-            )
+            what = f"degrees of freedom {', '.join(map(str, self.dofs)) or 'missing'}"
+            raise InvariantError("atlas", what, "numbers of 1 or more, each once")
         for _, job in self.parts():
             _ = job.key  # queries check themselves when they are made
 
@@ -121,13 +121,7 @@ class AtlasPlan:
 
     @property
     def command(self) -> str:
-        """The command that builds it.
-
-        Examples
-        --------
-        >>> AtlasPlan(6, realised=False).command
-        'synth atlas build --max-links 6 --dof 1 --max-degree 4 --chain-links 6 --creases 6 --orders-of watt ...'
-        """
+        """The command that builds it."""
         words = ["synth atlas build", f"--max-links {self.max_links}", *(f"--dof {dof}" for dof in self.dofs)]
         words += [f"--max-degree {self.max_degree}", f"--chain-links {self.most_chain_links}"]
         words += [f"--creases {self.creases}", *(f"--orders-of {shlex.quote(name)}" for name in self.orders_of)]
@@ -136,7 +130,7 @@ class AtlasPlan:
         return " ".join(words)
 
     def parts(self) -> Iterator[tuple[str, Job]]:
-        """Yield the jobs that list what the atlas holds, but for strings, and the kinds of their types."""
+        """Yield the jobs that list the types of the atlas, but for strings, and the kinds of their types."""
         for links, dof in self._sizes(self.most_chain_links):
             query = ChainQuery(links, dof, fractionated=dof > 1)
             if query.possible:
@@ -182,17 +176,17 @@ class AtlasJob:
     plan: AtlasPlan
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what goes to a worker, without jobs that have found their units."""
+        """Return the state for a worker, without jobs that have found their units."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def columns(self) -> dict[str, Column]:
-        """Names and types of the values of a row; what a kind of type does not have is None."""
+        """Names and types of the values of a row; None where a kind of type has no value."""
         return stored_columns()
 
     @property
     def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
+        """The identity of the job, in JSON values."""
         return {"atlas": SCHEMA, **self.plan.key}
 
     @cached_property
@@ -208,9 +202,9 @@ class AtlasJob:
             weight = _REALISED if kind == "scd" and self.plan.realised else 1
             for unit in job.units():
                 yield Unit((part, unit.payload), unit.weight * weight)
-        listed = tuple(self.plan.strings())
-        if listed:
-            yield Unit((None, listed), len(listed))
+        strings_of_plan = tuple(self.plan.strings())
+        if strings_of_plan:
+            yield Unit((None, strings_of_plan), len(strings_of_plan))
 
     def work(self, payload: tuple[int | None, Any]) -> list[Row]:
         """Return the rows of a unit."""
@@ -234,7 +228,7 @@ RELATIONS = {
     "spherical_analogue": "has the spherical analogue",
     "general_form": "has the general form",
 }
-"""Columns that hold the id of another type, and what that is."""
+"""Columns that hold the id of another type, and the relation."""
 
 
 class AtlasSink(SqliteSink):
@@ -248,7 +242,7 @@ class AtlasSink(SqliteSink):
         self._command = command
 
     def finish(self) -> None:
-        """Mark the store complete, and make what it is asked by."""
+        """Mark the store complete, and make its views and indexes."""
         super().finish()
         _make_askable(self.path, self._command)
 
@@ -272,7 +266,7 @@ def build_atlas(
     workers : int, optional
         Processes.
     resume, force : bool, optional
-        Go on with what is there; or begin anew.
+        Go on with the existing store; or replace it.
     report : callable, optional
         Called with the progress after each unit.
 
@@ -295,7 +289,7 @@ def build_atlas(
 
 
 def _make_askable(path: Path, command: str) -> None:
-    """Give a complete store of types its views and indexes; those that are there stay."""
+    """Give a complete store of types its views and indexes; existing ones stay."""
     with named(path), closing(sqlite3.connect(path)) as connection, connection:
         connection.execute("BEGIN IMMEDIATE")
         connection.execute(f"CREATE VIEW IF NOT EXISTS types AS SELECT {quoted(COLUMNS)} FROM type")

@@ -1,6 +1,7 @@
-"""What an atlas says of a type: its columns, what they hold, and of which kinds of types.
+"""The columns of an atlas, their values as they are stored, and the types that the literature names.
 
-Theory: docs/theory/atlas.md.
+A value that no atlas writes is damage, reported with its place. Names are in ``synth/atlas/named.json`` with their
+sources; the theory says how the file is made. Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ _DRAWN = ("sc", "scd")
 class AtlasColumn:
     """A column of the table of types; `says` describes its value in words.
 
-    `kinds` are those of types that have a value there; with an index rows are found by it without a full scan.
+    `kinds` are the kinds of types that have a value there; an indexed column finds rows without a full scan.
     """
 
     holds: Column
@@ -115,7 +116,7 @@ COLUMNS: dict[str, AtlasColumn] = {
 
 
 def stored_columns() -> dict[str, Column]:
-    """Return the columns as the runner of enumerations takes them."""
+    """Return the columns in the form of the runner of enumerations."""
     return {name: column.holds for name, column in COLUMNS.items()}
 
 
@@ -127,13 +128,6 @@ def value_of(path: Path, name: str, stored: Any) -> Any:
     """Return the value of a column as stored by SQLite; None if it is unknown, or the kind of type has none.
 
     Raise StoreError, with the path of the atlas, if it is no value of this column.
-
-    >>> value_of(Path("a.sqlite"), "assortment", "[4,2]"), value_of(Path("a.sqlite"), "planar", 1)
-    ((4, 2), True)
-    >>> value_of(Path("a.sqlite"), "links", "six")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.StoreError: a.sqlite: is damaged: links is 'six'; expected a whole number; build it again
     """
     if stored is None and name not in _NEVER_EMPTY:
         return None
@@ -142,27 +136,23 @@ def value_of(path: Path, name: str, stored: Any) -> Any:
         return _list_of(path, name, stored, holds)
     if name == "kind" and stored not in KINDS:
         raise damaged(path, name, stored, f"one of {', '.join(KINDS)}")
-    if not isinstance(stored, (int, float) if holds is float else int if holds is bool else holds):
-        raise damaged(path, name, stored, _NAMES[holds])
-    if (holds is bool and stored not in (0, 1)) or stored in (inf, -inf):
+    is_of_type = isinstance(stored, (int, float) if holds is float else int if holds is bool else holds)
+    if not is_of_type or (holds is bool and stored not in (0, 1)) or stored in (inf, -inf):
         raise damaged(path, name, stored, _NAMES[holds])
     return bool(stored) if holds is bool else stored
 
 
 def text_values(path: Path, what: str, values: Iterable[Any]) -> None:
-    """Check that values of the view of relations, or of a row of a statement, are texts.
-
-    Raise StoreError if one is not.
-    """
+    """Check that values of the view of relations, or of a statement, are texts; StoreError if one is not."""
     for value in values:
         if not isinstance(value, str):
             raise damaged(path, what, value, "a text")
 
 
 def damaged(path: Path, what: str, value: Any, expected: str) -> StoreError:
-    """Return the error that tells of a value which nobody wrote."""
+    """Return the error for a value that no atlas writes."""
     return StoreError(
-        f"{plain(path, 4096)}: is damaged: {what} is {shown(value)}; expected {expected}; build it again"
+        f"{plain(path, 4096)}: is damaged: {what} is {shown(value)}; expected {expected}; try to build it again"
     )
 
 
@@ -191,9 +181,13 @@ class NamedType:
 def named_types() -> tuple[NamedType, ...]:
     """Return all types of the file, in its order.
 
+    Returns
+    -------
+    tuple of NamedType
+
     Examples
     --------
-    >>> next(one for one in named_types() if one.name == "Watt chain").id
+    >>> next(entry for entry in named_types() if entry.name == "Watt chain").id
     'k1:E`hW'
     """
     text = files("synth.atlas").joinpath("named.json").read_text(encoding="utf-8")
@@ -203,17 +197,13 @@ def named_types() -> tuple[NamedType, ...]:
 @cache
 def _names() -> dict[tuple[str, str], str]:
     names: dict[tuple[str, str], list[str]] = {}
-    for one in named_types():
-        names.setdefault((one.kind, one.id), []).append(one.name)
+    for entry in named_types():
+        names.setdefault((entry.kind, entry.id), []).append(entry.name)
     return {key: "; ".join(dict.fromkeys(every)) for key, every in names.items()}
 
 
 def name_of_type(kind: str, code: str) -> str | None:
-    """Return the name of a type, or None; a string has the name of the joints for which it stands.
-
-    >>> name_of_type("chain", "k1:E`hW"), name_of_type("string", "RR-R-RRR"), name_of_type("chain", "k1:Bw")
-    ('Watt chain', 'UPS', None)
-    """
+    """Return the name of a type, or None; a string has the name of the joints for which it stands."""
     if kind == "string":
         return ChainString.parse(code).mechanism
     return _names().get((kind, code))

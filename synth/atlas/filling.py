@@ -1,6 +1,6 @@
-"""What an atlas says of a type beyond what its enumeration lists: names, ride-alongs, analogues, orders.
+"""The values of an atlas beyond those of its enumerations: names, ride-alongs, analogues, coordinates and folding.
 
-A row of an enumeration becomes a row of the atlas; what a kind of type does not have stays away.
+A row of an enumeration becomes a row of the atlas; columns that a kind of type does not have stay empty.
 """
 
 from __future__ import annotations
@@ -27,34 +27,30 @@ from synth.motion.driving import Asked
 from synth.motion.motion import motion_of
 from synth.realisation.realised import Kind, Realised, realise
 
-__all__ = ["filled", "order_id", "thing_of"]
+__all__ = ["coordinates_of", "filled", "order_id"]
 
 _FRAMES = 24
-"""Frames of the motion that says how far a type folds."""
+"""Frames of the motion by which the largest fold angle is measured."""
 
 
-def thing_of(code: str) -> dict[str, Any]:
-    """Return what an atlas says of an SCD graph with coordinates, by its id; or that it was not realised.
-
-    >>> thing_of("m1:a-b.ac-.b-d.cd-")["flat"]
-    True
-    """
-    made = _made(code)
-    if made is None:
+def coordinates_of(code: str) -> dict[str, Any]:
+    """Return the values of an SCD graph with coordinates, by its id; or that it was not realised."""
+    realised = _realised(code)
+    if realised is None:
         return {"realised": False}
-    figures = made.figures.to_json()
+    figures = realised.figures.to_json()
     return {
         "realised": True,
-        "flat": made.kind == "sheet",
+        "flat": realised.kind == "sheet",
         "least_angle_deg": figures["least_angle_deg"],
         "edge_ratio": figures["edge_ratio"],
-        "fold_file": fold_text(made.sheet),
-        **_folded(made),
+        "fold_file": fold_text(realised.sheet),
+        **_folded(realised),
     }
 
 
-def _made(code: str) -> Realised | None:
-    """Return a type as a flat sheet, or else as a pose in space; None if neither was found."""
+def _realised(code: str) -> Realised | None:
+    """Return a type as a flat sheet, or else in space; None if neither was found."""
     for kind in get_args(Kind):
         try:
             return realise(mechanism_of_id(code), kind=kind)
@@ -63,10 +59,10 @@ def _made(code: str) -> Realised | None:
     return None
 
 
-def _folded(made: Realised) -> dict[str, Any]:
-    """Return how far the crease that turns most goes, degrees, and what is in the way."""
+def _folded(realised: Realised) -> dict[str, Any]:
+    """Return the largest fold angle of its motion, degrees, and the reason for its end."""
     try:
-        motion = motion_of(made.configuration, Asked(frames=_FRAMES), collisions=True)
+        motion = motion_of(realised.configuration, Asked(frames=_FRAMES), collisions=True)
     except SynthedraError as error:
         return {"fold_deg": None, "fold_end": str(error)}
     reached = float(np.degrees(np.abs(motion.path.angles).max(initial=0.0)))
@@ -74,9 +70,9 @@ def _folded(made: Realised) -> dict[str, Any]:
 
 
 _REMEMBERED = 4096
-"""SC graphs whose reduction is kept: all placements of open edges on one share it."""
+"""SC graphs whose reduction is kept in memory: all placements of open edges on one share it."""
 _FEWEST_SIDES = 3
-"""Of the links that the first number of ``sides`` counts."""
+"""Sides of the links that the first number of ``sides`` counts."""
 
 Values = dict[str, Any]
 
@@ -84,26 +80,17 @@ Values = dict[str, Any]
 def filled(kind: str, listed: Mapping[str, Any], *, realised: bool) -> Values:
     """Return the values of a row of an atlas, for a kind of `synth.atlas.columns.KINDS`.
 
-    `listed` is a row of the enumeration of that kind (of a string, the string); with `realised`, SCD graphs get
+    `listed` is a row of the enumeration of that kind (for a string, the string); with `realised`, SCD graphs get
     coordinates, and are folded.
-
-    >>> from enumerate.strings.panel_strings import ChainString
-    >>> row = filled("string", {"string": ChainString.parse("RR-R-RRR")}, realised=False)
-    >>> row["id"], row["name"], row["stands_for"], row["dof"]
-    ('RR-R-RRR', 'UPS', 'UPS', 6)
     """
     values = _FILLED[kind](listed)
     if kind == "scd" and realised:
-        values |= thing_of(values["id"])
+        values |= coordinates_of(values["id"])
     return {"kind": kind, "name": name_of_type(kind, values["id"]), **values}
 
 
 def order_id(chain: str, order: tuple[str, ...]) -> str:
-    """Return the id of a cyclic order of joints, which are numbered as in the chain of the id.
-
-    >>> order_id("k1:Cr", ("0", "2", "1", "3"))
-    'k1:Cr:0-2-1-3'
-    """
+    """Return the id of a cyclic order of joints, which are numbered as in the chain of the id."""
     return f"{chain}:{'-'.join(order)}"
 
 
@@ -186,7 +173,7 @@ def _of_string(row: Mapping[str, Any]) -> Values:
 
 
 def _common(row: Mapping[str, Any]) -> Values:
-    """Return a row of an enumeration as the atlas calls it: kinds of types are no columns there."""
+    """Return a row of an enumeration with the columns of the atlas, which has none for kinds of types."""
     return {"id": row.get("code"), "chain_id": row.get("chain"), "sc_id": row.get("sc"), **row}
 
 

@@ -1,7 +1,4 @@
-"""Which type of an atlas a mechanism is, and which known types are one edit away.
-
-Theory: docs/theory/atlas.md.
-"""
+"""Which type of an atlas a mechanism is, and which known types are one edit away. Theory: docs/theory/atlas.md."""
 
 from __future__ import annotations
 
@@ -29,7 +26,7 @@ __all__ = ["FoundType", "NearType", "find_type"]
 
 @dataclass(frozen=True, slots=True)
 class NearType:
-    """A type of the atlas, as its row, that one edit, in words, makes of a mechanism."""
+    """A type of the atlas, as its row, to which an edit, in words, leads from a mechanism."""
 
     edit: str
     row: dict[str, Any]
@@ -59,26 +56,26 @@ class FoundType(Printed):
             "chain": self.chain,
             "drawing": self.drawing,
             "types": [{"id": row["id"], "kind": row["kind"], "name": row["name"]} for row in self.rows],
-            "names": [{"id": one.id, "name": one.name, "source": one.source} for one in self.named],
-            "near": [one.to_json() for one in self.near],
+            "names": [{"id": entry.id, "name": entry.name, "source": entry.source} for entry in self.named],
+            "near": [near.to_json() for near in self.near],
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        lines: list[Block] = [f"{one.name}: {one.source}" for one in self.named]
+        lines: list[Block] = [f"{entry.name}: {entry.source}" for entry in self.named]
         if self.rows:
             rows = [(row["id"], row["kind"], row["name"] or "") for row in self.rows]
             lines.append(TableBlock(("id", "kind", "name"), rows))
         else:
-            lines.append(f"not in this atlas: {self.drawing or self.chain or 'it has no id'}")
+            lines.append(f"not in this atlas: {self.drawing or self.chain or 'a mechanism without an id'}")
         if self.near:
-            near = [(one.edit, one.row["id"], one.row["name"] or "") for one in self.near]
-            lines += ["one edit away:", TableBlock(("edit", "id", "name"), near)]
+            table = [(near.edit, near.row["id"], near.row["name"] or "") for near in self.near]
+            lines += ["one edit away:", TableBlock(("edit", "id", "name"), table)]
         return lines
 
 
 def find_type(atlas: Atlas, mechanism: Mechanism | nx.Graph) -> FoundType:
-    """Find the type of a mechanism in an atlas, and the types that one edit makes of it.
+    """Find the type of a mechanism in an atlas, and the types to which one edit leads.
 
     Parameters
     ----------
@@ -96,26 +93,25 @@ def find_type(atlas: Atlas, mechanism: Mechanism | nx.Graph) -> FoundType:
     >>> from synth.atlas import AtlasPlan, build_atlas, open_atlas
     >>> with TemporaryDirectory() as folder:
     ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
-    ...     found = find_type(open_atlas(f"{folder}/a.sqlite"), nx.cycle_graph(4))
-    >>> [(row["id"], row["name"]) for row in found.rows]
+    ...     identified = find_type(open_atlas(f"{folder}/a.sqlite"), nx.cycle_graph(4))
+    >>> [(row["id"], row["name"]) for row in identified.rows]
     [('k1:Cr', 'four-bar chain')]
     """
     identity = identify(mechanism)
     codes = [code for code in (identity.drawing, identity.chain) if code is not None]
-    named = tuple(one for code in codes for one in named_types() if one.id == code)
-    own = set(codes)
+    named = tuple(entry for code in codes for entry in named_types() if entry.id == code)
     edits: dict[str, str] = {}
     for edit in _edits(mechanism) if codes else ():
-        made = identify(edit.graph)
-        for code in (made.drawing, made.chain)[: 1 if made.drawing is not None else 2]:
-            if code is not None and code not in own:
+        edited = identify(edit.graph)
+        for code in (edited.drawing, edited.chain)[: 1 if edited.drawing is not None else 2]:
+            if code is not None and code not in codes:
                 edits.setdefault(code, edit.what)
     near = tuple(NearType(edits[row["id"]], row) for row in atlas.ids(list(edits)) if row["id"] in edits)
     return FoundType(identity.chain, identity.drawing, tuple(atlas.ids(codes)), named, near)
 
 
 def _edits(mechanism: Mechanism | nx.Graph) -> Iterator[Edit]:
-    """Yield the edits of a mechanism that can be made."""
+    """Yield the possible edits of a mechanism."""
     for edit in _possible_edits(mechanism):
         try:
             yield edit()

@@ -1,6 +1,8 @@
-"""An atlas that is asked: types by conditions, by statements, one type with all that is known of it.
+"""An open atlas: types by conditions, by SQL statements, and one type with all that is known of it.
 
-Theory: docs/theory/atlas.md.
+The file is opened so that a statement, whoever wrote it, can read types and do nothing else: SQLite's authorizer
+refuses all but SELECT on the views and tables of the atlas; the file is opened read-only, nothing is written
+beside it, and a statement has limits of time, of rows, and of the length of a value. Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
@@ -16,9 +18,9 @@ from threading import TIMEOUT_MAX, Timer
 from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from enumerate.runner.store_units import COMPLAINTS, reading
+from enumerate.runner.store_units import COMPLAINTS, quoted, reading
 from graphs.edit.named import known
-from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, shown
+from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.atlas.columns import COLUMNS, SCHEMA, NamedType, named_types, stored_columns, text_values, value_of
 from synth.atlas.expression import condition_of
@@ -33,6 +35,7 @@ __all__ = [
     "open_guarded",
     "report_of",
     "selected",
+    "value_text",
 ]
 
 _READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
@@ -48,11 +51,11 @@ _REFUSED = {
     "ltrim",
     "rtrim",
 }
-"""Functions that do more than compute with what is there, or make values of any length, or take long in a step."""
+"""Functions that do more than compute with values, make values of any length, or take long in a step."""
 
 _EXPECTED = "one SELECT on types or relations"
 _STEPS = 10_000
-"""Steps of SQLite's machine between two looks at the clock."""
+"""Steps of SQLite's machine between two checks of the clock."""
 _LONGEST_VALUE = 300_000
 """Bytes of a value, ten times those of the largest file: the slowest function then takes a second in one step."""
 _LONGEST_STATEMENT = 20_000
@@ -77,7 +80,7 @@ def open_guarded(path: Path) -> Iterator[sqlite3.Connection]:
         connection.setlimit(sqlite3.SQLITE_LIMIT_SQL_LENGTH, _LONGEST_STATEMENT)
         connection.setlimit(sqlite3.SQLITE_LIMIT_LIKE_PATTERN_LENGTH, _LONGEST_PATTERN)
         connection.setlimit(sqlite3.SQLITE_LIMIT_ATTACHED, 0)
-        connection.execute("SELECT 1 FROM json_each('[]')")  # made when it is first used, which none may do later
+        connection.execute("SELECT 1 FROM json_each('[]')")  # created at its first use, which is refused later
         connection.set_authorizer(_authorized)
         yield connection
 
@@ -95,10 +98,10 @@ def _authorized(action: int, first: str | None, second: str | None, *_: str | No
 def selected(
     connection: sqlite3.Connection, statement: str, values: Sequence[Any], *, limit: int, seconds: float
 ) -> Rows:
-    """Return what a statement selects, up to a limit of rows and of seconds; `values` are for its placeholders.
+    """Return the selection of a statement, up to a limit of rows and of seconds.
 
-    The connection is from `open_guarded`. Raise InvariantError if the statement is no SELECT on what an atlas
-    holds, with the message of SQLite; UnsolvableError if it takes longer.
+    `values` are for its placeholders, the connection is from `open_guarded`. Raise InvariantError if the statement
+    is no SELECT on the contents of an atlas, with the message of SQLite; UnsolvableError if it takes longer.
     """
     try:
         with _stopped_after(connection, seconds):
@@ -106,22 +109,21 @@ def selected(
             rows = cursor.fetchmany(limit + 1)
     except sqlite3.OperationalError as error:
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF == sqlite3.SQLITE_INTERRUPT:
-            raise UnsolvableError(
-                f"the query takes longer than {seconds:g} s: narrow it, or give it more"
-            ) from None
+            what = f"the query takes longer than {seconds:g} s"
+            raise UnsolvableError(f"{what}; try a narrower one, or a longer time limit") from None
         raise InvariantError("statement", _said(error), _EXPECTED) from None
     except (*COMPLAINTS, ValueError, OverflowError) as error:
         raise InvariantError("statement", _said(error), _EXPECTED) from None
     if cursor.description is None:
-        raise InvariantError("statement", "it selects nothing", _EXPECTED)
+        raise InvariantError("statement", "the statement selects nothing", _EXPECTED)
     return Rows(tuple(head[0] for head in cursor.description), rows[:limit], len(rows) > limit)
 
 
 @contextmanager
 def _stopped_after(connection: sqlite3.Connection, seconds: float) -> Iterator[None]:
-    """Interrupt what SQLite does after some time.
+    """Interrupt SQLite after some time.
 
-    Another thread does so, since steps may be long. The look at the clock between many steps is for a statement
+    Another thread does so, since steps may be long. The check of the clock between many steps is for a statement
     that had not begun when the thread interrupted it.
     """
     end = monotonic() + seconds
@@ -138,7 +140,7 @@ def _stopped_after(connection: sqlite3.Connection, seconds: float) -> Iterator[N
 
 
 def _said(error: Exception) -> str:
-    """Return what is said of an error, in one printable line: it may quote the statement."""
+    """Return the message of an error as one printable line: it may quote the statement."""
     text = " ".join(str(error).split())[:300] or type(error).__name__
     return text if text.isprintable() else ascii(text)[1:-1]
 
@@ -149,7 +151,7 @@ _MOST_NEIGHBOURS, _PRINTED = 200, 12
 
 @dataclass(frozen=True, slots=True)
 class Neighbour:
-    """A type to which another is related; `relation` is such as ``has the chain``, or ``is the chain of``.
+    """A related type; `relation` is such as ``has the chain``, or ``is the chain of``.
 
     `there`: the atlas holds it.
     """
@@ -180,36 +182,37 @@ class TypeReport(Printed):
         """Return the keys that scripts rely on."""
         return {
             "type": {name: list(v) if isinstance(v, tuple) else v for name, v in self.values.items()},
-            "names": [{"name": one.name, "source": one.source} for one in self.named],
-            "neighbours": [one.to_json() for one in self.neighbours],
+            "names": [{"name": name.name, "source": name.source} for name in self.named],
+            "neighbours": [neighbour.to_json() for neighbour in self.neighbours],
             "more_neighbours": self.more,
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        lines: list[Block] = [f"{one.name}: {one.source}" for one in self.named]
+        lines: list[Block] = [f"{name.name}: {name.source}" for name in self.named]
         rows = [
-            (name.replace("_", " "), _told(value), COLUMNS[name].says)
+            (name.replace("_", " "), value_text(value), COLUMNS[name].says)
             for name, value in self.values.items()
             if name != "fold_file"
         ]
         lines.append(TableBlock(("what", "value", "meaning"), rows))
-        told, unlisted = self.told_neighbours()
-        if told:
-            lines.append(TableBlock(("relation", "id", "name", "in this atlas"), told))
+        neighbours, unlisted = self.told_neighbours()
+        if neighbours:
+            lines.append(TableBlock(("relation", "id", "name", "in this atlas"), neighbours))
         if self.more + unlisted:
-            lines.append(f"and {self.more + unlisted} more that are related to it")
+            lines.append(f"and {numbered(self.more + unlisted, 'more related type')}")
         return lines
 
     def told_neighbours(self) -> tuple[list[tuple[str, str, str, str]], int]:
-        """Return rows of the first neighbours of each relation, named ones first; and how many are left."""
-        ranked = sorted(self.neighbours, key=lambda one: (one.relation, one.name is None))
+        """Return rows of the first neighbours of each relation, named ones first; and the number of the others."""
+        ranked = sorted(self.neighbours, key=lambda neighbour: (neighbour.relation, neighbour.name is None))
         rows: list[tuple[str, str, str, str]] = []
         listed: Counter[str] = Counter()
-        for one in ranked:
-            listed[one.relation] += 1
-            if listed[one.relation] <= _PRINTED:
-                rows.append((one.relation, one.id, one.name or "", "" if one.there else "no"))
+        for neighbour in ranked:
+            listed[neighbour.relation] += 1
+            if listed[neighbour.relation] <= _PRINTED:
+                there = "" if neighbour.there else "no"
+                rows.append((neighbour.relation, neighbour.id, neighbour.name or "", there))
         return rows, len(ranked) - len(rows)
 
     def __repr__(self) -> str:
@@ -221,21 +224,21 @@ def report_of(connection: sqlite3.Connection, code: str, path: Path) -> TypeRepo
 
     Raise StoreError, with the path of the atlas, if it is damaged.
     """
-    names = ", ".join(f'"{name}"' for name in COLUMNS)
     row = None
     for column in ("id", "name", "stands_for"):
-        row = row or connection.execute(f"SELECT {names} FROM type WHERE {column} = ? LIMIT 1", (code,)).fetchone()
+        statement = f"SELECT {quoted(COLUMNS)} FROM type WHERE {column} = ? LIMIT 1"
+        row = row or connection.execute(statement, (code,)).fetchone()
     if row is None:
         return None
     read = {name: value_of(path, name, value) for name, value in zip(COLUMNS, row, strict=True)}
     values = {name: value for name, value in read.items() if value is not None}
     neighbours, more = _neighbours(connection, values["id"], path)
-    named = tuple(one for one in named_types() if one.id == values["id"])
+    named = tuple(entry for entry in named_types() if entry.id == values["id"])
     return TypeReport(values, named, tuple(neighbours), more)
 
 
 def _neighbours(connection: sqlite3.Connection, code: str, path: Path) -> tuple[list[Neighbour], int]:
-    """Return what a type is of others, and others of it; and how many more of these there are."""
+    """Return the types to which a type is related, and those related to it; and the number of further ones."""
     known = "(SELECT name FROM type WHERE type.id = {0} LIMIT 1), EXISTS (SELECT 1 FROM type WHERE type.id = {0})"
     onward = connection.execute(
         f"SELECT relation, other, {known.format('other')} FROM relations WHERE id = ?", (code,)
@@ -244,20 +247,20 @@ def _neighbours(connection: sqlite3.Connection, code: str, path: Path) -> tuple[
         f"SELECT relation, id, {known.format('relations.id')} FROM relations WHERE other = ? AND id <> ? LIMIT ?",
         (code, code, _MOST_NEIGHBOURS + 1),
     ).fetchall()
-    text_values(path, "the id of a related type", (one for _, one, *_ in (*onward, *backward)))
-    found = [
+    text_values(path, "the id of a related type", (related for _, related, *_ in (*onward, *backward)))
+    neighbours = [
         Neighbour(relation, other, name, bool(there)) for relation, other, name, there in onward if other != code
     ]
-    found += [
-        Neighbour(f"{_REVERSED[relation]}", one, name, True)
-        for relation, one, name, _ in backward[:_MOST_NEIGHBOURS]
+    neighbours += [
+        Neighbour(_REVERSED[relation], other, name, True)
+        for relation, other, name, _ in backward[:_MOST_NEIGHBOURS]
     ]
     if len(backward) <= _MOST_NEIGHBOURS:
-        return found, 0
+        return neighbours, 0
     [every] = connection.execute(
         "SELECT count(*) FROM relations WHERE other = ? AND id <> ?", (code, code)
     ).fetchone()
-    return found, every - _MOST_NEIGHBOURS
+    return neighbours, every - _MOST_NEIGHBOURS
 
 
 _REVERSED = {
@@ -270,12 +273,13 @@ _REVERSED = {
 }
 
 
-def _told(value: Any) -> str:
+def value_text(value: Any) -> str:
+    """Return a value of a column as it is printed; empty if it is unknown."""
     if isinstance(value, tuple):
         return ",".join(map(str, value))
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return f"{value:.6g}" if isinstance(value, float) else plain(value, 10_000)
+    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else plain(value, 10_000)
 
 
 if TYPE_CHECKING:
@@ -283,11 +287,11 @@ if TYPE_CHECKING:
 
 
 _LIMIT, _SECONDS = 1000, 30.0
-"""Rows and seconds of a query, at most, where nothing else is said."""
+"""Default limits of rows and seconds of a query."""
 _WHOLE_FILE = "fold_file"
-"""The column that is left out where none are named: a file each."""
+"""The column that is left out by default: a file each."""
 _SHOWN = ("id", "kind", "name", "links", "joints", "dof", "centres", "all_explicit", "symmetry")
-"""Columns that are printed where none are named."""
+"""Columns that are printed by default."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -322,14 +326,13 @@ class AtlasRows(Printed):
     def blocks(self) -> list[Block]:
         """Return the table that is printed, and a line where there are more rows."""
         if not self.rows:
-            return ["none"]
+            return ["no types"]
         names = self.columns if set(self.columns) != set(_all_columns()) else _SHOWN
         numbers = [name for name in names if name in COLUMNS and COLUMNS[name].holds in (int, float)]
-        texts = [[_cell(row[name]) for name in names] for row in self.rows]
-        table = TableBlock(
-            tuple(name.replace("_", " ") for name in names), texts, [n.replace("_", " ") for n in numbers]
-        )
-        return [table, *["there are more"] * self.more]
+        texts = [[value_text(row[name]) for name in names] for row in self.rows]
+        heads = tuple(name.replace("_", " ") for name in names)
+        table = TableBlock(heads, texts, [name.replace("_", " ") for name in numbers])
+        return [table, *["there are more types"] * self.more]
 
     def __repr__(self) -> str:
         return f"<AtlasRows: {len(self.rows)} types{', of more' if self.more else ''}>"
@@ -370,13 +373,15 @@ class Atlas:
         Parameters
         ----------
         condition : str, optional
-            In the words of `synth.atlas.expression`; without it, all.
+            In the grammar of `synth.atlas.expression`; without it, all types.
         columns : sequence of str, optional
             By default all but the files.
         sort : str, optional
-            A column; with ``-`` before it, falling. By default in the order in which types were listed.
+            A column; with ``-`` before it, descending. By default in the order in which types were listed.
         limit : int, optional
+            Largest number of rows.
         seconds : float, optional
+            Time limit.
 
         Raises
         ------
@@ -388,28 +393,30 @@ class Atlas:
             If it takes longer.
         """
         _check_limits(limit, seconds)
-        wanted = tuple(map(_column, columns)) or _all_columns()
+        selection = tuple(map(_column, columns)) or _all_columns()
         where, values = ("", ())
         if condition.strip():
-            made = condition_of(condition, stored_columns())
-            where, values = f" WHERE {made.sql}", made.values
+            where, values = condition_of(condition, stored_columns())
+            where = f" WHERE {where}"
         order = "rowid"
         if sort:
             name = _column(sort.removeprefix("-"))
             order = f'"{name}" {"DESC" if sort.startswith("-") else "ASC"} NULLS LAST, rowid'
-        names = ", ".join(f'"{name}"' for name in wanted)
         rows = self._selected(
-            f"SELECT {names} FROM type{where} ORDER BY {order} LIMIT ?", (*values, limit + 1), limit, seconds
+            f"SELECT {quoted(selection)} FROM type{where} ORDER BY {order} LIMIT ?",
+            (*values, limit + 1),
+            limit,
+            seconds,
         )
-        return AtlasRows(wanted, [self._row(wanted, row) for row in rows.rows], rows.more)
+        return AtlasRows(selection, [self._row(selection, row) for row in rows.rows], rows.more)
 
     def sql(self, statement: str, *, limit: int = _LIMIT, seconds: float = _SECONDS) -> AtlasRows:
-        """Return what a statement selects from ``types`` and ``relations``; values are as they are stored.
+        """Return the selection of a statement from ``types`` and ``relations``; values are as they are stored.
 
         Raises
         ------
         InvariantError
-            If it is no SELECT, or SQLite does not take it.
+            If it is no SELECT, or SQLite refuses it.
         UnsolvableError
             If it takes longer.
         """
@@ -418,12 +425,7 @@ class Atlas:
         return AtlasRows(rows.columns, [dict(zip(rows.columns, row, strict=True)) for row in rows.rows], rows.more)
 
     def show(self, code: str) -> TypeReport:
-        """Return all that is known of a type, and of those it is related to.
-
-        Parameters
-        ----------
-        code : str
-            Its id, or a name.
+        """Return all that is known of a type, and of the types it is related to, by its id or name.
 
         Raises
         ------
@@ -431,15 +433,14 @@ class Atlas:
             If the atlas holds no such type.
         """
         with open_guarded(self.path) as connection:
-            found = report_of(connection, code, self.path)
-        if found is None:
-            raise InvariantError(
-                "atlas", f"holds no type {shown(code)}", "an id or a name that synth atlas query prints"
-            )
-        return found
+            report = report_of(connection, code, self.path)
+        if report is None:
+            what = f"the atlas holds no type {shown(code)}"
+            raise InvariantError("atlas", what, "an id or a name that synth atlas query prints")
+        return report
 
     def about(self) -> dict[str, Any]:
-        """Return what the atlas says of itself: version of its schema, of synthedra, command, numbers of types."""
+        """Return the version of the schema and of synthedra, the command, and the numbers of types."""
         with open_guarded(self.path) as connection:
             row = connection.execute("SELECT schema, synthedra, command FROM atlas").fetchone()
             counts = dict(connection.execute("SELECT kind, count(*) FROM types GROUP BY kind"))
@@ -450,12 +451,11 @@ class Atlas:
 
     def ids(self, codes: Sequence[str]) -> list[dict[str, Any]]:
         """Return the rows of the types with some ids, in the order of the ids; of a string, that of its panels."""
-        names = ", ".join(f'"{name}"' for name in _all_columns())
         found = []
         with open_guarded(self.path) as connection:
             for code in dict.fromkeys(codes):
                 for column in ("id", "panels"):
-                    statement = f"SELECT {names} FROM type WHERE {column} = ?"
+                    statement = f"SELECT {quoted(_all_columns())} FROM type WHERE {column} = ?"
                     rows = selected(connection, statement, (code,), limit=_LIMIT, seconds=_SECONDS)
                     found += [self._row(_all_columns(), row) for row in rows.rows]
         return found
@@ -499,17 +499,19 @@ def open_atlas(path: str | Path) -> Atlas:
         try:
             row = selected(connection, "SELECT schema, synthedra FROM atlas", (), limit=1, seconds=_SECONDS).rows
         except SynthedraError:
-            told = "is no atlas, or one that was not finished: synth atlas build -o FILE --resume"
-            raise StoreError(f"{place}: {told}") from None
+            what = "is no atlas, or an unfinished one; try synth atlas build -o FILE --resume"
+            raise StoreError(f"{place}: {what}") from None
     if not row or row[0][0] != SCHEMA:
         version = f"version {shown(row[0][0])}, of synthedra {plain(row[0][1])}" if row else "no version"
-        raise StoreError(f"{place}: is an atlas of {version}; this one reads version {SCHEMA}: build it again")
+        raise StoreError(f"{place}: is an atlas of {version}; expected version {SCHEMA}; try to build it again")
     return Atlas(place)
 
 
 def _check_limits(limit: int, seconds: float) -> None:
     if limit < 1 or not seconds > 0:
-        raise InvariantError("query", f"{limit} rows in {seconds} s", "1 or more rows, in more than 0 s")
+        raise InvariantError(
+            "query", f"{numbered(limit, 'row')} in {seconds} s", "1 or more rows in more than 0 s"
+        )
 
 
 def _all_columns() -> tuple[str, ...]:
@@ -528,11 +530,3 @@ def _plain_data(value: Any) -> Any:
     if isinstance(value, bytes):
         return value.hex()
     return None if isinstance(value, float) and not isfinite(value) else value
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, tuple):
-        return ",".join(map(str, value))
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else plain(value, 10_000)

@@ -1,4 +1,8 @@
-"""A site of an atlas: static pages to search, filter and fold, which work from a folder without a server."""
+"""A site of an atlas: static pages to search, filter and fold, which work from a folder without a server.
+
+Scripts are classic ones beside the pages: from ``file://`` browsers load neither modules nor data. A job of types
+writes their files into a new folder, which appears when it is complete.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +16,11 @@ from enumerate.runner.columns import Column
 from enumerate.runner.job import Job, Progress, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.sinks import FolderSink
-from graphs.errors import FileError, SynthedraError, UnsolvableError
+from graphs.errors import FileError, SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.plain_text import plain
 from synth.atlas.columns import COLUMNS, damaged
-from synth.atlas.opened import Atlas, TypeReport, open_guarded, report_of
+from synth.atlas.opened import Atlas, TypeReport, open_guarded, report_of, value_text
 from synth.atlas.written import sheet_of_type
 from synth.drawing.catalogue.atlas_types import drawable_of_type
 from synth.drawing.mechanisms.pictures import draw
@@ -89,11 +93,7 @@ _INDEX_BODY = """<main id="gallery">
 
 
 def index_page(title: str, about: str) -> str:
-    """Return the HTML of the first page: its title, and how it was made, both plain text.
-
-    >>> "<h1>a &lt; b</h1>" in index_page("a < b", "")
-    True
-    """
+    """Return the HTML of the first page: its title, and how it was made, both plain text."""
     body = _INDEX_BODY.format(title=escape(plain(title, 200)), about=escape(plain(about, 1000)))
     return document(title, ["gallery.css"], body)
 
@@ -102,10 +102,6 @@ def data_script(rows: Sequence[Mapping[str, Any]], title: str, about: str, digit
     """Return the script with the data of the first page: `AtlasData` of web/src/gallery/types.js.
 
     Rows have the columns `SEARCHED`; `digits` are those of the numbers in names of files.
-
-    >>> row = dict.fromkeys(SEARCHED) | {"id": "k1:Cr", "fold_deg": 90.0}
-    >>> data_script([row], "atlas", "", 1)[:60]
-    'window.atlasData = {"title":"atlas","about":"","digits":1,"c'
     """
     data = {
         "title": title,
@@ -118,9 +114,9 @@ def data_script(rows: Sequence[Mapping[str, Any]], title: str, about: str, digit
 
 
 _BOX = (200.0, 150.0)
-"""Points of a drawing, at most."""
+"""Largest width and height of a drawing, points."""
 _PRINTED = 180.0
-"""Millimetres of the longer side of a template: it fits a page of A4."""
+"""Longer side of a template, millimetres: it fits a page of A4."""
 
 _TYPE_BODY = """<article class="type">
 <p><a href="../index.html">All types</a></p>
@@ -132,8 +128,8 @@ _TYPE_BODY = """<article class="type">
 </div>
 {neighbours}
 </article>
-{thing}"""
-_THING = """<main id="page"></main>
+{folding}"""
+_FOLDING = """<main id="page"></main>
 <script type="application/json" id="data">{data}</script>
 <script src="../page.js"></script>"""
 
@@ -143,7 +139,7 @@ class TypeFiles:
     """The files of a type: its page (HTML), its picture and its graph (SVG).
 
     The picture is for the list, of the crease pattern if there is one. `fold` is the realised type (FOLD),
-    `template` what is printed, cut out and folded (SVG).
+    `template` is for printing, cutting out and folding (SVG).
     """
 
     page: str
@@ -165,19 +161,19 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> T
     body = _TYPE_BODY.format(
         title=_text(title),
         file=file,
-        names="".join(f"<p>{_text(one.name)}: {_text(one.source)}</p>" for one in report.named),
+        names="".join(f"<p>{_text(name.name)}: {_text(name.source)}</p>" for name in report.named),
         links=_links(file, fold, template),
         facts="".join(_fact(name, value) for name, value in values.items() if name != "fold_file"),
         neighbours=_neighbours(report, places),
-        thing="" if sheet is None else _thing(sheet, values["id"]),
+        folding="" if sheet is None else _folding(sheet, values["id"]),
     )
     page = document(title, ["../page.css", "../gallery.css"], body)
     graph = _picture(drawable_of_type(values["kind"], values["id"]))
     return TypeFiles(page, graph if sheet is None else _picture(sheet), graph, fold, template)
 
 
-def _picture(thing: Any) -> str:
-    return svg_text(draw(thing, box=_BOX, caption=None))
+def _picture(drawable: Any) -> str:
+    return svg_text(draw(drawable, box=_BOX, caption=None))
 
 
 def _text(value: Any) -> str:
@@ -185,12 +181,9 @@ def _text(value: Any) -> str:
 
 
 def _fact(name: str, value: Any) -> str:
-    told = ", ".join(map(str, value)) if isinstance(value, tuple) else value
-    if isinstance(value, bool):
-        told = "yes" if value else "no"
-    told = _text(f"{told:.6g}" if isinstance(told, float) else told)
+    text = ", ".join(map(str, value)) if isinstance(value, tuple) else value_text(value)
     says = f'<td class="says">{_text(COLUMNS[name].says)}</td>'
-    return f"<tr><th>{_text(name.replace('_', ' '))}</th><td>{told}</td>{says}</tr>"
+    return f"<tr><th>{_text(name.replace('_', ' '))}</th><td>{_text(text)}</td>{says}</tr>"
 
 
 def _links(file: str, fold: str | None, template: str | None) -> str:
@@ -208,8 +201,8 @@ def _neighbours(report: TypeReport, places: Mapping[str, str]) -> str:
         for relation, code, name, _ in rows
     ]
     more = report.more + unlisted
-    told = f"<p>and {more} more that are related to it</p>" if more else ""
-    return f"<h2>Related types</h2><table>{''.join(lines)}</table>{told}"
+    last = f"<p>and {numbered(more, 'more related type')}</p>" if more else ""
+    return f"<h2>Related types</h2><table>{''.join(lines)}</table>{last}"
 
 
 def _linked(code: str, places: Mapping[str, str]) -> str:
@@ -218,13 +211,13 @@ def _linked(code: str, places: Mapping[str, str]) -> str:
     return f'<a href="{places[code]}.html">{_text(code)}</a>'
 
 
-def _thing(sheet: Sheet, code: str) -> str:
+def _folding(sheet: Sheet, code: str) -> str:
     data = {"shown": [shown_of(sheet, code).to_json()], "workbench": False}
-    return _THING.format(data=json_in_html(data))
+    return _FOLDING.format(data=json_in_html(data))
 
 
 def _template(sheet: Sheet) -> str | None:
-    """Return a template on one page of A4; None where the panels do not go on one."""
+    """Return a template on one page of A4; None if the panels need more."""
     try:
         template = replace(template_of(sheet, size=_PRINTED), steps=())  # on one page, with no other beside it
         pages = pages_of(template, paper_named("A4"))
@@ -233,12 +226,10 @@ def _template(sheet: Sheet) -> str | None:
     return svg_of_page(pages[0]) if len(pages) == 1 else None
 
 
-_UNIT = 16
-"""Types of a unit."""
-_WEIGHT = 1000
-"""Of a type: it takes as long as so many rows of a list."""
+_UNIT, _WEIGHT = 16, 1000
+"""Types per unit, and the weight of a type: it takes as long as so many rows of a list."""
 _MOST = 100_000
-"""Types of a site: a file system and a page that is searched take no more."""
+"""Most types of a site: a file system and a page that is searched take no more."""
 _SCRIPTS = ("page.js", "page.css", "gallery.js", "gallery.css", "LICENSES.txt")
 
 
@@ -251,17 +242,17 @@ class Site:
 
     @property
     def columns(self) -> dict[str, Column]:
-        """Where a file is in the folder, and what is in it."""
+        """The path of a file in the folder, and its text."""
         return {"name": str, "text": str}
 
     @property
     def key(self) -> dict[str, Any]:
-        """What the job is."""
+        """The identity of the job."""
         return {"site": self.atlas, "types": len(self.ids)}
 
     @property
     def digits(self) -> int:
-        """Of the numbers in names of files."""
+        """Digits of the numbers in names of files."""
         return len(str(len(self.ids)))
 
     def units(self) -> list[Unit]:
@@ -285,14 +276,14 @@ class Site:
         return f"{number + 1:0{self.digits}d}"
 
     @staticmethod
-    def _rows(file: str, made: TypeFiles) -> Iterable[Row]:
-        yield f"types/{file}.html", made.page
-        yield f"pictures/{file}.svg", made.picture
-        yield f"pictures/{file}-graph.svg", made.graph
-        if made.fold is not None:
-            yield f"types/{file}.fold", made.fold
-        if made.template is not None:
-            yield f"types/{file}-template.svg", made.template
+    def _rows(file: str, files: TypeFiles) -> Iterable[Row]:
+        yield f"types/{file}.html", files.page
+        yield f"pictures/{file}.svg", files.picture
+        yield f"pictures/{file}-graph.svg", files.graph
+        if files.fold is not None:
+            yield f"types/{file}.fold", files.fold
+        if files.template is not None:
+            yield f"types/{file}-template.svg", files.template
 
 
 class SiteSink(FolderSink):
@@ -333,14 +324,14 @@ def site_of(atlas: Atlas, condition: str = "", title: str = "") -> tuple[Site, d
     rows = atlas.query(condition, columns=SEARCHED, limit=_MOST)
     if rows.more or not rows.rows:
         what = f"more than {_MOST} types" if rows.more else "no types"
-        raise UnsolvableError(f"{what} for a site: choose others by a condition")
+        raise UnsolvableError(f"{what} for a site; try another condition")
     site = Site(str(atlas.path), tuple(row["id"] for row in rows))
     about = atlas.about()
-    made = f"{len(rows)} types; made by synthedra {about['synthedra']}: {about['command']}"
+    origin = f"{numbered(len(rows), 'type')}; made by synthedra {about['synthedra']}: {about['command']}"
     name = title or "Atlas of types"
     first = {script: (BUILT / script).read_text(encoding="utf-8") for script in _SCRIPTS}
-    first["index.html"] = index_page(name, made)
-    first["data.js"] = data_script(rows.rows, name, made, site.digits)
+    first["index.html"] = index_page(name, origin)
+    first["data.js"] = data_script(rows.rows, name, origin, site.digits)
     return site, first
 
 
@@ -355,9 +346,9 @@ def write_site(
 ) -> Path:
     """Write a site of an atlas into a new folder; return its first page.
 
-    It has the types with a condition, by default all. It uses so many worker processes, and calls `report` with
-    the progress from time to time. Raise FileError if something is at the place, or it cannot be written;
-    UnsolvableError if there are no such types, or too many, or the scripts were not built.
+    It has the types with a condition, by default all; `report` is called with the progress from time to time.
+    Raise FileError if something is at the place, or it cannot be written; UnsolvableError if there are no such
+    types, or too many, or the scripts were not built.
     """
     site, first = site_of(atlas, condition, title)
     job: Job = site

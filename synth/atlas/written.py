@@ -1,4 +1,4 @@
-"""Rows of an atlas written: tables, a folder of mechanisms, pictures on pages."""
+"""Rows of an atlas as files: tables, a folder of mechanisms, drawings on pages, panels with coordinates."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
     """
     kind, code = row["kind"], row["id"]
     if kind == "order":
-        raise UnsolvableError(f"{shown(code)} is an order without angles: there is no file of it")
-    thing = drawable_of_type(kind, code)
-    return dumps(chain_scd(thing) if kind == "string" else thing)
+        raise UnsolvableError(f"{shown(code)} is an order without angles, so it has no file")
+    drawable = drawable_of_type(kind, code)
+    return dumps(chain_scd(drawable) if kind == "string" else drawable)
 
 
 def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
@@ -51,7 +51,9 @@ def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
     try:
         document = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise FileError(place, "", f"is not JSON: {error}", "a FOLD document; build the atlas again") from None
+        raise FileError(
+            place, "", f"is not JSON: {error}", "a FOLD document; try to build the atlas again"
+        ) from None
     return sheet_from_fold(document, place)
 
 
@@ -62,7 +64,7 @@ _THROUGH_SINKS = (".csv", ".jsonl", ".parquet", "")
 def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> list[Path]:
     """Write rows in the format of the extension; without one, a folder with a file for each mechanism.
 
-    Return the paths. The path ends in .csv, .json, .jsonl, .parquet, .svg, .png or .pdf; pictures and folders need
+    Return the paths. The path ends in .csv, .json, .jsonl, .parquet, .svg, .png or .pdf; drawings and folders need
     columns ``kind`` and ``id``. `force` overwrites a file. Raise FileError for another extension, or if the file
     cannot be written.
     """
@@ -84,13 +86,13 @@ def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> lis
 
 @dataclass(frozen=True)
 class _Listed:
-    """Rows that are there already, as a job for a sink."""
+    """Rows as a job for a sink."""
 
     rows: AtlasRows
 
     @property
     def columns(self) -> dict[str, Column]:
-        """Names and types of the values; those of a statement are what all its values are."""
+        """Names and types of the values; the type of a column of a statement is that of all its values."""
         return {name: self._type(name) for name in self.rows.columns}
 
     def _type(self, name: str) -> Column:
@@ -109,7 +111,7 @@ class _Listed:
         return {}
 
     def units(self) -> list[Unit]:
-        """One."""
+        """Return one unit of all rows."""
         return [Unit(None, len(self.rows))]
 
     def work(self, payload: None) -> list[Row]:
@@ -127,23 +129,19 @@ class _Listed:
 
 def _as_text(value: Any) -> str | None:
     """Return a value of a column of texts; a statement may select others beside them."""
-    return (
-        value
-        if value is None or isinstance(value, str)
-        else value.hex()
-        if isinstance(value, bytes)
-        else str(value)
-    )
+    if value is None or isinstance(value, str):
+        return value
+    return value.hex() if isinstance(value, bytes) else str(value)
 
 
 def _check_mechanisms(rows: AtlasRows) -> None:
     if not {"id", "kind"} <= set(rows.columns):
-        raise InvariantError("query", "rows without id and kind", "both among the columns, for files and pictures")
+        raise InvariantError("query", "rows without id and kind", "both columns, for files and drawings")
 
 
 def _entries(rows: AtlasRows) -> Iterator[CatalogueEntry]:
     _check_mechanisms(rows)
     for number, row in enumerate(rows, start=1):
-        said = [row.get("name") or "", f"M = {row['dof']}" if row.get("dof") is not None else ""]
+        caption = [row.get("name") or "", f"M = {row['dof']}" if row.get("dof") is not None else ""]
         drawable = drawable_of_type(row["kind"], row["id"])
-        yield CatalogueEntry(number, drawable, row["id"], ", ".join(filter(None, said)))
+        yield CatalogueEntry(number, drawable, row["id"], ", ".join(filter(None, caption)))

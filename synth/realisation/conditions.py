@@ -1,7 +1,28 @@
 """Conditions on flat drawings: flat-foldable, symmetric, straight or parallel creases, agreeing ratios.
 
-TODO
-Theory: docs/theory/realisation.md.
+A condition gives numbers that are to be 0, and their derivatives; `Wishes` says which are asked for, `Kept` how
+well a drawing meets them.
+
+Flat-foldable: reflected in the creases round a vertex or a hole in turn, the sheet closes. Round a vertex this is
+Kawasaki's condition: every other sector, added up, is 180 degrees. Round a hole the lines of the creases need not
+meet, and the reflections must give neither a rotation nor a translation. The order of layers is not considered.
+
+Lines: about a vertex of four creases two and two are opposite, and opposite ones follow each other along a *line*.
+Lines that enter a panel of four sides at opposite sides run side by side; those form *bundles*. A Miura sheet has
+one bundle of straight lines and one of zigzags, and parallel opposite creases.
+
+Ratios: at a flat-foldable vertex of four creases, sectors a and b on both sides of a crease, the half-angle
+tangent of that crease is cos((a + b) / 2) / cos((a - b) / 2) times those of its neighbours in one mode, sin((a +
+b) / 2) / sin((a - b) / 2) times them in the other, but for signs; the ratios stay constant while the vertex folds.
+They are consistent round a panel between such vertices if their product is 1.
+
+Symmetry: a drawing with a fixed outer face is mapped to itself by maps that rotate its border or reflect it. Drawn
+barycentrically in a regular border it has all of them; conditions keep them while the shape is improved. A centre
+at infinity across a hole that is mapped to itself leaves half turns and mirrors only.
+
+Sources: T. Kawasaki, On the relation between mountain-creases and valley-creases of a flat origami (1989); T.
+Tachi, Generalization of rigid-foldable quadrilateral-mesh origami (2009); T. A. Evans, R. J. Lang, S. P. Magleby,
+L. L. Howell, Rigidly foldable origami gadgets and tessellations (2015). Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -14,7 +35,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
-from graphs.errors import UnsolvableError, shown
+from graphs.errors import UnsolvableError, numbered, shown
 from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import Edge, sides_of_face
 from graphs.tolerances import DOUBLE
@@ -45,19 +66,16 @@ Condition = Callable[[Floats], tuple[Floats, Floats]]
 
 
 def together(conditions: Sequence[Condition]) -> Condition:
-    """Return several conditions as one.
-
-    >>> at_rest = together([lambda unknowns: (unknowns.ravel(), np.eye(unknowns.size))] * 2)
-    >>> off, by = at_rest(np.zeros((3, 2)))
-    >>> off.shape, by.shape
-    ((12,), (12, 6))
-    """
+    """Return several conditions as one."""
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
-        parts = [one(unknowns) for one in conditions]
-        return np.concatenate([off for off, _ in parts]), np.concatenate([by for _, by in parts])
+        return _stacked([part(unknowns) for part in conditions])
 
     return condition
+
+
+def _stacked(parts: Sequence[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
+    return np.concatenate([off for off, _ in parts]), np.concatenate([by for _, by in parts])
 
 
 def flat_folding(pattern: Pattern) -> Condition:
@@ -76,45 +94,45 @@ def flat_folding(pattern: Pattern) -> Condition:
         angles, by_places = opened_angles(pattern, unknowns[: pattern.vertices])
         by = np.zeros((inner, unknowns.size))
         by[:, : by_places.shape[1]] = alternate @ by_places
-        parts = [(alternate @ angles, by), *(_round_hole(unknowns, lines) for lines in round_holes)]
-        return np.concatenate([off for off, _ in parts]), np.concatenate([rows for _, rows in parts])
+        return _stacked([(alternate @ angles, by), *(_round_hole(unknowns, lines) for lines in round_holes)])
 
     return condition
 
 
 def off_flat(pattern: Pattern, places: Floats) -> float:
-    """Return by how much a drawing misses to be flat-foldable at most.
-
-    In radians, and in units of length round holes.
-    """
-    off, _ = flat_folding(pattern)(places)
-    return float(np.abs(off).max(initial=0.0))
+    """Return the largest error of flat-foldability of a drawing: radians, and units of length round holes."""
+    return float(np.abs(flat_folding(pattern)(places)[0]).max(initial=0.0))
 
 
 def _check_even(pattern: Pattern, rounds: list[tuple[int, ...]]) -> None:
-    inner = len(pattern.inner)
-    odd = [met for met in rounds if len(met) % 2]
+    odd = [place for place, met in enumerate(rounds) if len(met) % 2]
     if odd:
-        where = "a vertex" if rounds.index(odd[0]) < inner else "a hole"
-        names = ", ".join(shown(pattern.joints[crease]) for crease in odd[0])
+        creases = rounds[odd[0]]
+        where = "a vertex" if odd[0] < len(pattern.inner) else "a hole"
+        names = ", ".join(shown(pattern.joints[crease]) for crease in creases)
+        number = numbered(len(creases), "crease")
         raise UnsolvableError(
-            f"it cannot fold flat: {len(odd[0])} creases, an odd number, about {where} (joints {names})"
+            f"the type cannot fold flat: {number}, an odd number, about {where} (joints {names})"
         )
 
 
 def _alternating(pattern: Pattern, rounds: list[tuple[int, ...]]) -> Floats:
     """Return float[I, K]: the corners round each inner vertex, + and - by turns."""
     signs = np.zeros((len(rounds), len(pattern.corners)))
-    corner_of = {(int(b), int(c)): number for number, (_, b, c) in enumerate(pattern.corners)}
+    corner_of = _corners_by_side(pattern)
     for row, (vertex, met) in enumerate(zip(pattern.inner.tolist(), rounds, strict=True)):
         for place, crease in enumerate(met):
-            a, b = pattern.creases[crease]
-            signs[row, corner_of[vertex, b if a == vertex else a]] = (-1.0) ** place
+            signs[row, corner_of[vertex, _far(pattern, crease, vertex)]] = (-1.0) ** place
     return signs
 
 
+def _corners_by_side(pattern: Pattern) -> dict[Edge, int]:
+    """Return the number of each corner by its vertex and the next one of its panel."""
+    return {(int(at), int(after)): number for number, (_, at, after) in enumerate(pattern.corners)}
+
+
 def _round_hole(unknowns: Floats, lines: list[Edge]) -> tuple[Floats, Floats]:
-    """Return turn and shift of the reflections in some lines, one after the other, and the derivatives."""
+    """Return rotation and translation of the reflections in some lines, in turn, and the derivatives."""
     mirrors = [_reflection(unknowns[a], unknowns[b]) for a, b in lines]
     before = [np.eye(3)]
     for matrix, _ in mirrors:
@@ -132,7 +150,7 @@ def _round_hole(unknowns: Floats, lines: list[Edge]) -> tuple[Floats, Floats]:
 
 
 def _read(whole: Floats, change: Floats) -> Floats:
-    """Return how turn and shift of a motion change with its matrix."""
+    """Return the derivative of rotation and translation of a motion by that of its matrix."""
     turn = (change[1, 0] * whole[0, 0] - change[0, 0] * whole[1, 0]) / (whole[0, 0] ** 2 + whole[1, 0] ** 2)
     return np.array([turn, change[0, 2], change[1, 2]])
 
@@ -158,34 +176,25 @@ def _reflection(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def straight_lines(pattern: Pattern, bundle: Iterable[int]) -> Condition:
-    """Return that the lines of a bundle, creases by their numbers, are straight.
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> off, by = straight_lines(fan, bundles(fan)[0])(np.random.default_rng(0).normal(size=(5, 2)))
-    >>> off.shape, by.shape
-    ((1,), (1, 10))
-    """
-    on = set(bundle)
+    """Return that the lines of a bundle, creases by their numbers, are straight."""
+    on_lines = set(bundle)
     pairs = []
-    for vertex, one, other in _opposite(pattern):
-        if one in on:
-            pairs.append(((vertex, _far(pattern, one, vertex)), (vertex, _far(pattern, other, vertex))))
+    for vertex, crease, other in _opposite(pattern):
+        if crease in on_lines:
+            pairs.append(((vertex, _far(pattern, crease, vertex)), (vertex, _far(pattern, other, vertex))))
     return _parallel(pairs)
 
 
 def bent_line(pattern: Pattern, angle: float) -> Condition | None:
     """Return that a line is bent by an angle at the first vertex of four creases; None if there is no such vertex.
 
-    Radians. Where a sheet is symmetric, lines are bent alike at all vertices to which that one is taken.
+    Radians. Where a sheet is symmetric, lines are bent alike at all vertices to which that one is mapped.
     """
-    found = _opposite(pattern)
-    if not found:
+    opposite = _opposite(pattern)
+    if not opposite:
         return None
-    vertex, first, _ = found[0]
-    _, second, _ = found[1]
-    corner_of = {(int(b), int(c)): number for number, (_, b, c) in enumerate(pattern.corners)}
+    (vertex, first, _), (_, second, _) = opposite[:2]  # both pairs of creases of the first vertex
+    corner_of = _corners_by_side(pattern)
     corners = [corner_of[vertex, _far(pattern, crease, vertex)] for crease in (first, second)]
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
@@ -199,26 +208,17 @@ def bent_line(pattern: Pattern, angle: float) -> Condition | None:
 
 def parallel_creases(pattern: Pattern) -> Condition | None:
     """Return that opposite creases of panels with four sides are parallel; None if no panel has such."""
-    pairs = [(pattern.creases[one], pattern.creases[other]) for one, other in _across(pattern)]
+    pairs = [(pattern.creases[crease], pattern.creases[other]) for crease, other in _across(pattern)]
     return _parallel(pairs) if pairs else None
 
 
 def bundles(pattern: Pattern) -> list[tuple[int, ...]]:
-    """Return the creases of each bundle of lines that go through a vertex of four creases.
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> [len(creases) for creases in bundles(fan)]
-    [2, 2]
-    """
-    through = [(one, other) for _, one, other in _opposite(pattern)]
+    """Return the creases of each bundle of lines that go through a vertex of four creases."""
     graph = nx.Graph()
-    graph.add_edges_from(through)
-    lines = set(graph)
-    graph.add_edges_from((one, other) for one, other in _across(pattern) if {one, other} <= lines)
-    found = (tuple(sorted(creases)) for creases in nx.connected_components(graph))
-    return sorted(creases for creases in found if lines & set(creases))
+    graph.add_edges_from((crease, other) for _, crease, other in _opposite(pattern))
+    on_lines = set(graph)
+    graph.add_edges_from(pair for pair in _across(pattern) if on_lines.issuperset(pair))
+    return sorted(tuple(sorted(creases)) for creases in nx.connected_components(graph))
 
 
 def _opposite(pattern: Pattern) -> list[tuple[int, int, int]]:
@@ -230,14 +230,14 @@ def _opposite(pattern: Pattern) -> list[tuple[int, int, int]]:
 def _across(pattern: Pattern) -> list[tuple[int, int]]:
     """Return the pairs of opposite creases of panels with four sides."""
     creases = sides_of(pattern).creases
-    found = []
+    pairs = []
     for panel in pattern.panels:
         if len(panel) == 4:
-            sides = [creases.get((panel[k], panel[(k + 1) % 4])) for k in range(4)]
-            for one, other in ((sides[0], sides[2]), (sides[1], sides[3])):
-                if one is not None and other is not None:
-                    found.append((one, other))
-    return found
+            sides = [creases.get(side) for side in sides_of_face(panel)]
+            for crease, other in ((sides[0], sides[2]), (sides[1], sides[3])):
+                if crease is not None and other is not None:
+                    pairs.append((crease, other))
+    return pairs
 
 
 def _far(pattern: Pattern, crease: int, vertex: int) -> int:
@@ -251,28 +251,21 @@ def _parallel(pairs: list[tuple[Edge, Edge]]) -> Condition:
     rows = np.arange(len(ends))
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
-        one = unknowns[ends[:, 0, 1]] - unknowns[ends[:, 0, 0]]
+        along = unknowns[ends[:, 0, 1]] - unknowns[ends[:, 0, 0]]
         other = unknowns[ends[:, 1, 1]] - unknowns[ends[:, 1, 0]]
         by = np.zeros((len(ends), *unknowns.shape))
-        by_one = np.stack([other[:, 1], -other[:, 0]], axis=1)
-        by_other = np.stack([-one[:, 1], one[:, 0]], axis=1)
-        for line, slope in ((0, by_one), (1, by_other)):
+        by_along = np.stack([other[:, 1], -other[:, 0]], axis=1)
+        by_other = np.stack([-along[:, 1], along[:, 0]], axis=1)
+        for line, slope in ((0, by_along), (1, by_other)):
             np.add.at(by, (rows, ends[:, line, 1]), slope)
             np.add.at(by, (rows, ends[:, line, 0]), -slope)
-        return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], by.reshape(len(ends), -1)
+        return along[:, 0] * other[:, 1] - along[:, 1] * other[:, 0], by.reshape(len(ends), -1)
 
     return condition
 
 
 def panels_between_vertices(pattern: Pattern) -> list[tuple[int, ...]]:
-    """Return the panels all of whose corners are inner vertices of four creases.
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> panels_between_vertices(fan)
-    []
-    """
+    """Return the panels all of whose corners are inner vertices of four creases."""
     rounds = zip(pattern.inner.tolist(), creases_round(pattern), strict=False)
     four = {vertex for vertex, met in rounds if len(met) == 4}
     return [panel for panel in pattern.panels if four.issuperset(panel)]
@@ -281,7 +274,7 @@ def panels_between_vertices(pattern: Pattern) -> list[tuple[int, ...]]:
 def agreeing_ratios(pattern: Pattern, modes: Sequence[bool]) -> Condition:
     """Return that the product of ratios round each panel between vertices of four creases is 1: its logarithm.
 
-    The mode is that of each inner vertex, in their order: True for the one with sines.
+    The modes are those of the inner vertices, in their order: True for sines.
     """
     mode_of = dict(zip(pattern.inner.tolist(), modes, strict=True))
     number_of = {(int(at), int(before)): number for number, (before, at, _) in enumerate(pattern.corners)}
@@ -306,9 +299,9 @@ def agreeing_ratios(pattern: Pattern, modes: Sequence[bool]) -> Condition:
     return condition
 
 
-def _logarithm(one: float, other: float, sines: bool) -> tuple[float, tuple[float, float]]:
+def _logarithm(sector: float, other: float, sines: bool) -> tuple[float, tuple[float, float]]:
     """Return the logarithm of the ratio between two sectors, and its derivatives by both."""
-    half, apart = (one + other) / 2.0, (one - other) / 2.0
+    half, apart = (sector + other) / 2.0, (sector - other) / 2.0
     if sines:
         first, second = 0.5 / np.tan(half), 0.5 / np.tan(apart)
         return float(np.log(np.abs(np.sin(half) / np.sin(apart)))), (first - second, first + second)
@@ -328,9 +321,9 @@ class _Map:
 
 @dataclass(frozen=True, slots=True)
 class Symmetry:
-    """A group of maps of a pattern to itself, by turns and mirrors of the plane.
+    """A group of maps of a pattern to itself, by rotations and mirrors of the plane.
 
-    `turns` is the order of the turns, 1 for none; mirrors are none, or as many as turns.
+    `turns` is the order of the rotations, 1 for none; mirrors are none, or as many as turns.
     """
 
     turns: int
@@ -339,17 +332,16 @@ class Symmetry:
     _generators: tuple[_Map, ...]
 
     def __str__(self) -> str:
-        told = [f"turns by {360 / self.turns:.6g} degrees"] if self.turns > 1 else []
-        told += [f"{self.mirrors} mirror(s)"] if self.mirrors else []
-        return ", ".join(told)
+        parts = [f"turns by {360 / self.turns:.6g} degrees"] if self.turns > 1 else []
+        parts += [f"{self.mirrors} mirror(s)"] if self.mirrors else []
+        return ", ".join(parts)
 
     def condition(self, unknowns: Floats) -> tuple[Floats, Floats]:
-        """Return by how much unknowns, float[n, 2], miss where the maps take them, and derivatives."""
-        parts = [_missed(one, unknowns) for one in self._generators]
-        return np.concatenate([off for off, _ in parts]), np.concatenate([by for _, by in parts])
+        """Return by how much unknowns, float[n, 2], miss their images, and derivatives."""
+        return _stacked([_missed(generator, unknowns) for generator in self._generators])
 
     def upright(self, places: Floats) -> Floats:
-        """Return places turned so that the first mirror stands upright, if there is one."""
+        """Return places rotated so that the first mirror is upright, if there is one."""
         if not self.mirrors:
             return places
         matrix = self._generators[-1].matrix
@@ -359,22 +351,22 @@ class Symmetry:
         return turned
 
     def evened(self, aims: Floats) -> Floats:
-        """Return the mean of what edges aim at over those that are mapped to each other: float[E]."""
-        evened: Floats = np.mean([aims[one.edges] for one in self._maps], axis=0)
+        """Return the mean of the aims of edges that are mapped to each other: float[E]."""
+        evened: Floats = np.mean([aims[map_.edges] for map_ in self._maps], axis=0)
         return evened
 
 
 def off_symmetry(symmetry: Symmetry, places: Floats) -> float:
-    """Return how far a vertex is at most from where a map takes another, in units of the extent.
+    """Return the largest distance of a vertex from the image of another, in units of the extent.
 
-    Places may lie anyhow in the plane.
+    The places may be rotated and translated in the plane.
     """
     count = len(places)
     centred = places - places.mean(axis=0)
     worst = 0.0
-    for one in symmetry._maps:
-        image = centred[one.rows[:count]]
-        rotation, shift = rigid_motion(centred, image, mirrored=np.linalg.det(one.matrix) < 0.0)
+    for map_ in symmetry._maps:
+        image = centred[map_.rows[:count]]
+        rotation, shift = rigid_motion(centred, image, mirrored=np.linalg.det(map_.matrix) < 0.0)
         worst = max(worst, float(np.linalg.norm(centred @ rotation.T + shift - image, axis=1).max()))
     return worst / float(np.ptp(places, axis=0).max())
 
@@ -384,7 +376,7 @@ def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
     border = len(pattern.outer)
     turns = dict(_maps(pattern, mirrored=False))
     mirrors = dict(_maps(pattern, mirrored=True))
-    found = []
+    groups = []
     for step in (step for step in range(1, border + 1) if border % step == 0):
         group = [shift % border for shift in range(0, border, step)]
         if not turns.keys() >= set(group):
@@ -396,10 +388,10 @@ def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
             if mirrors.keys() >= set(with_mirrors):
                 of_mirrors = tuple(mirrors[shift] for shift in with_mirrors)
                 generators = (*first_turn, of_mirrors[0])
-                found.append(Symmetry(len(group), len(group), (*of_turns, *of_mirrors), generators))
+                groups.append(Symmetry(len(group), len(group), (*of_turns, *of_mirrors), generators))
         if len(group) > 1:
-            found.append(Symmetry(len(group), 0, of_turns, first_turn))
-    return tuple(sorted(found, key=lambda one: -(one.turns + one.mirrors)))
+            groups.append(Symmetry(len(group), 0, of_turns, first_turn))
+    return tuple(sorted(groups, key=lambda symmetry: -(symmetry.turns + symmetry.mirrors)))
 
 
 def _maps(pattern: Pattern, *, mirrored: bool) -> Iterator[tuple[int, _Map]]:
@@ -410,22 +402,21 @@ def _maps(pattern: Pattern, *, mirrored: bool) -> Iterator[tuple[int, _Map]]:
         ends = (outer[shift - 1], outer[shift]) if mirrored else (outer[shift], outer[(shift + 1) % len(outer)])
         image = _image(sides, (outer[0], outer[1]), ends, mirrored=mirrored)
         if image is not None and len(set(image.values())) == pattern.vertices:
-            made = _map_of(
-                pattern, np.array([image[v] for v in range(pattern.vertices)]), _motion(shift, outer, mirrored)
-            )
-            if made is not None:
-                yield shift, made
+            vertices = np.array([image[v] for v in range(pattern.vertices)])
+            map_ = _map_of(pattern, vertices, _motion(shift, outer, mirrored))
+            if map_ is not None:
+                yield shift, map_
 
 
 def _motion(shift: int, outer: tuple[int, ...], mirrored: bool) -> Floats:
-    """Return the turn or the mirror that takes a regular border to itself."""
+    """Return the rotation or the mirror that takes a regular border to itself."""
     angle = 2.0 * np.pi * shift / len(outer)
     cos, sin = np.cos(angle), np.sin(angle)
     return np.array([[cos, sin], [sin, -cos]] if mirrored else [[cos, -sin], [sin, cos]])
 
 
 def _image(sides: Sides, first: Edge, to: Edge, *, mirrored: bool) -> dict[int, int] | None:
-    """Return where the vertices go if a side goes to another; None if the panels do not fit.
+    """Return the images of the vertices if a side goes to another; None if the panels do not fit.
 
     In a mirror the side that follows goes to the one before.
     """
@@ -452,61 +443,57 @@ def _image(sides: Sides, first: Edge, to: Edge, *, mirrored: bool) -> dict[int, 
 
 
 def _map_of(pattern: Pattern, image: Ints, matrix: Floats) -> _Map | None:
-    """Return a map of vertices with what it does to all unknowns; None if a centre goes to none, or cannot."""
+    """Return a map of vertices with its effect on all unknowns; None if a centre has none, or a wrong one."""
     number = {frozenset(crease): place for place, crease in enumerate(pattern.creases)}
-    free = [one for one in pattern.pointings if one.vertex is None]
-    place_of = {(frozenset(one.creases), one.infinite): place for place, one in enumerate(pattern.pointings)}
+    free = pattern.free_centres
+    place_of = {(frozenset(p.creases), p.infinite): place for place, p in enumerate(pattern.pointings)}
     rows = list(image.tolist())
-    for place, one in enumerate(pattern.pointings):
+    for place, pointing in enumerate(pattern.pointings):
         creases = frozenset(
-            number[frozenset(image[list(pattern.creases[crease])].tolist())] for crease in one.creases
+            number[frozenset(image[list(pattern.creases[crease])].tolist())] for crease in pointing.creases
         )
-        goes = place_of.get((creases, one.infinite))
+        goes = place_of.get((creases, pointing.infinite))
         if goes is None:
             return None
         turned = np.linalg.det(matrix) > 0.0 and abs(matrix[1, 0]) > DOUBLE.parallel
-        if one.infinite and goes == place and turned:
+        if pointing.infinite and goes == place and turned:  # a direction that only half turns and mirrors keep
             return None
-        if one.vertex is None:
+        if pointing.vertex is None:
             rows.append(pattern.vertices + free.index(pattern.pointings[goes]))
     bent = [frozenset(pattern.panels[place]) for place in np.flatnonzero(pattern.bent)]
     first = len(rows)
     rows += [first + bent.index(frozenset(image[list(panel)].tolist())) for panel in map(list, bent)]
     directions = np.zeros(len(rows), dtype=bool)
-    directions[pattern.vertices : first] = [one.infinite for one in free]
+    directions[pattern.vertices : first] = [pointing.infinite for pointing in free]
     ends = {frozenset(edge): place for place, edge in enumerate(pattern.edges.tolist())}
     edges = [ends[frozenset(edge)] for edge in image[pattern.edges].tolist()]
     return _Map(np.array(rows), np.array(edges), matrix, directions)
 
 
-def _missed(one: _Map, unknowns: Floats) -> tuple[Floats, Floats]:
-    """Return by how much a map misses to take each unknown to its image; a direction may be turned about."""
-    there = unknowns @ one.matrix.T
-    signs = np.where(one.directions & ((unknowns[one.rows] * there).sum(axis=1) < 0.0), -1.0, 1.0)
+def _missed(map_: _Map, unknowns: Floats) -> tuple[Floats, Floats]:
+    """Return by how much a map misses to take each unknown to its image; a direction may be reversed."""
+    there = unknowns @ map_.matrix.T
+    signs = np.where(map_.directions & ((unknowns[map_.rows] * there).sum(axis=1) < 0.0), -1.0, 1.0)
     count = len(unknowns)
     by = np.zeros((count, 2, count, 2))
     at = np.arange(count)
-    by[at, :, at, :] -= signs[:, None, None] * one.matrix
+    by[at, :, at, :] -= signs[:, None, None] * map_.matrix
     for axis in range(2):
-        by[at, axis, one.rows, axis] += 1.0
-    off = unknowns[one.rows] - signs[:, None] * there
+        by[at, axis, map_.rows, axis] += 1.0
+    off = unknowns[map_.rows] - signs[:, None] * there
     return off.ravel(), by.reshape(2 * count, 2 * count)
 
 
 @dataclass(frozen=True, slots=True)
 class Wishes:
-    """What drawings are to be besides: flat-foldable, symmetric under a group, or both.
-
-    Flat-foldable: reflected in the creases round a vertex or a hole in turn, the sheet closes. Other conditions
-    may be added.
-    """
+    """Further conditions on drawings: flat-foldable, symmetric under a group, or both, and others."""
 
     flat_foldable: bool = False
     symmetry: Symmetry | None = None
     others: tuple[Condition, ...] = ()
 
     def conditions(self, pattern: Pattern) -> list[Condition]:
-        """Return what drawings meet exactly."""
+        """Return the conditions that drawings meet exactly."""
         flat = [flat_folding(pattern)] if self.flat_foldable else []
         return [*flat, *([self.symmetry.condition] if self.symmetry is not None else []), *self.others]
 
@@ -523,8 +510,8 @@ class Wishes:
 class Kept:
     """How well a drawing meets the wishes; None for what was not among them.
 
-    `off_flat` is by how much reflections in creases miss to close at most, radians, and units of length round
-    holes; `off_symmetry` how far a vertex is at most from where it is mapped to, in units of the extent.
+    `off_flat` is the largest error of flat-foldability, radians, and units of length round holes; `off_symmetry`
+    the largest distance of a vertex from its image, in units of the extent.
     """
 
     off_flat: float | None = None
@@ -532,7 +519,7 @@ class Kept:
     symmetry: str = ""
 
     def to_json(self) -> dict[str, Any]:
-        """Return the keys that scripts rely on, of what was asked for."""
+        """Return the keys that scripts rely on, for the wishes only."""
         flat = {} if self.off_flat is None else {"off_flat_folding": self.off_flat}
         if self.off_symmetry is None:
             return flat
@@ -540,30 +527,24 @@ class Kept:
 
     def lines(self) -> list[str]:
         """Return the lines that are printed."""
-        told = []
+        lines = []
         if self.off_flat is not None:
-            told.append(
+            lines.append(
                 "flat-foldable: alternate sectors sum to 180 degrees, and reflections round holes close, to "
-                f"{self.off_flat:.0e}; the order of layers was not looked for"
+                f"{self.off_flat:.0e}; the order of layers was not searched for"
             )
         if self.off_symmetry is not None:
-            told.append(f"symmetric: {self.symmetry}, to {self.off_symmetry:.0e} of the extent")
-        return told
+            lines.append(f"symmetric: {self.symmetry}, to {self.off_symmetry:.0e} of the extent")
+        return lines
 
 
 def wishes_for(pattern: Pattern, *, flat_foldable: bool, symmetric: bool) -> tuple[Wishes, ...]:
-    """Return what to ask of drawings, in the order in which to try: the largest group of symmetries first.
+    """Return the wishes to try one after the other, the largest group of symmetries first.
 
     Raises `UnsolvableError` if it cannot be flat-foldable, or has no symmetry that keeps its border.
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> [str(one.symmetry) for one in wishes_for(fan, flat_foldable=True, symmetric=True)][:1]
-    ['turns by 90 degrees, 4 mirror(s)']
     """
     if flat_foldable:
-        flat_folding(pattern)  # which says what stands in the way
+        flat_folding(pattern)  # raises where an odd number of creases prevents it
     if not symmetric:
         return (Wishes(flat_foldable),)
     groups = symmetries(pattern)

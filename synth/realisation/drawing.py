@@ -1,7 +1,17 @@
-"""Drawings of a pattern in the plane.
+"""Drawings of a pattern in the plane, one after the other: each from another start, to other lengths.
 
-TODO
-Theory: docs/theory/realisation.md.
+The start is barycentric, with a convex border. Tutte's theorem: in a convex border, with every other vertex in a
+weighted mean of its neighbours, the panels of a 3-connected pattern are strictly convex and none overlap. Rules S1
+and S2 of SCD graphs say that patterns are, with a *hub* in each hole joined to all vertices round it; the hub is
+where the centre across the hole begins. A panel that cannot be convex gets a hub too, and is a star round it.
+
+Then the shape is improved: corners neither sharp nor flat, edges alike, creases to their centres. The cost is a
+sum of squares that grow without bound where a corner closes or opens; no step may turn a panel over. Each step
+goes to where creases meet their centres, as far as derivatives tell, and within that to the better shape
+(Gauss-Newton, damped). A finite centre is a point, an infinite one a direction; both are unknowns beside the
+vertices.
+
+Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963). Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -32,7 +42,7 @@ def barycentric_start(
 ) -> tuple[Floats, Floats, Floats]:
     """Return places of the vertices, hubs of holes, and hubs of panels that cannot be convex.
 
-    Edges are about 1 long. The generator gives every edge a weight; without it all weigh alike.
+    Edges are about 1 long. The generator gives every edge a weight; without it all weights are equal.
     """
     rings = [*pattern.holes, *(panel for place, panel in enumerate(pattern.panels) if pattern.bent[place])]
     spokes = [(v, pattern.vertices + hub) for hub, ring in enumerate(rings) for v in ring]
@@ -67,10 +77,11 @@ def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels
     The point of an infinite centre is its direction, of length 1. Points in holes are float[H, 2]; hubs of panels,
     float[B, 2], are those of `barycentric_start`. Returns float[V + C + B, 2].
     """
-    free = [one for one in pattern.pointings if one.vertex is None]
     points = [
-        _common_direction(pattern, places, one) if one.infinite else in_holes[list(one.holes)].mean(axis=0)
-        for one in free
+        _common_direction(pattern, places, pointing)
+        if pointing.infinite
+        else in_holes[list(pointing.holes)].mean(axis=0)
+        for pointing in pattern.free_centres
     ]
     return np.concatenate([places, np.array(points).reshape(-1, 2), in_panels])
 
@@ -78,9 +89,9 @@ def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels
 def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the sine of the angle by which each crease misses its centre, and the derivatives.
 
-    Lengths are taken as constant in the derivatives, which are exact where nothing is off. A value for each row of
-    ``Pattern.aims``, then by how much the direction of each infinite centre is longer than 1: float[A + D], with
-    derivatives float[A + D, 2 (V + C + B)].
+    Lengths are taken as constant in the derivatives, which are exact where nothing is off. There is a value for
+    each row of ``Pattern.aims``, then by how much the direction of each infinite centre is longer than 1: float[A
+    + D], with derivatives float[A + D, 2 (V + C + B)].
     """
     a, b, centre, infinite = pattern.aims.T
     along = unknowns[b] - unknowns[a]
@@ -101,11 +112,10 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     return np.concatenate([off, longer]), derivatives.reshape(len(derivatives), unknowns.size)
 
 
-def _common_direction(pattern: Pattern, places: Floats, one: Pointing) -> Floats:
-    """Return the direction that creases have in the mean, whichever way they run."""
-    ends = places[[pattern.creases[crease] for crease in one.creases]]
-    along = ends[:, 1] - ends[:, 0]
-    return common_direction(unit(along))
+def _common_direction(pattern: Pattern, places: Floats, pointing: Pointing) -> Floats:
+    """Return the mean direction of creases, whichever way they run."""
+    ends = places[[pattern.creases[crease] for crease in pointing.creases]]
+    return common_direction(unit(ends[:, 1] - ends[:, 0]))
 
 
 _ROUNDS = 40
@@ -113,12 +123,13 @@ _SHARP = np.radians(35.0)
 """Corners sharper than this, or as near to 180 degrees, cost more than they should."""
 _LENGTH = 1.1
 _BORDER = 0.15
-"""Part of the mean turn at a vertex of the border below which it is near to straight."""
+"""Part of the mean turn at a vertex of the border below which the border is nearly straight there."""
 _OFF = 30.0
-"""What a crease off its centre costs."""
+"""Cost of a crease off its centre, per sine of the angle."""
 _SEEN = np.radians(6.0)
 """Sides of bent panels that are seen from the hub under less than this cost more than they should."""
 _TIGHT = 1e-14
+"""Conditions that are off by less are met: no step can do better."""
 _ENOUGH = 1e-3
 """A step that gains less than this part is the last, where creases are near to their centres."""
 _LEAST = 1e-9
@@ -128,14 +139,14 @@ _DIGITS = 6
 would make more of the rounding errors of the step before than of anything else."""
 _IDLE = 1e-6
 """Motions of the whole plane of length 1 by which conditions are off by less than this change nothing."""
-_NEAR = 1e-4
-_NOTHING = 1e-5
-"""Where they are not, a step that gains less than this is the last."""
+_NEAR, _NOTHING = 1e-4, 1e-5
+"""Creases off their centres by less than the first are near; where they are not, a step that gains less than the
+second is the last."""
 
 
 @dataclass(frozen=True)
 class _Cost:
-    """Residuals at a drawing, and by how much creases miss their centres."""
+    """Residuals at a drawing, and by how much creases miss their centres, with derivatives."""
 
     residuals: Floats
     by: Floats
@@ -170,8 +181,8 @@ class _Cost:
 
 
 @dataclass(frozen=True, slots=True)
-class _Wanted:
-    """A convex border, logarithms of the lengths of edges, and what is to be met exactly."""
+class _Aims:
+    """A convex border, logarithms of the lengths of edges, and the exact conditions."""
 
     convex: bool
     lengths: Floats
@@ -191,13 +202,13 @@ def improved(
     """Return a drawing of better shape in which creases point to their centres; None if none was found.
 
     Drawings are float[V + C + B, 2], the first one with panels that are convex, or seen from their hubs; edges of
-    the answer are 1 long in the mean, or as aimed at: aims, float[E], are logarithms of lengths, by default 0.
-    Conditions are met exactly, besides that creases point to their centres. The allowance counts steps: the shape
-    that is reached with them is taken.
+    the result have the mean length 1, or that of the aims, float[E], logarithms of lengths, by default 0.
+    Conditions are met exactly, besides that creases point to their centres. The allowance counts steps: where it
+    is used up the shape that was reached is returned.
     """
     exactly = together([partial(off_centres, pattern), *conditions])
-    wanted = _Wanted(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
-    unknowns, cost = start, _cost(pattern, start, wanted)
+    goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
+    unknowns, cost = start, _cost(pattern, start, goal)
     damping = 1e-2
     for _ in range(_ROUNDS):
         if cost is None:
@@ -206,9 +217,9 @@ def improved(
         while better is None and damping < 1e8 and (allowance is None or allowance.take()):
             step = _tried(unknowns, cost, damping, exactly) - unknowns
             trial = np.round(unknowns + _held(pattern, unknowns, cost, step), _DIGITS)
-            found = _cost(pattern, trial, wanted)
-            if found is not None and found.merit < (1.0 - _LEAST) * cost.merit:
-                better = found
+            tried = _cost(pattern, trial, goal)
+            if tried is not None and tried.merit < (1.0 - _LEAST) * cost.merit:
+                better = tried
             else:
                 damping, lower = damping * 6.0, 2.0
         if better is None:
@@ -283,10 +294,10 @@ def _least(by: Floats, residuals: Floats, damping: float) -> Floats:
     return np.asarray(np.linalg.solve(r, q[: len(by)].T @ residuals), dtype=np.float64)
 
 
-def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
-    """Return what a drawing costs.
+def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
+    """Return the cost of a drawing.
 
-    None where vertices coincide, a panel is turned over or the border is not as it should be.
+    None where vertices coincide, a panel is turned over or the border is not convex as it should be.
     """
     places = unknowns[: pattern.vertices]
     points = np.concatenate([places, unknowns[len(unknowns) - int(pattern.bent.sum()) :]])
@@ -296,14 +307,14 @@ def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
     if not is_drawn(pattern, angles):
         return None
     lengths, by_lengths = edge_lengths(places, pattern.edges)
-    lengths = lengths - wanted.lengths
+    lengths = lengths - goal.lengths
     rows = [
         *_near(angles, by, _SHARP, 1.0),
         *_near(pattern.widest - angles, by, _SHARP, -1.0),
         _LENGTH * (lengths + lengths**3),
         _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
     ]
-    room = [(pattern.outer, np.pi if wanted.convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
+    room = [(pattern.outer, np.pi if goal.convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
     for ring, whole in room:
         sums = sums_at(pattern, np.array(ring, np.int64))
         left = whole - sums @ angles
@@ -313,7 +324,7 @@ def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
     residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
     padded = np.zeros((len(residuals), unknowns.size))
     padded[:, : derivatives.shape[1]] = derivatives
-    off, off_by = wanted.exactly(unknowns)
+    off, off_by = goal.exactly(unknowns)
     if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
         return None
     if not pattern.bent.any():
@@ -325,7 +336,7 @@ def _cost(pattern: Pattern, unknowns: Floats, wanted: _Wanted) -> _Cost | None:
 
 
 def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
-    """Return what it costs that a side of a bent panel is hardly seen from its hub; negative if it is not seen."""
+    """Return the cost of sides of bent panels that are hardly seen from their hub; negative if one is not seen."""
     hubs = range(len(unknowns) - int(pattern.bent.sum()), len(unknowns))
     panels = [pattern.panels[place] for place in np.flatnonzero(pattern.bent)]
     sides = [(b, hub, a) for hub, panel in zip(hubs, panels, strict=True) for a, b in sides_of_face(panel)]
@@ -342,7 +353,7 @@ def _near(angles: Floats, by: Floats, size: float, sign: float) -> tuple[Floats,
 
 _VARIED = 0.35
 _APART = 1e-3
-"""Centres nearer to each other or to a vertex than this, in units of the extent, are taken as one."""
+"""Centres nearer to each other or to a vertex than this, in units of the extent, count as the same point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -387,11 +398,11 @@ def drawings(
         if aims is not None and symmetry is not None:
             aims = symmetry.evened(aims)
         unknowns = first_unknowns(pattern, *start)
-        found = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions, allowance=allowance)
-        if found is None:
+        shaped = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions, allowance=allowance)
+        if shaped is None:
             continue
-        places = found[: pattern.vertices]
-        if crossings(pattern, places) or not _are_apart(pattern, found):
+        places = shaped[: pattern.vertices]
+        if crossings(pattern, places) or not _are_apart(pattern, shaped):
             continue
         if symmetry is not None:
             places = symmetry.upright(places)
@@ -399,9 +410,9 @@ def drawings(
 
 
 def _are_apart(pattern: Pattern, unknowns: Floats) -> bool:
-    """Tell whether centres across holes are different from each other and from the vertices."""
-    free = [one for one in pattern.pointings if one.vertex is None]
-    finite = [pattern.vertices + place for place, one in enumerate(free) if not one.infinite]
+    """Check that centres across holes are different from each other and from the vertices."""
+    free = pattern.free_centres
+    finite = [pattern.vertices + place for place, pointing in enumerate(free) if not pointing.infinite]
     extent = np.ptp(unknowns[: pattern.vertices], axis=0).max()
     for place in finite:
         others = np.delete(unknowns[: pattern.vertices + len(free)], place, axis=0)

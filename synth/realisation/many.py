@@ -1,6 +1,7 @@
 """Many types realised at once: a job for the runner of every enumerator, and the folder where its files go.
 
-A row says what became of a type, and holds its file. Theory: docs/theory/realisation.md.
+A row says whether a type was realised, and holds its file; beside the folder is the store of all rows, by which a
+run is resumed. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -26,26 +27,19 @@ from synth.drawing.catalogue.entries import CatalogueEntry, catalogue_entries
 from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.realisation.realised import NotFoundError, Realised, realise
 
-__all__ = ["COLUMNS", "FolderOfThings", "Outcome", "RealisationJob", "store_beside", "summary_of"]
+__all__ = ["COLUMNS", "Outcome", "RealisationFolder", "RealisationJob", "store_beside", "summary_of"]
 
 
 def store_beside(folder: Path) -> Path:
-    """Return where the store of a folder is: beside it, with the ending .sqlite."""
+    """Return the path of the store of a folder: beside it, with the ending .sqlite."""
     return folder.with_name(folder.name + ".sqlite")
 
 
-class FolderOfThings:
+class RealisationFolder:
     """A sink: a FOLD file for each row that holds one, named by its number, and a store of all rows.
 
-    Parameters
-    ----------
-    folder : str or Path
-    resume : bool
-        Go on with what is there. Without it a folder or a store that is there is refused.
-    tell : callable, optional
-        Takes a line on the state of the store (`SqliteSink`).
-    looking : callable, optional
-        Takes the part of the store that has been looked through.
+    With `resume` it goes on with what is there; otherwise an existing folder or store is refused. `tell` receives
+    a line on the state of the store (`SqliteSink`), `looking` the part of the store that has been looked through.
     """
 
     def __init__(
@@ -63,30 +57,26 @@ class FolderOfThings:
     def start(self, job: Job) -> Collection[int]:
         """Open the store, make the folder; return the units that are there.
 
-        Raises
-        ------
-        FileError
-            If there is something at the place of the folder, or it cannot be made.
-        StoreError
-            If the store is that of another job, or cannot be opened.
+        Raise FileError if the folder cannot be made, or something else is at its place; StoreError if the store is
+        that of another job, or cannot be opened.
         """
         if not (self._resume and self._folder.is_dir()):
             check_new_folder(self._folder)
         self._columns = tuple(job.columns)
-        there = self._store.start(job)
+        units = self._store.start(job)
         try:
             self._folder.mkdir(exist_ok=True)
         except OSError as error:
             raise FileError(self._folder, "", f"cannot be made: {error.strerror}", "a new folder") from None
-        return there
+        return units
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Write the files of a unit, then its rows: what is in the store has its files."""
+        """Write the files of a unit, then its rows: every row of the store has its file."""
         self._write(row_as_dict(self._columns, row) for row in rows)
         self._store.take(number, rows, seconds)
 
     def finish(self) -> None:
-        """Mark the store complete; files that somebody removed since are written again."""
+        """Mark the store complete; files that were removed since are written again."""
         self._store.finish()
         if self._resume:
             rows = (row_as_dict(self._columns, row) for row in read_rows(self._store.path))
@@ -107,10 +97,8 @@ class FolderOfThings:
 
 Outcome = Literal["realised", "not found", "refused"]
 
-_TYPES = 4
-"""Types of a unit."""
-_WEIGHT = 1000
-"""Of a type: it takes as long as so many rows of a list."""
+_TYPES, _WEIGHT = 4, 1000
+"""Types per unit, and the weight of a type: it takes as long as so many rows of a list."""
 
 COLUMNS: dict[str, Column] = {
     "number": int,
@@ -128,49 +116,33 @@ COLUMNS: dict[str, Column] = {
     "try": int,
     "mechanism": str,
 }
-"""What a row holds: the place of a type among all, from 1, its name, what became of it, why not; then, of what was
-realised, its id, figures and file (FOLD)."""
+"""Values of a row: the number of a type, from 1, its name, the outcome and its reason; then, if it was realised,
+its id, figures and file (FOLD)."""
 
 
 @dataclass(frozen=True)
 class RealisationJob:
     """All types of a store, a list or a folder, realised.
 
-    Attributes
-    ----------
-    source : str
-        What `synth.drawing.catalogue.entries.catalogue_entries` reads.
-    options : tuple of (str, value)
-        Keyword arguments of `synth.realisation.realise`, JSON values.
-
-    Raises
-    ------
-    FileError
-        If the source cannot be read.
-
-    Examples
-    --------
-    >>> RealisationJob("nowhere.jsonl").units()
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: nowhere.jsonl: cannot be read: No such file or directory; expected a readable file
+    `source` is anything that `synth.drawing.catalogue.entries.catalogue_entries` reads (FileError if it cannot be
+    read); `options` are keyword arguments of `synth.realisation.realise`, JSON values.
     """
 
     source: str
     options: tuple[tuple[str, Any], ...] = ()
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what goes to a worker: not the types, of which each unit has its own."""
+        """Return the state for a worker: without the types, of which each unit has its own."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def columns(self) -> dict[str, Column]:
-        """Names and types of the values of a row; figures of what was not realised are None."""
+        """Names and types of the values of a row; figures of types that were not realised are None."""
         return COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
-        """What the job is: a digest of the types, and the options."""
+        """The identity of the job: a digest of the types, and the options."""
         digest = sha256()
         for entry in self._entries:
             digest.update(f"{entry.number} {entry.name}\n{_text_of(entry)}\n".encode())
@@ -178,7 +150,7 @@ class RealisationJob:
 
     @property
     def failures(self) -> list[str]:
-        """What is wrong with files of a folder that could not be read."""
+        """Errors of the files of a folder that could not be read."""
         return self._read[1]
 
     @property
@@ -202,55 +174,39 @@ class RealisationJob:
 
 
 def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return how many types were realised, refused and not found, and which are which.
-
-    Parameters
-    ----------
-    rows : iterable of mapping
-        Of a job.
-
-    Examples
-    --------
-    >>> row = {"number": 1, "name": "a", "outcome": "refused", "reason": "a closed surface", "code": None}
-    >>> {name: value for name, value in summary_of([row]).items() if name != "types"}
-    {'realised': 0, 'not_found': 0, 'refused': 1}
-    """
+    """Return how many types of some rows were realised, refused and not found, and which are which."""
     kept = ("number", "name", "outcome", "reason", "code")
-    listed = [{name: row[name] for name in kept} for row in rows]
-    outcomes = [one["outcome"].replace(" ", "_") for one in listed]
-    return {**{name: outcomes.count(name) for name in ("realised", "not_found", "refused")}, "types": listed}
+    types = [{name: row[name] for name in kept} for row in rows]
+    outcomes = [row["outcome"].replace(" ", "_") for row in types]
+    return {**{name: outcomes.count(name) for name in ("realised", "not_found", "refused")}, "types": types}
 
 
 def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
     outcome: Outcome
     try:
         if isinstance(entry.mechanism, OrderOnCircle):
-            raise UnsolvableError(
-                "an order of joints round a cone, which has no panels: `synth template` takes it"
-            )
-        found, outcome, reason = realise(entry.mechanism, mode=entry.mode, **options), "realised", ""
+            raise UnsolvableError("an order of joints round a cone has no panels; try `synth template`")
+        values, outcome, reason = _values(realise(entry.mechanism, mode=entry.mode, **options)), "realised", ""
     except SynthedraError as error:
-        found, outcome, reason = None, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
-    told = {"number": entry.number, "name": entry.name, "outcome": outcome, "reason": reason, **_figures(found)}
-    return tuple(told.get(column) for column in COLUMNS)
+        values, outcome, reason = {}, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
+    values |= {"number": entry.number, "name": entry.name, "outcome": outcome, "reason": reason}
+    return tuple(values.get(column) for column in COLUMNS)
 
 
-def _figures(found: Realised | None) -> dict[str, Any]:
-    if found is None:
-        return {}
+def _values(realised: Realised) -> dict[str, Any]:
     return {
-        "code": map_id(found.scd),
-        "mobility": found.mobility,
-        "freedoms": found.freedoms,
-        "folds": found.folds,
-        "try": found.number,
-        "mechanism": fold_text(found.sheet),
-        **found.figures.to_json(),
+        "code": map_id(realised.scd),
+        "mobility": realised.mobility,
+        "freedoms": realised.freedoms,
+        "folds": realised.folds,
+        "try": realised.number,
+        "mechanism": fold_text(realised.sheet),
+        **realised.figures.to_json(),
     }
 
 
 def _text_of(entry: CatalogueEntry) -> str:
-    """Return what an entry is, as text; of a string its name says it, of an order what is said of it."""
+    """Return an entry as text; for a string and an order their names and descriptions."""
     if isinstance(entry.mechanism, ChainString | OrderOnCircle):
         return f"{entry.name} {entry.said}"
     return fold_text(entry.mechanism) if isinstance(entry.mechanism, Sheet) else dumps(entry.mechanism)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphs.arrays import Floats, Ints
+from graphs.errors import numbered
 from graphs.geometry import angles_between
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
@@ -47,11 +48,7 @@ def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
 
 
 def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
-    """Return the logarithm of the length of each edge, float[E], and its derivatives, float[E, 2 V].
-
-    >>> edge_lengths(np.array([[0.0, 0], [1, 0]]), np.array([[0, 1]]))[0].tolist()
-    [0.0]
-    """
+    """Return the logarithm of the length of each edge, float[E], and its derivatives, float[E, 2 V]."""
     along = places[edges[:, 1]] - places[edges[:, 0]]
     squares = (along**2).sum(axis=1)
     derivatives = np.zeros((len(edges), len(places), 2))
@@ -70,7 +67,7 @@ def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
 def is_drawn(pattern: Pattern, angles: Floats) -> bool:
     """Return whether panels are strictly convex where they can be, lie one way up, and go once round vertices.
 
-    Those are the inner vertices; the angles of the corners are as `opened_angles` gives them.
+    Those are the inner vertices; the angles of the corners are those of `opened_angles`.
     """
     if not (np.isfinite(angles).all() and angles.min() > 0.0 and (angles < pattern.widest).all()):
         return False
@@ -92,13 +89,19 @@ def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
 _SHARP, _RATIO = float(np.radians(15.0)), 0.15
 
 
+def first_order_freedoms(freedoms: int | None) -> str:
+    """Return a number of first-order freedoms in words; None if it is unknown."""
+    unknown = "an unknown number of first-order freedoms"
+    return unknown if freedoms is None else numbered(freedoms, "first-order freedom")
+
+
 @dataclass(frozen=True, slots=True)
 class ShapeFigures:
     """Shape of the panels.
 
     Angles are those of their corners, radians, more than pi where one is bent inward. The edge ratio is the
-    shortest side by the longest. Planarity says how far a vertex is off the plane of its panel at most,
-    `least_distance` is that of two vertices, both in units of the extent.
+    shortest side by the longest. Planarity is the largest distance of a vertex from the plane of its panel,
+    `least_distance` that of two vertices, both in units of the extent.
     """
 
     least_angle: float
@@ -129,15 +132,15 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
     The angles of the corners in the drawing, float[K], say which of them are bent inward.
     """
     points = np.zeros((sheet.vertices, 3))
-    given = np.asarray(sheet.coordinates, dtype=float)
-    points[:, : given.shape[1]] = given
+    coordinates = np.asarray(sheet.coordinates, dtype=float)
+    points[:, : coordinates.shape[1]] = coordinates
     before, at, after = points[pattern.corners.T]
     back, on = before - at, after - at
     angles = angles_between(on, back)
     angles = np.where(bent > np.pi, 2 * np.pi - angles, angles)
     lengths = np.linalg.norm(points[pattern.edges[:, 1]] - points[pattern.edges[:, 0]], axis=1)
-    one, other = np.triu_indices(len(points), 1)
-    least = float(np.linalg.norm(points[one] - points[other], axis=1).min())
+    first, second = np.triu_indices(len(points), 1)
+    least = float(np.linalg.norm(points[first] - points[second], axis=1).min())
     return ShapeFigures(
         float(angles.min()),
         float(angles.max()),
@@ -149,16 +152,16 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
 
 def crossings(pattern: Pattern, places: Floats) -> int:
     """Return how many pairs of edges cross in a drawing, and how many vertices lie on edges not ending there."""
-    one, other = np.triu_indices(len(pattern.edges), 1)
-    a, b = (places[ends] for ends in pattern.edges[one].T)
-    c, d = (places[ends] for ends in pattern.edges[other].T)
+    first, second = np.triu_indices(len(pattern.edges), 1)
+    a, b = (places[ends] for ends in pattern.edges[first].T)
+    c, d = (places[ends] for ends in pattern.edges[second].T)
     same = DOUBLE.same_point
-    met = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
-    return int(met.sum()) + int((_from_edges(pattern, places) < same * extent_of(places)).sum())
+    crossing = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
+    return int(crossing.sum()) + int((_from_edges(pattern, places) < same * extent_of(places)).sum())
 
 
 def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return how far a point is to the left of a line, by the length of the line."""
+    """Return how far a point is to the left of a line, times the length of the line."""
     side: Floats = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     return side
 

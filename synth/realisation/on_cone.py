@@ -26,6 +26,7 @@ from graphs.rank.generic import exact_mobility
 from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
+from synth.realisation.measures import first_order_freedoms
 from synth.surfaces.circuit import wrapped
 from synth.surfaces.linkages import by_sizes, map_linkage
 from synth.surfaces.several_loops import link_pairs, loop_steps
@@ -33,36 +34,36 @@ from synth.surfaces.several_loops import link_pairs, loop_steps
 __all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
 
 CONE_ANGLE = radians(30.0)
-"""lambda, unless one is asked for."""
+"""The default of lambda."""
 
 _OTHER_QUESTION = "realise gives a type new coordinates, those on a cone, and takes no branch"
 _VARIED = 0.35
 _CLEAR = radians(15.0)
-"""A step within a link is aimed to be so far at least from nothing and from half a turn, which has no sign."""
+"""Least distance to aim at of a step within a link from zero and from a half turn, which has no sign."""
 _MAPPED = 8
-"""Links of a loop whose cones are looked for at most: sign patterns double with each."""
+"""Most links of a loop whose cones are searched for: sign patterns double with each."""
 
 
 @dataclass(frozen=True, slots=True)
 class OnOneCone(Printed):
-    """A type with one centre, its joint axes ruling lines of a cone.
+    """A linkage on a cone, of a type with one centre; its joint axes are ruling lines.
 
     Attributes
     ----------
     linkage : SurfaceLinkage
-        Given by steps and lambda, as ``synth cone`` takes it.
+        With its steps and lambda, as ``synth cone`` reads it.
     clear : float
-        How near a step between two joints of a link comes to nothing or to half a turn, radians.
+        How near a step between two joints of a link comes to zero or to a half turn, radians.
     circuits : tuple of {"open", "crossed"}
-        Of each loop.
+        One per loop.
     mobility : int
         Exact generic mobility of the type.
     freedoms : int or None
-        First-order freedoms at this position; None where singular values do not tell.
+        First-order freedoms at this configuration; None where singular values do not decide.
     cones : int or None
-        How many cones the link arcs alone lead to, this one among them; None where that was not looked for.
+        How many cones the link arcs alone lead to, this one among them; None where they were not searched for.
     number, tries : int
-        Which try it is, and how many were asked for at most.
+        Number of this try, and the largest number of tries.
     """
 
     linkage: SurfaceLinkage
@@ -87,12 +88,12 @@ class OnOneCone(Printed):
 
     @property
     def rank(self) -> tuple[bool, float, int]:
-        """What it is chosen by: whether it moves as the type, how clear its steps are, how many loops are open."""
+        """Key of the choice: whether it moves as the type, how clear its steps are, how many loops are open."""
         return self.freedoms == self.mobility, min(self.clear, _CLEAR), self.circuits.count("open")
 
     @property
     def good(self) -> bool:
-        """Whether no better one need be looked for."""
+        """Whether the search can end with it."""
         return self.rank == (True, _CLEAR, len(self.circuits))
 
     def to_json(self) -> dict[str, Any]:
@@ -120,21 +121,20 @@ class OnOneCone(Printed):
         azimuths = zip(chain.joints, self.linkage.places(), strict=True)
         link_of = link_pairs(chain)
         rows = [(plain(link_of[pair]), _names(pair), f"{degrees(arc):.6g}") for pair, arc in self.arcs.items()]
-        told = "an unknown number of" if self.freedoms is None else str(self.freedoms)
         return [
             f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees: {chain}",
             "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
             TableBlock(("link", "joints", "arc (deg)"), rows, numbers=["arc (deg)"]),
             "circuits " + ", ".join(self.circuits) + f"; steps of links {degrees(self.clear):.3g} degrees or more "
-            "from nothing and from half a turn",
-            f"mobility {self.mobility}, exact; {told} first-order freedom(s) at this position",
+            "from zero and from a half turn",
+            f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration",
             self._mapped(),
             f"try {self.number + 1} of {self.tries}",
         ]
 
     def _mapped(self) -> str:
         if self.cones is None:
-            return f"not looked for: the cones of the arcs alone, where a loop has more than {_MAPPED} links"
+            return f"cones with these arcs were not searched for: a loop has more than {_MAPPED} links"
         return f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them"
 
     def __repr__(self) -> str:
@@ -149,14 +149,14 @@ def realise_on_cone(
     Parameters
     ----------
     mechanism : anything that has an SC graph
-        All its loops about one finite centre.
+        All its loops have one finite centre.
     cone_angle : float, optional
-        lambda, the angle between a ruling line and the plane across the axis, radians.
+        lambda, the angle between a ruling line and the plane perpendicular to the axis, radians.
     seed : int, optional
-        Other seeds give other linkages; the same gives the same.
+        Another seed gives another linkage; the same gives the same.
     tries : int, optional
-        How many linkages are tried at most. The first in which all loops are open, that moves as its type does, is
-        taken, or the best.
+        Largest number of linkages that are tried. The first that moves as its type does, with all loops open,
+        is chosen, or else the best.
 
     Returns
     -------
@@ -172,8 +172,8 @@ def realise_on_cone(
     Examples
     --------
     >>> from graphs.loops.loop import Loop
-    >>> found = realise_on_cone(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
-    >>> found.circuits, found.freedoms, len(found.arcs)
+    >>> on_cone = realise_on_cone(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> on_cone.circuits, on_cone.freedoms, len(on_cone.arcs)
     (('open',), 1, 4)
     """
     check_given("realise_on_cone", mechanism, Mechanism)
@@ -183,7 +183,7 @@ def realise_on_cone(
     best: OnOneCone | None = None
     for number, places in enumerate(_placements(chain, seed, tries)):
         motion = first_order(conformed, places)
-        found = OnOneCone(
+        candidate = OnOneCone(
             linkage=SurfaceLinkage.placed(chain, places.tolist(), Cone(cone_angle)),
             clear=_clear(chain, places),
             circuits=tuple(str(loop.circuits.names()) for loop in loop_steps(chain, places)),
@@ -193,8 +193,8 @@ def realise_on_cone(
             number=number,
             tries=tries,
         )
-        if best is None or found.rank > best.rank:
-            best = found
+        if best is None or candidate.rank > best.rank:
+            best = candidate
         if best.good:
             break
     assert best is not None
@@ -207,24 +207,25 @@ def _check(cone_angle: float, seed: int, tries: int) -> None:
             "cone angle", f"lambda is {degrees(cone_angle):.6g} degrees", "more than 0 and less than 90"
         )
     if seed < 0 or tries < 1:
-        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
+        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, 1 try or more")
 
 
 def _about_one_centre(sc: SCGraph) -> SCGraph:
     """Return the chain with its loops; refuse one whose axes do not all meet in a point."""
     if not sc.loops:
-        raise UnsolvableError("no loops: expected a linkage whose axes meet in one centre")
+        raise UnsolvableError("the type has no loops; expected a linkage whose axes meet in one centre")
     if sc.spatial_loops:
         raise UnsolvableError(
-            f"{numbered(sc.spatial_loops, 'loop')} without a centre: expected all axes to meet in one centre"
+            f"the type has {numbered(sc.spatial_loops, 'loop')} without a centre; expected one centre of all axes"
         )
     centres = sc.centre_classes()
     if len(centres) > 1:
         raise UnsolvableError(
-            f"{len(centres)} centres: expected one, as the spherical analogue has (synth convert --form spherical)"
+            f"the type has {len(centres)} centres; expected one; try its spherical analogue: "
+            "synth convert --form spherical"
         )
     if centres[0].centre is Centre.INFINITE:
-        raise UnsolvableError("its centre is at infinity, its axes lie on a cylinder: expected a finite centre")
+        raise UnsolvableError("the centre is at infinity, so the axes are on a cylinder; expected a finite centre")
     return SCGraph(list(sc), sc.joints, sc.loops, ground=sc.ground)
 
 
@@ -245,23 +246,22 @@ def _placements(chain: SCGraph, seed: int, tries: int) -> Iterator[Floats]:
 
 
 def _clear(chain: SCGraph, places: Floats) -> float:
-    """Return how near steps between joints of a link come to nothing or to half a turn, at the least."""
+    """Return how near steps between joints of a link come to zero or to a half turn."""
     at = dict(zip(chain.joints, places.tolist(), strict=True))
     steps = np.abs(wrapped([at[b] - at[a] for a, b in link_pairs(chain)]))
     return float(np.minimum(steps, np.pi - steps).min())
 
 
 def _cones(linkage: SurfaceLinkage, angle: float) -> int | None:
-    """Return on how many cones the link arcs alone lie; None if that is too many to look for.
+    """Return the number of cones with these link arcs; None if there are too many links to search.
 
     Raises `UnsolvableError` if the cone that they were laid on is none of these.
     """
     if max(len(loop.joints) for loop in linkage.chain.loops) > _MAPPED:
         return None
-    angles = np.sort(
-        [one.surface.angle for one in map_linkage(by_sizes(linkage)).surfaces if isinstance(one.surface, Cone)]
-    )
-    if not any(abs(one - angle) < DOUBLE.same_configuration for one in angles):
+    surfaces = [mapped.surface for mapped in map_linkage(by_sizes(linkage)).surfaces]
+    angles = np.sort([surface.angle for surface in surfaces if isinstance(surface, Cone)])
+    if not (np.abs(angles - angle) < DOUBLE.same_configuration).any():
         raise UnsolvableError(f"the link arcs do not lead back to lambda {degrees(angle):.6g} degrees")
     return 1 + int((np.diff(angles) > DOUBLE.same_configuration).sum())  # two roots near each other: one cone
 

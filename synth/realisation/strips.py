@@ -13,6 +13,7 @@ import numpy as np
 from enumerate.strings.graphs import chain_scd
 from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
+from graphs.errors import numbered
 from graphs.geometry import rotated, unit
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
@@ -23,9 +24,9 @@ from synth.realisation.pattern import Pattern
 __all__ = ["drawn_string", "folded_strip", "is_strip", "strips"]
 
 _FAN = np.radians(45.0)
-"""The angle of a triangle, where strips stay far enough from their own beginning."""
+"""The angle of a triangle, for strips that stay far enough from their own beginning."""
 _TURNED = np.radians(150.0)
-"""A strip turns by less, from any part of it to any other."""
+"""A strip turns by less than this, from any part of it to any other."""
 _VARIED = 0.2
 _FOLDED = (float(np.radians(30.0)), float(np.radians(60.0)))
 """In space creases are folded by angles between these, up and down by turns. Where all fold by one angle, the
@@ -33,40 +34,31 @@ bodies of RR-RR-RR have five freedoms, not six."""
 
 
 def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph, tuple[str, ...]]:
-    """Return the SCD graph of a string, its two bodies quadrilaterals, and what it is.
+    """Return the SCD graph of a string, its two bodies quadrilaterals, and notes on it.
 
-    The mode is one as `enumerate.strings.graphs.chain_scd` takes it; all on one side without it. Raises
+    The mode is one that `enumerate.strings.graphs.chain_scd` accepts; all on one side without it. Raises
     `InvariantError` if the string has no such mode.
     """
     scd = chain_scd(chain, mode, ends=(4, 4))
-    between = f"{chain.dof} freedoms between the first and the last panel in general position"
+    between = f"{numbered(chain.dof, 'freedom')} between the first and the last panel of a generic realisation"
     notes = [f"{chain.text}: joints {chain.mechanism}, {between}"]
     if mode:
-        notes.append(
-            f"mode {mode}: the next point in which creases meet lies on the same side (S) or the other (D)"
-        )
+        notes.append(f"mode {mode}: the next point in which creases meet is on the same side (S) or the other (D)")
     elif sum(k >= 2 for k in chain.clusters) > 1:
-        notes.append("points in which creases meet were put on one side of the strip")
+        notes.append("all points in which creases meet are on one side of the strip")
     return scd, tuple(notes)
 
 
 def is_strip(pattern: Pattern) -> bool:
-    """Return whether panels follow each other as those of a string do: triangles, and quadrilaterals between two.
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> [is_strip(pattern_of(scd_from_panels(panels)))
-    ...  for panels in ([(0, 1, 2), (0, 2, 3)], [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])]
-    [True, False]
-    """
+    """Return whether panels follow each other as those of a string do: triangles or quadrilaterals between two."""
     sides = [{frozenset(side) for side in sides_of_face(panel)} for panel in pattern.panels]
     creases = [frozenset(crease) for crease in pattern.creases]
     if len(creases) != len(sides) - 1 or not creases:
         return False
     in_order = all(crease in sides[i] and crease in sides[i + 1] for i, crease in enumerate(creases))
-    apart = [len(one & other) for one, other in pairwise(creases)]
+    common = [len(crease & following) for crease, following in pairwise(creases)]
     inner = [len(row) for row in sides[1:-1]]
-    return in_order and all((size, met) in ((3, 1), (4, 0)) for size, met in zip(inner, apart, strict=True))
+    return in_order and all((size, met) in ((3, 1), (4, 0)) for size, met in zip(inner, common, strict=True))
 
 
 def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
@@ -74,11 +66,6 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
 
     The first has panels that are all alike, every other has its own widths and angles. The first and last panel of
     the pattern may have any number of sides.
-
-    >>> from synth.realisation.pattern import pattern_of
-    >>> (strip,) = strips(pattern_of(drawn_string(ChainString.parse("R-R"))[0]), 0, 1)
-    >>> np.degrees(strip.angles).round(9).tolist() == [90.0] * 12
-    True
     """
     fan = _fan_angle(pattern)
     for number in range(tries):
@@ -94,8 +81,7 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
 def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return a strip with its creases folded up and down by turns, each by an angle of its own: rectangles stay.
 
-    Returns places float[V, 3], and the angles by which creases are folded, radians; above 0 at valleys, seen from
-    above.
+    Returns places float[V, 3], and the fold angles, radians; above 0 at valleys, seen from above.
     """
     points = np.column_stack([places, np.zeros(len(places))])
     least, most = _FOLDED
@@ -126,24 +112,24 @@ def _apex(pattern: Pattern, panel: int) -> tuple[int, int] | None:
 
 def _fan_angle(pattern: Pattern) -> float:
     """Return the greatest angle of triangles with which no part of a strip turns round to another."""
-    met = [_apex(pattern, panel) for panel in range(len(pattern.panels))]
-    turned = np.cumsum([0, *(0 if one is None else one[1] for one in met)])
+    apices = [_apex(pattern, panel) for panel in range(len(pattern.panels))]
+    turned = np.cumsum([0, *(0 if apex is None else apex[1] for apex in apices)])
     return float(min(_FAN, _TURNED / max(np.ptp(turned), 1)))
 
 
 def _placed(pattern: Pattern, fans: Floats, widths: Floats) -> Floats:
-    """Return float[V, 2]: places, each panel laid to the crease that it shares with the one before."""
+    """Return float[V, 2]: places, each panel attached to the crease that it shares with the one before."""
     places = np.zeros((pattern.vertices, 2))
     a, b = _directed(pattern, 0, pattern.creases[0])
     places[b] = (0.0, 1.0)
     _add_panel(pattern, 0, (a, b), widths[0], places)
     for panel in range(1, len(pattern.panels)):
         shared = _directed(pattern, panel, pattern.creases[panel - 1])
-        met = _apex(pattern, panel)
-        if met is None:
+        apex_and_turn = _apex(pattern, panel)
+        if apex_and_turn is None:
             _add_panel(pattern, panel, shared, widths[panel], places)
             continue
-        apex, way = met
+        apex, way = apex_and_turn
         far = shared[1] if apex == shared[0] else shared[0]
         (new,) = set(pattern.panels[panel]) - set(shared)
         cos, sin = np.cos(fans[panel]), way * np.sin(fans[panel])
@@ -152,7 +138,7 @@ def _placed(pattern: Pattern, fans: Floats, widths: Floats) -> Floats:
 
 
 def _add_panel(pattern: Pattern, panel: int, shared: Edge, width: float, places: Floats) -> None:
-    """Place the other vertices of a panel on half an ellipse on the left of a side: of four, a rectangle."""
+    """Place the other vertices of a panel on half an ellipse on the left of a side: two make a rectangle."""
     around = pattern.panels[panel]
     start = around.index(shared[0])
     along = places[shared[1]] - places[shared[0]]

@@ -50,7 +50,7 @@ def realise_many(source: str, running: RunOptions, options: dict[str, Any], *, a
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
     """Return what makes the sink, and where the store is."""
     from enumerate.runner.store import SqliteSink
-    from synth.realisation.many import FolderOfThings, store_beside
+    from synth.realisation.many import RealisationFolder, store_beside
 
     if running.output is None:
         raise click.UsageError("many types need a place: -o FOLDER, or -o FILE.sqlite")
@@ -61,4 +61,4 @@ def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
         raise click.UsageError("many types go to a folder or a store: -o FOLDER, or -o FILE.sqlite")
     if running.force:
         raise click.UsageError("--force replaces no folder: remove it, go on with --resume, or name another")
-    return partial(FolderOfThings, place, resume=running.resume), store_beside(place)
+    return partial(RealisationFolder, place, resume=running.resume), store_beside(place)

@@ -1,4 +1,15 @@
-"""Placeholder."""
+"""Axes in space that meet conditions, and configurations that close along one motion, by damped least squares.
+
+The unknowns are rows of six numbers: a point and a direction for each joint, then a point and a direction for each
+centre, of which a finite one uses the point, one at infinity the direction. Conditions are polynomials that are to
+be zero; they take complex numbers and leading dimensions, so that all derivatives come from one call (a complex
+step, exact for polynomials).
+
+The axes at the reference, and the joint angles of configurations along one motion, are unknowns of one problem:
+one joint is driven by twelve degrees from one to the next, and all loops close at all of them. A configuration is
+added when those before close. Conditions may be dependent where they hold, so steps are damped (Levenberg,
+Marquardt). Theory: docs/theory/realisation.md.
+"""
 
 from __future__ import annotations
 
@@ -40,6 +51,7 @@ AxisCondition = Callable[[Unknowns], Unknowns]
 """Of unknowns [..., rows, 6]: numbers [..., n] that are to be zero."""
 
 _STEP = 2.0**-100
+"""Complex step: its square is lost beside 1, and polynomials have no other error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,11 +71,7 @@ class AxisSymmetry:
 
 
 def derivatives(condition: AxisCondition, unknowns: Floats) -> Floats:
-    """Return the derivatives of a condition by all unknowns: float[n, 6 rows].
-
-    >>> derivatives(lambda rows: (rows**2).sum(axis=-1), np.ones((1, 6))).tolist()
-    [[2.0, 2.0, 2.0, 2.0, 2.0, 2.0]]
-    """
+    """Return the derivatives of a condition by all unknowns: float[n, 6 rows]."""
     size = unknowns.size
     steps = (1j * _STEP * np.eye(size)).reshape(size, *unknowns.shape)
     return np.asarray(condition(unknowns + steps).imag.T / _STEP)
@@ -119,14 +127,14 @@ def equal_links(loop: Sequence[int]) -> AxisCondition:
     here, after = list(loop), [*loop[1:], loop[0]]
 
     def condition(rows: Unknowns) -> Unknowns:
-        one, other = rows[..., here, :], rows[..., after, :]
-        between = other[..., :3] - one[..., :3]
+        axis, following = rows[..., here, :], rows[..., after, :]
+        between = following[..., :3] - axis[..., :3]
         squares = (between**2).sum(axis=-1)
         return np.concatenate(
             [
-                (between * one[..., 3:]).sum(axis=-1),
-                (between * other[..., 3:]).sum(axis=-1),
-                (one[..., 3:] * other[..., 3:]).sum(axis=-1),
+                (between * axis[..., 3:]).sum(axis=-1),
+                (between * following[..., 3:]).sum(axis=-1),
+                (axis[..., 3:] * following[..., 3:]).sum(axis=-1),
                 squares - squares[..., :1] / 2.0 - squares[..., -1:] / 2.0,
             ],
             axis=-1,
@@ -141,12 +149,12 @@ def _flat(vectors: Unknowns) -> Unknowns:
 
 _TURN = radians(12.0)
 _POSES = 5
-"""So many poses have to close, at most, beside the reference."""
+"""Most configurations that have to close, besides the reference."""
 _ROUNDS = 40
 _TIGHT = 1e-14
 _DAMPING, _LEAST, _MOST = 1e-2, 1e-16, 1e6
 _GAIN = 1e-3
-"""A step that lessens the sum of squares by less than this part is of no use: the search has come to rest."""
+"""A step that reduces the sum of squares by less than this part is the last: the search has come to rest."""
 _UNIT = 60.0
 """A step with up to so many unknowns is a unit of work; one with more counts in proportion."""
 
@@ -161,27 +169,22 @@ def linkage_at(graph: SCGraph, axes: Floats) -> PosedLinkage:
 
 
 def axes_meeting(conditions: Sequence[AxisCondition], start: Floats, work: Allowance) -> Floats | None:
-    """Return unknowns near a start, float[rows, 6], that meet conditions; None if none were found.
-
-    >>> from synth.realisation.special.axes import normal
-    >>> axes_meeting([normal(1)], np.ones((1, 6)), Allowance(100)).round(6).tolist()
-    [[0.57735, 0.57735, 0.57735, 0.57735, 0.57735, 0.57735]]
-    """
+    """Return unknowns near a start, float[rows, 6], that meet conditions; None if none were found."""
 
     def system(unknowns: Floats) -> tuple[Floats, Floats]:
         rows = unknowns.reshape(start.shape)
         return _stacked(conditions, rows)
 
-    found = _solved(system, start.ravel(), work)
-    return None if found is None else found.reshape(start.shape)
+    solution = _solved(system, start.ravel(), work)
+    return None if solution is None else solution.reshape(start.shape)
 
 
 def axes_along_a_motion(
     graph: SCGraph, conditions: Sequence[AxisCondition], start: Floats, work: Allowance
 ) -> Floats | None:
-    """Return unknowns near a start that meet conditions, with loops that close at poses along one motion.
+    """Return unknowns near a start that meet conditions, with loops that close at configurations along one motion.
 
-    The start, float[rows, 6], meets the conditions. None if nothing closed at all poses.
+    The start, float[rows, 6], meets the conditions. None if not all configurations closed.
     """
     joints = len(graph.joints)
     closure = ClosureEquations(linkage_at(graph, start[:joints]))
@@ -192,24 +195,24 @@ def axes_along_a_motion(
     rows, angles = start, np.zeros((1, joints))
     for number in range(1, _needed(closure) + 1):
         angles = np.vstack([angles, angles[-1] + rates * _TURN])
-        found = _solved(poses.system(number), poses.joined(rows, angles[1:]), work)
-        if found is None:
+        solution = _solved(poses.system(number), poses.joined(rows, angles[1:]), work)
+        if solution is None:
             return None
-        rows, solved = poses.parted(found, number)
-        angles = np.vstack([np.zeros((1, joints)), solved])
+        rows, at_poses = poses.parted(solution, number)
+        angles = np.vstack([np.zeros((1, joints)), at_poses])
         rates = (angles[-1] - angles[-2]) / _TURN
     return rows
 
 
 def _needed(closure: ClosureEquations) -> int:
-    """Return the poses after which a linkage that closes at all has no dimension left to choose, or a few."""
+    """Return the number of configurations after which no dimension, or a few, is left to choose."""
     each = closure.rows - (closure.joints - 1)
     return min(_POSES, ceil((4 * closure.joints - 7) / max(each, 1)) + 1)
 
 
 @dataclass(frozen=True)
 class _Poses:
-    """Unknowns of axes, and of the angles of all joints but the driven one at each pose."""
+    """Unknowns of axes, and of the angles of all joints but the driven one at each configuration."""
 
     graph: SCGraph
     conditions: Sequence[AxisCondition]
@@ -225,7 +228,7 @@ class _Poses:
         return np.concatenate([rows.ravel(), angles[:, self._free].ravel()])
 
     def parted(self, unknowns: Floats, number: int) -> tuple[Floats, Floats]:
-        """Return axes and angles of a number of poses."""
+        """Return axes and angles of a number of configurations."""
         size = int(np.prod(self.shape))
         angles = np.zeros((number, len(self.graph.joints)))
         angles[:, self._free] = unknowns[size:].reshape(number, -1)
@@ -233,7 +236,7 @@ class _Poses:
         return unknowns[:size].reshape(self.shape), angles
 
     def system(self, number: int) -> System:
-        """Return what does not hold, and its derivatives, with a number of poses."""
+        """Return the system of conditions and closure equations for a number of configurations."""
         joints, free = len(self.graph.joints), self._free
 
         def system(unknowns: Floats) -> tuple[Floats, Floats]:

@@ -1,10 +1,17 @@
-"""Placeholder."""
+"""Families of special geometry: flat sheets that may fold, axes in space that may move, although counts say no.
+
+A family of sheets draws the type with further conditions: flat-foldable vertices, a symmetry, straight lines,
+parallel creases. A family of axes adds conditions to those of the type: a symmetry, groups of axes that are
+parallel or meet, equal links, configurations along a motion that close. Starts are random, and symmetric where the
+family is. Symmetries of a type become symmetries of the axes: half turns, mirrors, rotations about a line. Theory:
+docs/theory/realisation.md.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import islice
+from itertools import combinations, islice
 from math import cos, lcm, pi, radians, sin
 
 import networkx as nx
@@ -33,7 +40,7 @@ from synth.realisation.conditions import (
     symmetries,
 )
 from synth.realisation.drawing import drawings
-from synth.realisation.pattern import Pattern
+from synth.realisation.pattern import Pattern, sheet_of_places
 from synth.realisation.special.axes import (
     AxisCondition,
     AxisGroup,
@@ -59,9 +66,9 @@ __all__ = [
 ]
 
 _MODES = 4
-"""So many choices of modes are tried for each start: signs have to agree round panels too, and are not asked."""
+"""Choices of modes tried per start: signs have to agree round panels too, which no condition ensures."""
 _BENT = (radians(10.0), radians(40.0))
-"""Lines that a symmetry lets bend are bent by so much: the most even drawing has them all but straight."""
+"""Range of the bend of lines that a symmetry allows to bend: in the most even drawing they are nearly straight."""
 
 
 @dataclass(frozen=True)
@@ -102,41 +109,26 @@ class SheetFamily:
 
 
 def _sheet(pattern: Pattern, places: Floats) -> Sheet:
-    creases = len(pattern.creases)
     places = places - places.min(axis=0)
-    places = places / places.max()
-    return Sheet(
-        pattern.vertices,
-        tuple((int(a), int(b)) for a, b in pattern.edges),
-        "U" * creases + "B" * (len(pattern.edges) - creases),
-        pattern.panels,
-        tuple(tuple(map(float, row)) for row in places),
-    )
+    return sheet_of_places(pattern, places / places.max())
 
 
 def sheet_families(pattern: Pattern) -> list[SheetFamily]:
-    """Return the families that are tried, in their order; flat-foldable ones only where vertices can be.
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> from synth.realisation.pattern import pattern_of
-    >>> fan = pattern_of(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]))
-    >>> [one.name for one in sheet_families(fan)][:2]
-    ['flat-foldable, lines 1 straight', 'flat-foldable, lines 2 straight']
-    """
+    """Return the families to try, in order; flat-foldable ones only where all vertices can be flat-foldable."""
     conditions = _of_lines(pattern)
     groups, bendable = symmetries(pattern), bool(bundles(pattern))
-    found = []
+    families = []
     for flat in (True, False) if _can_fold_flat(pattern) else (False,):
         head = ("flat-foldable",) if flat else ()
-        found += [SheetFamily(", ".join((*head, name)), Wishes(flat, None, needed)) for name, needed in conditions]
+        families += [SheetFamily(", ".join((*head, name)), Wishes(flat, None, on)) for name, on in conditions]
         for group in groups:
             name = ", ".join((*head, str(group)))
-            found.append(SheetFamily(name, Wishes(flat, group)))
+            families.append(SheetFamily(name, Wishes(flat, group)))
             if bendable:
-                found.append(SheetFamily(f"{name}, lines bent", Wishes(flat, group), bent=True))
+                families.append(SheetFamily(f"{name}, lines bent", Wishes(flat, group), bent=True))
         if flat:
-            found += _with_ratios(pattern)
-    return found
+            families += _with_ratios(pattern)
+    return families
 
 
 def _with_ratios(pattern: Pattern) -> list[SheetFamily]:
@@ -159,7 +151,7 @@ def _of_lines(pattern: Pattern) -> list[tuple[str, tuple[Condition, ...]]]:
     if parallel is None:
         return [*straight]
     name = "opposite creases of panels parallel"
-    both = [(f"{one}, {name}", (*conditions, parallel)) for one, conditions in straight]
+    both = [(f"{lines}, {name}", (*conditions, parallel)) for lines, conditions in straight]
     return [*both, (name, (parallel,)), *straight]
 
 
@@ -172,39 +164,32 @@ def _can_fold_flat(pattern: Pattern) -> bool:
 
 
 _MOST = 240
-"""Symmetries of a type that are looked at; rings of six have twelve, types with more are very regular."""
+"""Most symmetries of a type that are listed; rings of six have twelve, types with more are very regular."""
 _KINDS = 4
-"""Kinds of symmetry that are tried, those that move most joints first."""
+"""Most kinds of symmetry that are tried, those that move most joints first."""
 
 Image = tuple[int, ...]
 
 
 def named_motions(graph: SCGraph) -> list[tuple[str, AxisSymmetry]]:
-    """Return isometries by which a member of the type may be symmetric, one for each kind of symmetry.
+    """Return isometries by which a realisation may be symmetric, for each kind of symmetry of the type.
 
-    A symmetry of order two is half a turn about a line, or a mirror; others are turns about a line. Images are
+    A symmetry of order two is a half turn about a line, or a mirror; others are rotations about a line. Images are
     those of the joints, then of the centre classes, in their order.
-
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> [name for name, _ in named_motions(ring)][:1]
-    ['line symmetry, 0 joints and 2 links on themselves']
     """
     joints = len(graph.joints)
-    found = []
+    motions = []
     for image in _kinds(_automorphisms(graph)):
         order = _order(image)
+        if order > 2:
+            name = f"turns by {360 / order:.6g} degrees about a line"
+            motions.append((name, AxisSymmetry(image, _turn(order))))
+            continue
         fixed = f"{numbered(sum(image[place] == place for place in range(joints)), 'joint')} and "
-        fixed += numbered(_links_kept(graph, image), "link")
-        if order == 2:
-            found.append(
-                (f"line symmetry, {fixed} on themselves", AxisSymmetry(image, np.diag([-1.0, -1.0, 1.0])))
-            )
-            found.append(
-                (f"plane symmetry, {fixed} on themselves", AxisSymmetry(image, np.diag([1.0, 1.0, -1.0])))
-            )
-        else:
-            found.append((f"turns by {360 / order:.6g} degrees about a line", AxisSymmetry(image, _turn(order))))
-    return found
+        fixed += f"{numbered(_links_kept(graph, image), 'link')} on themselves"
+        for name, diagonal in (("line", [-1.0, -1.0, 1.0]), ("plane", [1.0, 1.0, -1.0])):
+            motions.append((f"{name} symmetry, {fixed}", AxisSymmetry(image, np.diag(diagonal))))
+    return motions
 
 
 def _turn(order: int) -> Floats:
@@ -213,25 +198,26 @@ def _turn(order: int) -> Floats:
 
 
 def _automorphisms(graph: SCGraph) -> list[Image]:
-    """Return where joints and centre classes go, in every symmetry but the identity."""
+    """Return the images of joints and centre classes in every symmetry but the identity."""
     joints, classes, links = list(graph.joints), graph.centre_classes(), list(graph.nodes)
     whole = nx.Graph()
     for place in range(len(joints)):
         whole.add_node(place, kind="joint")
-    for number, one in enumerate(classes):
-        whole.add_node(len(joints) + number, kind=one.centre.value)
+    for number, centre_class in enumerate(classes):
+        whole.add_node(len(joints) + number, kind=centre_class.centre.value)
     first = len(joints) + len(classes)
     for number in range(len(links)):
         whole.add_node(first + number, kind="link")
     number_of = {link: first + number for number, link in enumerate(links)}
     for place, ends in enumerate(graph.joints.values()):
         whole.add_edges_from((place, number_of[link]) for link in ends)
-    for number, one in enumerate(classes):
-        members = [place for place, joint in enumerate(joints) if joint in one.joints]
+    for number, centre_class in enumerate(classes):
+        members = [place for place, joint in enumerate(joints) if joint in centre_class.joints]
         whole.add_edges_from((len(joints) + number, place) for place in members)
     same_kind = nx.isomorphism.categorical_node_match("kind", None)
     matcher = nx.isomorphism.GraphMatcher(whole, whole, same_kind)
-    images = {tuple(one[place] for place in range(first)) for one in islice(matcher.isomorphisms_iter(), _MOST)}
+    found = islice(matcher.isomorphisms_iter(), _MOST)
+    images = {tuple(mapping[place] for place in range(first)) for mapping in found}
     return sorted(images - {tuple(range(first))})
 
 
@@ -243,9 +229,11 @@ def _kinds(images: list[Image]) -> list[Image]:
             chosen.append(image)
             left -= {_conjugate(image, by) for by in images}
             left.discard(image)
-    return sorted(chosen, key=lambda one: (sum(to == place for place, to in enumerate(one)), _order(one), one))[
-        :_KINDS
-    ]
+
+    def key(image: Image) -> tuple[int, int, Image]:
+        return sum(to == place for place, to in enumerate(image)), _order(image), image
+
+    return sorted(chosen, key=key)[:_KINDS]
 
 
 def _conjugate(image: Image, by: Image) -> Image:
@@ -259,11 +247,11 @@ def _links_kept(graph: SCGraph, image: Image) -> int:
     """Return how many links have their joints taken to their own joints."""
     place = {joint: number for number, joint in enumerate(graph.joints)}
     of_links = [{place[joint] for _, _, joint in graph.edges(link, keys=True)} for link in graph.nodes]
-    return sum({image[one] for one in joints} == joints for joints in of_links)
+    return sum({image[joint] for joint in joints} == joints for joints in of_links)
 
 
 def _order(image: Image) -> int:
-    """Return the least number of times after which all are at their places again."""
+    """Return the order of a permutation: the least common multiple of the lengths of its cycles."""
     lengths, seen = [1], set()
     for place in range(len(image)):
         length = 0
@@ -280,14 +268,14 @@ _TRIPLES = (
     ("two triples of axes through a point each", Centre.FINITE, Centre.FINITE),
 )
 _NOISE = 0.3
-"""By how much joints of equal links begin off a circle: from places anywhere loops fold up, two axes being one."""
+"""How far joints of equal links start from a circle: from arbitrary places loops fold up, with coinciding axes."""
 _APART = 0.02
-"""Axes, and centres, that are nearer than this part of the extent and, of axes, of a radian, are taken as one."""
+"""Axes, and centres, that differ by less than this part of the extent, and axes of a radian, count as the same."""
 
 
 @dataclass(frozen=True)
 class TypeOfAxes:
-    """What a type says about axes: which meet in which centre, and which loops have none."""
+    """The conditions of a type on axes: which meet in which centre, and which loops have none."""
 
     graph: SCGraph
     meetings: tuple[AxisGroup, ...]
@@ -295,15 +283,11 @@ class TypeOfAxes:
 
 
 def type_of_axes(graph: SCGraph) -> TypeOfAxes:
-    """Return what a type says about axes.
-
-    >>> type_of_axes(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])).spatial
-    ((0, 1, 2, 3),)
-    """
+    """Return the conditions of a type on axes."""
     place = {joint: number for number, joint in enumerate(graph.joints)}
     meetings = tuple(
-        AxisGroup(tuple(sorted(place[joint] for joint in one.joints)), one.centre)
-        for one in graph.centre_classes()
+        AxisGroup(tuple(sorted(place[joint] for joint in centre_class.joints)), centre_class.centre)
+        for centre_class in graph.centre_classes()
     )
     spatial = tuple(
         tuple(place[joint] for joint, _ in signed_cycle(loop.joints, graph.joints))
@@ -323,19 +307,10 @@ def _from_least(loop: tuple[int, ...]) -> tuple[int, ...]:
 
 @dataclass(frozen=True)
 class AxisFamily:
-    """Members of a type whose axes obey further conditions.
+    """Realisations of a type whose axes obey further conditions.
 
-    Attributes
-    ----------
-    name : str
-    meetings : tuple of AxisGroup
-        Axes that are parallel, or meet, besides those of the type.
-    motion : AxisSymmetry or None
-        A symmetry.
-    equal : tuple of tuple of int
-        Loops of equal links.
-    poses : bool
-        Whether loops have to close at several poses.
+    `meetings` are axes that are parallel, or meet, besides those of the type; `motion` is a symmetry, `equal` are
+    loops of equal links; `poses` says whether loops have to close at several configurations.
     """
 
     name: str
@@ -357,10 +332,10 @@ class AxisFamily:
             conditions.append(equal_links(loop))
             start[list(loop), :3] = _round_a_circle(len(loop)) + _NOISE * start[list(loop), :3]
         start[:, 3:] = unit(start[:, 3:])
-        found = axes_meeting(conditions, start, work)
-        if found is not None and self.poses:
-            found = axes_along_a_motion(of.graph, conditions, found, work)
-        return None if found is None else found[:joints]
+        rows = axes_meeting(conditions, start, work)
+        if rows is not None and self.poses:
+            rows = axes_along_a_motion(of.graph, conditions, rows, work)
+        return None if rows is None else rows[:joints]
 
 
 def _round_a_circle(count: int) -> Floats:
@@ -369,7 +344,7 @@ def _round_a_circle(count: int) -> Floats:
 
 
 def _carried(start: Floats, motion: AxisSymmetry) -> Floats:
-    """Return rows of which each is where the motion takes the row before it in its cycle."""
+    """Return rows of which each is the image of the row before it in its cycle."""
     rows, done = start.copy(), set()
     for first in range(len(motion.image)):
         place = first
@@ -383,7 +358,7 @@ def _carried(start: Floats, motion: AxisSymmetry) -> Floats:
 
 
 def axis_families(of: TypeOfAxes) -> Iterator[AxisFamily]:
-    """Yield the families that are tried, in their order: groups of axes, equal links, symmetries, poses."""
+    """Yield the families to try, in order: groups of axes, equal links, symmetries, configurations that close."""
     for number, loop in enumerate(of.spatial):
         where = f" in loop {number}" if len(of.spatial) > 1 else ""
         if len(loop) == 6:
@@ -436,10 +411,8 @@ def _one_centre(of: TypeOfAxes, points: Floats, directions: Floats) -> str | Non
             return "axes that meet in a point are parallel"
         else:
             finite.append(lines_meet(points[on], directions[on]).point)
-    for number, one in enumerate(finite):
-        if any(np.linalg.norm(one - other) < _APART for other in finite[:number]):
-            return "two centres are one"
-    for number, one in enumerate(infinite):
-        if any(np.linalg.norm(np.cross(one, other)) < _APART for other in infinite[:number]):
-            return "two centres at infinity are one"
+    if any(np.linalg.norm(centre - other) < _APART for centre, other in combinations(finite, 2)):
+        return "two centres are one"
+    if any(np.linalg.norm(np.cross(centre, other)) < _APART for centre, other in combinations(infinite, 2)):
+        return "two centres at infinity are one"
     return None

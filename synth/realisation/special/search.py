@@ -1,9 +1,13 @@
-"""Placeholder."""
+"""Realisations that move although counts say no: families of special geometry, tried one after the other.
+
+Each member of a family is followed by a finite motion; `SpecialSearch` reports the families and the members that
+move. Theory: docs/theory/realisation.md.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import degrees
 from typing import Any
@@ -61,82 +65,78 @@ class Moving:
     @property
     def branch(self) -> Branch:
         """The branch that it moves on."""
-        found = self.configuration.branch(self.number)
-        assert found is not None
-        return found
+        branch = self.configuration.branch(self.number)
+        assert branch is not None
+        return branch
 
 
 _SHARE = 0.02
 """A joint that turns by less than this part of the largest turn hardly moves."""
+OTHER_TYPE = "axes of a loop meet although they do not in the type"
+"""Why a drawing is of another type when it is read back."""
 
 
 def judged(member: Sheet | HingedSolids, freedoms: int, *, all_joints: bool = True) -> Moving | str:
-    """Return how a member moves, or why it does not do.
+    """Return how a member moves, or why it does not qualify.
 
-    Branches count that were followed by a finite motion and have the freedoms there; of those the first on which
-    all joints turn is taken.
-
-    >>> from synth.patterns import generate
-    >>> judged(generate("bennett").mechanism, 1).reasons[0]
-    'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
+    Only branches count that were followed by a finite motion and have the freedoms there; of those the first on
+    which all joints turn is chosen.
     """
     try:
         at = configuration_of(member, mend=False)  # coordinates are exact
         search = search_for(len(at.joints), None)
-        if all_joints and first_branch(at.linkage, _turns_all, search) is None:
+        if all_joints and first_branch(at.linkage, turns_all, search) is None:
             return "no motion of all joints"  # without a proof that nothing moves, which would take long
-        found = at.branches
-        if found is None:
+        if at.branches is None:
             return "too large to look for all branches"
-        moving = [place for place, one in enumerate(found.branches) if one.certainty != "not known"]
+        branches = at.branches.branches
+        moving = [place for place, branch in enumerate(branches) if branch.certainty != "not known"]
         if not moving:
             return "nothing moves"
-        whole = [place for place in moving if not (all_joints and found.branches[place].still)]
+        whole = [place for place in moving if not (all_joints and branches[place].still)]
         if not whole:
             return "some joints do not move"
-        whole = [one for one in whole if not all_joints or _least_share(at, found.branches[one]) >= _SHARE]
+        whole = [place for place in whole if not all_joints or _least_share(at, branches[place]) >= _SHARE]
         if not whole:
             return "some joints hardly move"
-        fitting = [place for place in whole if found.branches[place].freedoms == freedoms]
+        fitting = [place for place in whole if branches[place].freedoms == freedoms]
         if not fitting:
-            least = min((found.branches[place].freedoms or 0 for place in whole), default=0)
+            least = min((branches[place].freedoms or 0 for place in whole), default=0)
             return f"moves with {numbered(least, 'freedom')}"
-        return _explained(at, fitting)
+        return _explained(at, fitting[0])
     except SynthedraError as error:
         return str(error)
 
 
-def _turns_all(rates: Floats) -> bool:
+def turns_all(rates: Floats) -> bool:
+    """Check that no joint rate is zero."""
     return bool(np.abs(rates).min(initial=1.0) > DOUBLE.zero_rate)
 
 
 def _least_share(at: Configuration, branch: Branch) -> float:
-    """Return the least turn of a joint where the branch was followed to, as a part of the largest."""
+    """Return the least turn of a joint, up to where the branch was followed, as a part of the largest."""
     turned = np.abs(branch.sample - at.linkage.angles)
     return float(turned.min(initial=np.inf) / turned.max(initial=0.0))
 
 
-def _explained(at: Configuration, fitting: Sequence[int]) -> Moving:
-    number = fitting[0]
-    found = at.branch(number)
-    assert found is not None
-    explanation = explain(moved(at.linkage, found.sample))
-    reasons = dict.fromkeys(reason for one in explanation.sets for reason in one.reasons)
+def _explained(at: Configuration, number: int) -> Moving:
+    branch = at.branch(number)
+    assert branch is not None
+    explanation = explain(moved(at.linkage, branch.sample))
+    reasons = dict.fromkeys(reason for equations in explanation.sets for reason in equations.reasons)
     return Moving(at, number, explanation.idle, tuple(reasons))
+
+
+def _degrees_of_freedom(number: int) -> str:
+    return numbered(number, "degree of freedom", "degrees of freedom")
 
 
 @dataclass(frozen=True)
 class SpecialMember:
-    """A member of special dimensions that moves.
+    """A member with special dimensions that moves.
 
-    Attributes
-    ----------
-    family : str
-        The conditions it was made by.
-    start : int
-        Number of the random start in its family, from 0.
-    moving : Moving
-        Its configuration and the branch it moves on.
+    `family` names the conditions it was made from, `start` is the number of the random start in its family, from
+    0.
     """
 
     family: str
@@ -145,38 +145,38 @@ class SpecialMember:
 
     @property
     def configuration(self) -> Configuration:
-        """The member where it lies."""
+        """The configuration of the member."""
         return self.moving.configuration
 
     @property
     def mechanism(self) -> Mechanism:
         """A flat sheet with the mountains and valleys of its branch, or hinged solids."""
-        given = self.configuration.given
-        assert isinstance(given, Sheet | HingedSolids)
-        if isinstance(given, HingedSolids):
-            return given
-        signs = self.moving.branch.signs  # creases come first among the edges of what was drawn
+        drawn = self.configuration.given
+        assert isinstance(drawn, Sheet | HingedSolids)
+        if isinstance(drawn, HingedSolids):
+            return drawn
+        signs = self.moving.branch.signs  # creases come first among the edges of the drawing
         letters = "".join({"+": "V", "-": "M"}.get(sign, "U") for sign in signs)
-        return replace(given, assignments=letters + given.assignments[len(letters) :])
+        return replace(drawn, assignments=letters + drawn.assignments[len(letters) :])
 
     @property
     def freedoms(self) -> int:
-        """Of finite motion."""
+        """Degrees of freedom of the finite motion."""
         return self.moving.branch.freedoms or 0
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """What `synth.explain` recognises on the branch."""
+        """The reasons that `synth.explain` recognises on the branch."""
         return self.moving.reasons
 
     @property
     def residual(self) -> float:
-        """By how much loops do not close ten degrees on."""
+        """Loop-closure residual after ten degrees."""
         return self.moving.branch.error
 
     @property
     def mark(self) -> SpecialGeometry:
-        """What is marked on the type."""
+        """The mark for the type."""
         return SpecialGeometry(self.freedoms, (self.family, *self.reasons))
 
     def to_json(self) -> dict[str, Any]:
@@ -200,29 +200,19 @@ class SpecialMember:
         branch = self.moving.branch
         return [
             f"found: {self.family} (start {self.start + 1})",
-            f"  {numbered(self.freedoms, 'freedom')}, {branch.certainty}: followed to "
-            f"{degrees(branch.followed):.0f} degrees, loops close to {self.residual:.0e}, h = {self.moving.h}",
-            f"  why: {', '.join(self.reasons) or 'no reason that is known here'}",
+            f"  {_degrees_of_freedom(self.freedoms)}, {branch.certainty}: traced to "
+            f"{degrees(branch.followed):.0f}°, loop-closure residual {self.residual:.0e}, h = {self.moving.h}",
+            f"  reasons: {', '.join(self.reasons) or 'none recognised'}",
         ]
 
 
 @dataclass(frozen=True)
 class FamilyTrial:
-    """What became of one family.
+    """The result of one family.
 
-    Attributes
-    ----------
-    name : str
-    starts : int
-        Random starts that were made.
-    work : float
-        Steps of least squares, counted as of 60 unknowns, and of improved drawings.
-    member : SpecialMember or None
-        The first that moves as asked.
-    reasons : tuple of (str, int)
-        Why other starts do not do, and how many.
-    used_up : bool
-        Whether the allowance of work ended the search.
+    `starts` are the random starts; `work` counts steps of least squares with 60 unknowns, and of improved
+    drawings. `member` is the first that moves as required, `reasons` are those against other starts, with their
+    numbers; `used_up` says that the allowance of work ended the search.
     """
 
     name: str
@@ -247,19 +237,19 @@ class FamilyTrial:
         """Return the line that is printed where nothing was found."""
         why = "; ".join(f"{number} x {shown(reason)}" for reason, number in self.reasons)
         ended = "; the allowance of work was used up" if self.used_up else ""
-        return f"none: {self.name}, {numbered(self.starts, 'start')}: {why or 'nothing was made'}{ended}"
+        return f"none: {self.name}, {numbered(self.starts, 'start')}: {why or 'no member was made'}{ended}"
 
 
 @dataclass(frozen=True)
 class SpecialSearch(Printed):
-    """Members of a type that move although counts say no, and every family that was tried.
+    """The members of a type that move although counts say no, and every family that was tried.
 
     Attributes
     ----------
     graph : SCGraph
         The type.
     freedoms : int
-        What was asked for.
+        The degrees of freedom that members need.
     mobility : int
         M of the type by count, joints less closure equations.
     seed : int
@@ -277,17 +267,17 @@ class SpecialSearch(Printed):
 
     @property
     def members(self) -> tuple[SpecialMember, ...]:
-        """What was found, one of a family."""
+        """The members that were found, one per family."""
         return tuple(trial.member for trial in self.trials if trial.member is not None)
 
     @property
     def work(self) -> float:
-        """All work that was done."""
+        """The work of all families together."""
         return sum(trial.work for trial in self.trials)
 
     @property
     def type_with_mark(self) -> SCGraph:
-        """The type with a mark of the first member; as it was where none was found."""
+        """The type with a mark of the first member; unchanged if there is none."""
         return self.graph.marked(self.members[0].mark) if self.members else self.graph
 
     def to_json(self) -> dict[str, Any]:
@@ -306,14 +296,15 @@ class SpecialSearch(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        asked = numbered(self.freedoms, "freedom")
+        freedoms = _degrees_of_freedom(self.freedoms)
         if self.proof is not None:
-            return [f"No member moves with {asked} in all joints: {self.proof}."]
-        members, count = self.members, f"though M = {self.mobility} by count"
+            return [f"No realisation moves with {freedoms} in all joints: {self.proof}."]
+        members, count = self.members, f"although M = {self.mobility} by count"
+        kinds = f"{numbered(len(members), 'kind')} of special geometry {'moves' if len(members) == 1 else 'move'}"
         head = (
-            f"Special geometry of {numbered(len(members), 'kind')} moves with {asked}, {count}."
+            f"{kinds} with {freedoms}, {count}."
             if members
-            else f"No member found that moves with {asked}, {count}. This proves nothing."
+            else f"No realisation was found that moves with {freedoms}, {count}. This proves nothing."
         )
         lines: list[Block] = [head]
         for trial in self.trials:
@@ -332,7 +323,7 @@ _WORK, _DRAWING = 200.0, 1000.0
 
 @dataclass(frozen=True, slots=True)
 class SpecialWishes:
-    """What is looked for, and how long.
+    """Which members to search for, and how long.
 
     Attributes
     ----------
@@ -342,7 +333,7 @@ class SpecialWishes:
         Whether flat sheets are tried, before axes in space.
     seed : int
     tries : int
-        Random starts of each family, at most.
+        Largest number of random starts of each family.
     geometry : str
         Only families with this in their name.
     every : bool
@@ -361,31 +352,30 @@ class SpecialWishes:
 
 
 def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch:
-    """Look for members of a type that move with more freedoms than a general member has.
+    """Search for members of a type that move with more freedoms than a generic realisation has.
 
     Parameters
     ----------
-    mechanism : SCGraph, SCDGraph, or what has one
-        A type. Flat sheets are tried of an SCD graph only.
+    mechanism : SCGraph, SCDGraph, or a mechanism that has one
+        A type. Flat sheets are tried for an SCD graph only.
     wishes : SpecialWishes
 
     Returns
     -------
     SpecialSearch
-        With every family that was tried; that none moves proves nothing, but where `proof` says so.
+        With every family that was tried; that none moves proves nothing, unless `proof` says so.
 
     Raises
     ------
     InvariantError
-        If a general member has so many freedoms, or an option is out of its range.
+        If a generic realisation has so many freedoms, or an option is out of its range.
     UnsolvableError
-        If no family has the name that is asked for, or the type has no loop.
+        If no family has the name in `wishes`, or the type has no loop.
 
     Examples
     --------
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> found = search_special(ring, SpecialWishes(1))
-    >>> found.members[0].reasons[0]
+    >>> search_special(ring, SpecialWishes(1)).members[0].reasons[0]
     'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
     """
     check_given("realise", mechanism, Mechanism)
@@ -393,9 +383,9 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     _check(graph, wishes)
     general = exact_mobility(graph).mobility
     if general >= wishes.freedoms:
-        told = f"a general member of the type has {general} already"
-        raise InvariantError("freedoms", told, f"more than {general}, or none asked for")
-    mobility = len(graph.joints) - sum(6 if one.centre is Centre.NONE else 3 for one in independent_cycles(graph))
+        what = f"a generic realisation of the type has {general} already"
+        raise InvariantError("freedoms", what, f"more than {general}, or no number of freedoms")
+    equations = sum(6 if loop.centre is Centre.NONE else 3 for loop in independent_cycles(graph))
     proof = _rigid_loop(graph) if wishes.all_joints else None
     trials: list[FamilyTrial] = []
     if proof is None:
@@ -405,11 +395,12 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
                 break
         if not trials:
             raise UnsolvableError(f"no family of special geometry has {shown(wishes.geometry)} in its name")
+    mobility = len(graph.joints) - equations
     return SpecialSearch(graph, wishes.freedoms, mobility, wishes.seed, tuple(trials), proof)
 
 
 def _type_of(mechanism: Mechanism) -> SCGraph:
-    """Return the SCD graph of what has panels, the SC graph of other things."""
+    """Return the SCD graph of a mechanism with panels, the SC graph of others."""
     return to_sc(mechanism) if isinstance(mechanism, HingedSolids) else to_scd(mechanism)
 
 
@@ -417,12 +408,12 @@ def _check(graph: SCGraph, wishes: SpecialWishes) -> None:
     if wishes.freedoms < 1:
         raise InvariantError("freedoms", f"{wishes.freedoms} freedoms", "1 or more")
     if wishes.seed < 0 or wishes.tries < 1:
-        told = f"seed {wishes.seed}, tries {wishes.tries}"
-        raise InvariantError("tries", told, "a seed of 0 or more, one try or more")
+        what = f"seed {wishes.seed}, tries {wishes.tries}"
+        raise InvariantError("tries", what, "a seed of 0 or more, 1 try or more")
     if not graph.independent_loops:
-        raise UnsolvableError("a type without loops moves in general: no geometry is special")
+        raise UnsolvableError("the type has no loops, so every realisation moves; expected a type with a loop")
     if graph.components > 1:
-        raise UnsolvableError("special geometry is looked for in types of one part")
+        raise UnsolvableError(f"the type has {graph.components} parts; expected a connected type")
 
 
 def _rigid_loop(graph: SCGraph) -> str | None:
@@ -451,15 +442,13 @@ def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
     for axis_family in axis_families(of):
         if wishes.geometry in axis_family.name:
             work = Allowance(_WORK)
-
             members = _members(of, axis_family, work, wishes)
             yield _trial(f"axes in space: {axis_family.name}", members, work, wishes)
 
 
 def _read_back(graph: SCGraph, sheet: Sheet) -> Sheet | str:
-    """Return a sheet that is of the type when its coordinates are read, or that it is not."""
-    same = map_id(to_scd(sheet)) == map_id(graph)
-    return sheet if same else "the axes of a loop meet that the type does not ask to"
+    """Return a sheet if it is of the type when its coordinates are read, or that it is not."""
+    return sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE
 
 
 def _members(
@@ -478,7 +467,7 @@ def _members(
 
 
 def _pattern(graph: SCGraph) -> Pattern | None:
-    """Return the pattern of an SCD graph that has a flat sheet; None of others."""
+    """Return the pattern of an SCD graph that has a flat sheet; None for others."""
     if not isinstance(graph, SCDGraph):
         return None
     try:
@@ -492,19 +481,21 @@ def _pattern(graph: SCGraph) -> Pattern | None:
 def _trial(
     name: str, members: Iterable[tuple[int, Sheet | HingedSolids | str]], work: Allowance, wishes: SpecialWishes
 ) -> FamilyTrial:
-    """Return what became of a family: its first member that moves as asked, or why there is none."""
+    """Return the result of a family: its first member that moves as required, or why there is none."""
     begun = work.left
     reasons: Counter[str] = Counter()
     starts = 0
     for number, member in members:
         starts = number + 1
-        found = (
-            member if isinstance(member, str) else judged(member, wishes.freedoms, all_joints=wishes.all_joints)
-        )
-        if isinstance(found, Moving):
-            made = SpecialMember(name, number, found)
-            return FamilyTrial(name, starts, begun - work.left, made, tuple(reasons.items()))
-        reasons[found] += 1
+        verdict: Moving | str
+        if isinstance(member, str):
+            verdict = member
+        else:
+            verdict = judged(member, wishes.freedoms, all_joints=wishes.all_joints)
+        if isinstance(verdict, Moving):
+            moving = SpecialMember(name, number, verdict)
+            return FamilyTrial(name, starts, begun - work.left, moving, tuple(reasons.items()))
+        reasons[verdict] += 1
     missing = wishes.tries - sum(reasons.values())
     if missing > 0 and not work.used_up:
         reasons["no drawing was found"] += missing
