@@ -499,7 +499,7 @@ def open_atlas(path: str | Path) -> Atlas:
         try:
             row = selected(connection, "SELECT schema, synthedra FROM atlas", (), limit=1, seconds=_SECONDS).rows
         except SynthedraError:
-            what = "is no atlas, or an unfinished one; try synth atlas build -o FILE --resume"
+            what = "is no atlas, or one that is not finished; try synth atlas build -o FILE --resume"
             raise StoreError(f"{place}: {what}") from None
     if not row or row[0][0] != SCHEMA:
         version = f"version {shown(row[0][0])}, of synthedra {plain(row[0][1])}" if row else "no version"

@@ -241,7 +241,8 @@ def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites
     for i, start in enumerate(candidate.common(slots, opposites)):
         mine = slice(i * per_row, (i + 1) * per_row)
         turns = np.array([of_loops.turns for of_loops in circuits[mine]])
-        row: list[Any] = [*start, int(symmetry[i]), *circuits[i * per_row][:-1], _ranges(turns)]
+        ranges = tuple(zip(turns.min(axis=0).tolist(), turns.max(axis=0).tolist(), strict=True))
+        row: list[Any] = [*start, int(symmetry[i]), *circuits[i * per_row][:-1], ranges]
         row += [int(deep[i].min())] if opposites else [int(deep[i].min()), int(deep[i].max())]
         row += full[i : i + 1]
         if allowed is not None:
@@ -250,17 +251,13 @@ def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites
     return rows
 
 
-def _ranges(turns: Ints) -> tuple[tuple[int, int], ...]:
-    """Return least and greatest number of turns of each loop."""
-    return tuple(zip(turns.min(axis=0).tolist(), turns.max(axis=0).tolist(), strict=True))
-
-
 def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: bool) -> list[Any]:
     links = [_together(over.links[mine, n]) for n in range(over.links.shape[1])]
     linkage = _together(over.linkage[mine])
     words = [_WORD_OF_A_LINK[allowed] for allowed in links]
     if opposites:
-        signs = [_sign_of(over.signs[mine][0, list(joints)]) for joints in candidate.chain.joints_of]
+        certain = [over.signs[mine][0, list(joints)] for joints in candidate.chain.joints_of]
+        signs = [int(row[np.abs(row).argmax()]) for row in certain]
         sense = next(
             (s for s, allowed in zip(signs[1:], links[1:], strict=True) if s and allowed == Allowed.ONE), 1
         )
@@ -277,11 +274,6 @@ def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: b
     ]
 
 
-def _sign_of(signs: npt.NDArray[np.int8]) -> int:
-    """Return the certain sign of a link that has one sense of rotation."""
-    return int(signs[np.abs(signs).argmax()])
-
-
 def _together(allowed: npt.NDArray[np.int8]) -> Allowed:
     """Return the common verdict of several orders with opposites."""
     seen = set(allowed.tolist())
@@ -292,12 +284,7 @@ def _together(allowed: npt.NDArray[np.int8]) -> Allowed:
 
 
 def placed_rows(
-    candidate: CandidateChain,
-    places: Floats,
-    slots: Ints,
-    symmetry: Ints,
-    on_slots: bool,
-    surface: Surface | None,
+    candidate: CandidateChain, places: Floats, slots: Ints, symmetry: Ints, on_slots: bool, surface: Surface | None
 ) -> list[Row]:
     """Return rows of joints at azimuths, float[r, J], between 0 and 2 pi, on a surface or on any.
 

@@ -33,13 +33,7 @@ from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.measures import ShapeFigures, figures_of, first_order_freedoms
 from synth.realisation.pattern import Pattern, check_holes, pattern_of, sheet_of_places, simplest_drawn
 from synth.realisation.space import lifted, receded, with_finite_centres
-from synth.realisation.special.search import (
-    OTHER_TYPE,
-    SpecialSearch,
-    SpecialWishes,
-    search_special,
-    turns_all,
-)
+from synth.realisation.special.search import OTHER_TYPE, SpecialSearch, SpecialWishes, search_special, turns_all
 from synth.realisation.strips import drawn_string, folded_strip, is_strip, strips
 
 __all__ = ["Kind", "NotFoundError", "Realised", "realise"]

@@ -95,17 +95,12 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
         weights = np.asarray(random.standard_normal(folds.shape[1]), dtype=np.float64)
         for _ in range(_ROUNDS):
             turns = folds @ weights
-            least = _evenness(turns)
+            least = float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=DOUBLE.zero_rate))
             if least > most + MARGIN:
                 best, most = weights, least
             signs = np.where(turns < -MARGIN * np.abs(turns).max(initial=0.0), -1.0, 1.0)
             weights = np.asarray(inverse @ signs, dtype=np.float64)
     return best
-
-
-def _evenness(turns: Floats) -> float:
-    """Return the smallest turn divided by the largest."""
-    return float(np.abs(turns).min(initial=np.inf)) / float(np.abs(turns).max(initial=DOUBLE.zero_rate))
 
 
 def _above(pattern: Pattern, places: Floats, centred: Floats, planes: Floats) -> Floats:
@@ -211,18 +206,14 @@ def _heights(pattern: Pattern, centres: Sequence[Pointing], places: Floats, plan
     of_panel = {vertex: panel for panel, around in enumerate(pattern.panels) for vertex in around}
     vertices = np.column_stack([places, np.ones(len(places))])
     points = np.array([[*_meeting(pattern, pointing, places), 1.0] for pointing in centres])
-    at = [_panel_of_crease(pattern, pointing.creases[0]) for pointing in centres]
+    first_creases = [set(pattern.creases[pointing.creases[0]]) for pointing in centres]
+    at = [next(i for i, around in enumerate(pattern.panels) if ends <= set(around)) for ends in first_creases]
     return _Heights(
         vertices,
         points,
         np.array([vertices[vertex] @ over[of_panel[vertex]] for vertex in range(len(places))]),
         np.array([point @ over[panel] for point, panel in zip(points, at, strict=True)]),
     )
-
-
-def _panel_of_crease(pattern: Pattern, crease: int) -> int:
-    ends = set(pattern.creases[crease])
-    return next(panel for panel, around in enumerate(pattern.panels) if ends <= set(around))
 
 
 def _meeting(pattern: Pattern, pointing: Pointing, places: Floats) -> Floats:

@@ -103,7 +103,9 @@ def judged(member: Sheet | HingedSolids, freedoms: int, *, all_joints: bool = Tr
         if not fitting:
             least = min((branches[place].freedoms or 0 for place in whole), default=0)
             return f"moves with {numbered(least, 'freedom')}"
-        return _explained(at, fitting[0])
+        explanation = explain(moved(at.linkage, branches[fitting[0]].sample))
+        reasons = dict.fromkeys(reason for equations in explanation.sets for reason in equations.reasons)
+        return Moving(at, fitting[0], explanation.idle, tuple(reasons))
     except SynthedraError as error:
         return str(error)
 
@@ -117,14 +119,6 @@ def _least_share(at: Configuration, branch: Branch) -> float:
     """Return the least turn of a joint, up to where the branch was followed, as a part of the largest."""
     turned = np.abs(branch.sample - at.linkage.angles)
     return float(turned.min(initial=np.inf) / turned.max(initial=0.0))
-
-
-def _explained(at: Configuration, number: int) -> Moving:
-    branch = at.branch(number)
-    assert branch is not None
-    explanation = explain(moved(at.linkage, branch.sample))
-    reasons = dict.fromkeys(reason for equations in explanation.sets for reason in equations.reasons)
-    return Moving(at, number, explanation.idle, tuple(reasons))
 
 
 def _degrees_of_freedom(number: int) -> str:
@@ -379,7 +373,10 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
     """
     check_given("realise", mechanism, Mechanism)
-    graph = mechanism if isinstance(mechanism, SCGraph) else _type_of(mechanism)
+    if isinstance(mechanism, SCGraph):
+        graph = mechanism
+    else:
+        graph = to_sc(mechanism) if isinstance(mechanism, HingedSolids) else to_scd(mechanism)
     _check(graph, wishes)
     general = exact_mobility(graph).mobility
     if general >= wishes.freedoms:
@@ -397,11 +394,6 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
             raise UnsolvableError(f"no family of special geometry has {shown(wishes.geometry)} in its name")
     mobility = len(graph.joints) - equations
     return SpecialSearch(graph, wishes.freedoms, mobility, wishes.seed, tuple(trials), proof)
-
-
-def _type_of(mechanism: Mechanism) -> SCGraph:
-    """Return the SCD graph of a mechanism with panels, the SC graph of others."""
-    return to_sc(mechanism) if isinstance(mechanism, HingedSolids) else to_scd(mechanism)
 
 
 def _check(graph: SCGraph, wishes: SpecialWishes) -> None:
@@ -436,7 +428,10 @@ def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
             if wishes.geometry in family.name:
                 work = Allowance(_DRAWING)
                 sheets = family.members(pattern, wishes.seed, wishes.tries, work)
-                read = ((number, _read_back(graph, sheet)) for number, sheet in sheets)
+                read = (
+                    (number, sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE)
+                    for number, sheet in sheets
+                )
                 yield _trial(f"flat sheet: {family.name}", read, work, wishes)
     of = type_of_axes(graph if not isinstance(graph, SCDGraph) else graph.sc_graph())
     for axis_family in axis_families(of):
@@ -444,11 +439,6 @@ def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
             work = Allowance(_WORK)
             members = _members(of, axis_family, work, wishes)
             yield _trial(f"axes in space: {axis_family.name}", members, work, wishes)
-
-
-def _read_back(graph: SCGraph, sheet: Sheet) -> Sheet | str:
-    """Return a sheet if it is of the type when its coordinates are read, or that it is not."""
-    return sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE
 
 
 def _members(
