@@ -341,5 +341,5 @@ def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
         if placements:
             scd = min(placements, key=lambda placement: placement.counts.open_edges)
             number = numbered(scd.counts.open_edges, "open edge")
-            return scd, (f"chose an SCD graph with the fewest open edges: {number}",)
+            return scd, (f"an SCD graph of the fewest open edges was taken: {number}",)
     raise UnsolvableError(f"no placement of open edges with links of up to {widest + _MORE_SIDES} sides is valid")
