@@ -196,14 +196,14 @@ class TypeReport(Printed):
             if name != "fold_file"
         ]
         lines.append(TableBlock(("what", "value", "meaning"), rows))
-        neighbours, unlisted = self.told_neighbours()
+        neighbours, unlisted = self.first_neighbours()
         if neighbours:
             lines.append(TableBlock(("relation", "id", "name", "in this atlas"), neighbours))
         if self.more + unlisted:
             lines.append(f"and {numbered(self.more + unlisted, 'more related type')}")
         return lines
 
-    def told_neighbours(self) -> tuple[list[tuple[str, str, str, str]], int]:
+    def first_neighbours(self) -> tuple[list[tuple[str, str, str, str]], int]:
         """Return rows of the first neighbours of each relation, named ones first; and the number of the others."""
         ranked = sorted(self.neighbours, key=lambda neighbour: (neighbour.relation, neighbour.name is None))
         rows: list[tuple[str, str, str, str]] = []

@@ -193,7 +193,7 @@ def _links(file: str, fold: str | None, template: str | None) -> str:
 
 
 def _neighbours(report: TypeReport, places: Mapping[str, str]) -> str:
-    rows, unlisted = report.told_neighbours()
+    rows, unlisted = report.first_neighbours()
     if not rows:
         return ""
     lines = [
